@@ -20,24 +20,6 @@ namespace {
 
 enum class Verdict { no, yes, unsure };
 
-// The open vehicle of a rollout and what it meets.
-struct Open {
-    Int b;  // problem
-    Int k;  // type
-    Setting setting;
-    Vehicle& vehicle;
-    VehicleLog log;
-    View<Drone, 1> drones;
-};
-
-Open open_of(const Instance& instance, State& state, Int r) {
-    const Int b = state.problem[r];
-    Vehicle& vehicle = state.vehicle[r];
-    const Setting setting = setting_of(instance, b, vehicle.type);
-    return {b,       vehicle.type,         setting,
-            vehicle, log_of(state.log, r), state.drone[r].first(setting.type.drones)};
-}
-
 // Judge the return home: within the shift and, leaving at `departure`, the working duration.
 //
 // `rigid` tells that the vehicle could not leave later than `departure` without ending later.
@@ -51,8 +33,9 @@ Verdict judge_end(const Setting& setting, Int end, Int departure, bool rigid) {
 // Judge driving to a customer whose parcel the trip carries already. Writes `outlook`.
 //
 // `earliest` is the vehicle's earliest departure, none if it has none yet.
-Verdict judge_drive(const Open& open, std::optional<Int> earliest, Int node, Outlook& outlook) {
-    const auto& [b, k, setting, vehicle, log, drones] = open;
+Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int node,
+                    Outlook& outlook) {
+    const auto& [setting, vehicle, log, drones] = open;
     const NodeRows place = setting.node[node];
     Int leave = vehicle.next_start;
     Int arrival = 0;
@@ -83,8 +66,8 @@ Verdict judge_drive(const Open& open, std::optional<Int> earliest, Int node, Out
 // Judge a launch during a trip that carries the parcel already. Writes `outlook`.
 //
 // `departure` is the vehicle's earliest.
-Verdict judge_launch(const Open& open, Int departure, Int node, Outlook& outlook) {
-    const auto& [b, k, setting, vehicle, log, drones] = open;
+Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& outlook) {
+    const auto& [setting, vehicle, log, drones] = open;
     const Int chosen = next_drone(setting, log, vehicle, drones, node);
     if (chosen < 0) return Verdict::no;
     Drone& drone = drones[chosen];
@@ -99,7 +82,7 @@ Verdict judge_launch(const Open& open, Int departure, Int node, Outlook& outlook
     const Int home = setting.type.ends_at;
     const Int free = vehicle.free;
     const Int delivered = given_by_flight(setting, node);
-    board(setting, vehicle, drone, 0, node, takeoff);
+    board(open, drone, 0, node, takeoff);
     vehicle.given += delivered;
     const Leaving leaving = leave_for(setting, vehicle, drones, home);
     const bool is_held = leaving.arrival >= 0 && holds_all(setting, vehicle, drones, home, false);
@@ -119,8 +102,8 @@ struct Room {
     bool sortie;
 };
 
-Room room_of(const Open& open) {
-    const auto& [b, k, setting, vehicle, log, drones] = open;
+Room room_of(const OpenVehicle& open) {
+    const auto& [setting, vehicle, log, drones] = open;
     Int served = 0;
     if (vehicle.idle == 0) {
         served = log.count.stops - log.trip[log.count.trips - 1].first_stop - 1;
@@ -130,11 +113,13 @@ Room room_of(const Open& open) {
             vehicle.flying < setting.type.drones && allows_sorties(setting.type, flown + 1)};
 }
 
-// Write the legal drives and launches of one rollout with an open vehicle; return how many.
-Int legal_services(const Instance& instance, State& state, Int r, Int scratch, View<Int, 1> actions,
-                   View<Outlook, 1> outlooks) {
-    const Open open = open_of(instance, state, r);
-    const auto& [b, k, setting, vehicle, log, drones] = open;
+// Write the legal drives and launches of a rollout with an open vehicle; return how many.
+Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1> outlooks) {
+    const auto& [instance, state, r, scratch] = rollout;
+    const Int b = state.problem[r];
+    const OpenVehicle open = open_vehicle_of(instance, b, state, r);
+    const auto& [setting, vehicle, log, drones] = open;
+    const Int k = vehicle.type;
     const bool is_idle = vehicle.idle != 0;
     const Int trips = log.count.trips;
     if (is_idle && trips > 0 &&
@@ -152,34 +137,36 @@ Int legal_services(const Instance& instance, State& state, Int r, Int scratch, V
     const bool trying = some_limited(setting.fresh_for) || order_is_open(setting, vehicle);
     const Size& size = instance.size[b];
     Int found = 0;
+    const auto add_if_legal = [&](Verdict verdict, Service service) {
+        const bool is_legal = verdict == Verdict::yes ||
+                              (verdict == Verdict::unsure &&
+                               legal_by_trial(rollout, no_reload, service, outlooks[found]));
+        const ActionKind kind = service.by_drone ? ActionKind::launch : ActionKind::drive;
+        if (is_legal) actions[found++] = encode_action(kind, service.node);
+    };
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
         const bool is_held = trying || (!is_idle && began < release_of(setting.node[node]));
-        const auto is_legal = [&](Verdict verdict, bool by_drone) {
-            return verdict == Verdict::yes ||
-                   (verdict == Verdict::unsure &&
-                    legal_by_trial(instance, state, r, scratch, no_reload, by_drone, node,
-                                   outlooks[found]));
-        };
         if (room.stop && instance.can_drive(b, k, node) &&
             legs(here, node) + legs(node, home) <= reach) {
             const Verdict verdict =
                 is_held ? Verdict::unsure : judge_drive(open, earliest, node, outlooks[found]);
-            if (is_legal(verdict, false)) actions[found++] = encode_action(ActionKind::drive, node);
+            add_if_legal(verdict, {node, false});
         }
         if (room.sortie && instance.can_fly(b, k, node) && may_launch(setting, vehicle, node)) {
             const Verdict verdict = is_held || is_idle
                                         ? Verdict::unsure
                                         : judge_launch(open, *earliest, node, outlooks[found]);
-            if (is_legal(verdict, true)) actions[found++] = encode_action(ActionKind::launch, node);
+            add_if_legal(verdict, {node, true});
         }
     }
     return found;
 }
 
 // Write, behind those found, where the vehicle's trip may end; return how many there are.
-Int legal_returns(const Instance& instance, State& state, Int r, Int scratch, View<Int, 1> actions,
-                  View<Outlook, 1> outlooks, Int found) {
+Int legal_returns(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1> outlooks,
+                  Int found) {
+    const auto& [instance, state, r, scratch] = rollout;
     const Int b = state.problem[r];
     const Int k = state.vehicle[r].type;
     const VehicleType& type = instance.type(b, k);
@@ -187,7 +174,7 @@ Int legal_returns(const Instance& instance, State& state, Int r, Int scratch, Vi
     if (type.changes_ends == 0 || state.log.count[r].trips >= type.max_trips) return found;
     for (Int place = 0; place < instance.size[b].depots; ++place) {
         if (place != type.ends_at && instance.reload(b, k, place) &&
-            may_reload(instance, state, r, scratch, place, outlooks[found])) {
+            may_reload(rollout, place, outlooks[found])) {
             actions[found++] = encode_action(ActionKind::end_trip, place);
         }
     }
@@ -210,13 +197,14 @@ bool open_legal(const Instance& instance, const State& state, Int r, Int k) {
 Int legal_actions(const Instance& instance, State& state, Int r, Int scratch, View<Int, 1> actions,
                   View<Outlook, 1> outlooks) {
     if (state.done[r]) return 0;
+    const Rollout rollout{instance, state, r, scratch};
     const Int b = state.problem[r];
     const Vehicle& vehicle = state.vehicle[r];
     Int found = 0;
     if (vehicle.type != no_vehicle) {
-        found = legal_services(instance, state, r, scratch, actions, outlooks);
+        found = legal_services(rollout, actions, outlooks);
         if (vehicle.idle == 0) {
-            return legal_returns(instance, state, r, scratch, actions, outlooks, found);
+            return legal_returns(rollout, actions, outlooks, found);
         }
         if (state.log.count[r].trips == 0 ||
             vehicle.node != instance.type(b, vehicle.type).ends_at) {
@@ -239,16 +227,17 @@ void apply(const Instance& instance, State& state, Int r, Int action) {
         open_vehicle(instance, state, r, target);
         return;
     }
-    Open open = open_of(instance, state, r);
-    auto& [b, k, setting, vehicle, log, drones] = open;
-    const Int num_depots = instance.size[b].depots;
+    const Int b = state.problem[r];
+    OpenVehicle open = open_vehicle_of(instance, b, state, r);
     if (kind == ActionKind::launch) {
-        launch(setting, num_depots, log, vehicle, drones, target);
+        launch(open, target);
     } else {
-        vehicle.distance += instance.distance(b, setting.type.travel, vehicle.node, target);
-        drive(setting, num_depots, log, vehicle, drones, target);
+        Vehicle& vehicle = open.vehicle;
+        const Int travel = open.setting.type.travel;
+        vehicle.distance += instance.distance(b, travel, vehicle.node, target);
+        drive(open, target);
     }
-    improve_departure(setting, num_depots, log, vehicle);
+    improve_departure(open);
     if (kind != ActionKind::end_trip) {
         state.served(r, target) = true;
         --state.num_unserved[r];
@@ -302,7 +291,7 @@ void mark_fresh(const Instance& instance, State& state, Int scratch) {
         outlooks.resize(static_cast<std::size_t>(most));
         for (Int k = 0; k < instance.size[b].types; ++k) {
             open_vehicle(instance, state, row, k);
-            const Int found = legal_services(instance, state, row, scratch,
+            const Int found = legal_services({instance, state, row, scratch},
                                              {actions.data(), {most}}, {outlooks.data(), {most}});
             for (Int index = 0; index < found; ++index) {
                 state.fresh(b, k, target_of(actions[static_cast<std::size_t>(index)])) = true;

@@ -44,6 +44,7 @@ inline VehicleLog log_of(const VehicleLogs& logs, Int r) {
 // What one vehicle type meets in one problem. What is said of drones holds where they are of one
 // type, else `craft_of` tells.
 struct Setting {
+    Int num_depots;
     View<const Node, 2> node;         // (node, row)
     View<const Node, 2> node_by_air;  // (node, row), as drones meet them
     View<const Int, 3> amount;     // (node, tier, amounts); no tiers where `Node::demand` tells all

@@ -87,7 +87,8 @@ void log_sorties(const Setting& setting, VehicleLog& log, const Vehicle& vehicle
 }
 
 // Begin a trip of the idle vehicle as soon as the parcel is released.
-void begin_trip(const Setting& setting, VehicleLog& log, Vehicle& vehicle, Int release) {
+void begin_trip(OpenVehicle& open, Int release) {
+    auto& [setting, vehicle, log, drones] = open;
     const Int start = std::max(vehicle.next_start, release);
     const Int leave = leaves_first(setting.type, start);
     log.trip[log.count.trips++] = {log.count.stops, log.count.ops, release, start};
@@ -102,10 +103,11 @@ void begin_trip(const Setting& setting, VehicleLog& log, Vehicle& vehicle, Int r
 }
 
 // Write until when the vehicle is busy at its last stop, by the log.
-void note_times(const Setting& setting, Int num_depots, const VehicleLog& log, Vehicle& vehicle) {
+void note_times(OpenVehicle& open) {
+    const auto& [setting, vehicle, log, drones] = open;
     const Int here = log.count.stops - 1;
     const LoggedStop& stop = log.stop[here];
-    vehicle.service_end = stop.node < num_depots
+    vehicle.service_end = stop.node < setting.num_depots
                               ? leaves_first(setting.type, stop.start)
                               : stop.start + service_duration(setting.node[stop.node]);
     vehicle.free = vehicle.crew = stop.arrival;
@@ -121,14 +123,14 @@ void note_times(const Setting& setting, Int num_depots, const VehicleLog& log, V
 }
 
 // Let the trip begin no earlier than `release`; false if it can't be held so long.
-bool hold_trip(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
-               View<Drone, 1> drones, Int release) {
+bool hold_trip(OpenVehicle& open, Int release) {
+    auto& [setting, vehicle, log, drones] = open;
     LoggedTrip& trip = log.trip[log.count.trips - 1];
     trip.release = std::max(trip.release, release);
     if (trip.start >= release) return true;
-    if (!retime(setting, num_depots, log, log.count.trips - 1, release)) return false;
+    if (!retime(setting, log, log.count.trips - 1, release)) return false;
     note_charges(setting, log, drones);
-    note_times(setting, num_depots, log, vehicle);
+    note_times(open);
     for (Drone& drone : drones) {
         if (drone.sortie == in_flight) continue;
         drone.takeoff = log.sortie[drone.sortie].takeoff;
@@ -139,16 +141,16 @@ bool hold_trip(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle&
 }
 
 // Hold the trip until no parcel is too long aboard; false if that can't be.
-bool keep_fresh(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
-                View<Drone, 1> drones) {
+bool keep_fresh(OpenVehicle& open) {
+    auto& [setting, vehicle, log, drones] = open;
     if (!some_limited(setting.fresh_for)) return true;
     bool held = true;
-    Int excess = most_excess(setting, num_depots, log);
+    Int excess = most_excess(setting, log);
     while (excess > 0) {
         const Int start = log.trip[log.count.trips - 1].start + excess;
         // Drones that don't last then may do if the trip is held even longer.
-        held = hold_trip(setting, num_depots, log, vehicle, drones, start);
-        const Int left = most_excess(setting, num_depots, log);
+        held = hold_trip(open, start);
+        const Int left = most_excess(setting, log);
         if (left >= excess) return false;
         excess = left;
     }
@@ -166,15 +168,22 @@ void come_home(const Setting& setting, Vehicle& vehicle) {
 
 }  // namespace
 
-void improve_departure(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle) {
+OpenVehicle open_vehicle_of(const Instance& instance, Int b, const State& state, Int row) {
+    Vehicle& vehicle = state.vehicle[row];
+    const Setting setting = setting_of(instance, b, vehicle.type);
+    return {setting, vehicle, log_of(state.log, row), state.drone[row].first(setting.type.drones)};
+}
+
+void improve_departure(OpenVehicle& open) {
+    auto& [setting, vehicle, log, drones] = open;
     if (setting.type.max_working_duration < unlimited) {
-        vehicle.start_best = latest_start(setting, num_depots, log, 0, vehicle.start_best);
+        vehicle.start_best = latest_start(setting, log, 0, vehicle.start_best);
     }
     vehicle.departure_best = first_departure(setting, log, vehicle.start_best);
 }
 
-void board(const Setting& setting, Vehicle& vehicle, Drone& drone, Int sortie, Int node,
-           Int takeoff) {
+void board(const OpenVehicle& open, Drone& drone, Int sortie, Int node, Int takeoff) {
+    const auto& [setting, vehicle, log, drones] = open;
     const Craft craft = craft_of(setting, drone.row);
     drone.sortie = sortie;
     drone.node = node;
@@ -184,14 +193,14 @@ void board(const Setting& setting, Vehicle& vehicle, Drone& drone, Int sortie, I
     vehicle.free = takeoff;
 }
 
-bool launch(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
-            View<Drone, 1> drones, Int node) {
+bool launch(OpenVehicle& open, Int node) {
+    auto& [setting, vehicle, log, drones] = open;
     const NodeRows place = setting.node[node];
     const Int release = release_of(place);
     if (vehicle.idle != 0) {
-        begin_trip(setting, log, vehicle, release);
+        begin_trip(open, release);
         note_charges(setting, log, drones);
-    } else if (!hold_trip(setting, num_depots, log, vehicle, drones, release)) {
+    } else if (!hold_trip(open, release)) {
         return false;
     }
     const Int chosen = next_drone(setting, log, vehicle, drones, node);
@@ -204,7 +213,7 @@ bool launch(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& ve
     if (unreachable(flight) || too_late(place, soonest + flight)) return false;
     const Int here = log.count.stops - 1;
     const Int index = log.count.sorties++;
-    board(setting, vehicle, drone, index, node, takeoff);
+    board(open, drone, index, node, takeoff);
     LoggedSortie& sortie = log.sortie[index];
     sortie.drone = chosen;
     sortie.row = drone.row;
@@ -223,14 +232,13 @@ bool launch(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& ve
     return true;
 }
 
-bool drive(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& vehicle,
-           View<Drone, 1> drones, Int node) {
-    const bool is_customer = node >= num_depots;
+bool drive(OpenVehicle& open, Int node) {
+    auto& [setting, vehicle, log, drones] = open;
+    const bool is_customer = node >= setting.num_depots;
     const NodeRows place = setting.node[node];
     if (vehicle.idle != 0) {
-        begin_trip(setting, log, vehicle, release_of(place));
-    } else if (is_customer &&
-               !hold_trip(setting, num_depots, log, vehicle, drones, release_of(place))) {
+        begin_trip(open, release_of(place));
+    } else if (is_customer && !hold_trip(open, release_of(place))) {
         return false;
     }
     const auto [left, arrival, free] = leave_for(setting, vehicle, drones, node);
@@ -250,7 +258,7 @@ bool drive(const Setting& setting, Int num_depots, VehicleLog& log, Vehicle& veh
     vehicle.node = node;
     vehicle.service_end = service_end;
     vehicle.free = vehicle.crew = free;
-    if (!keep_fresh(setting, num_depots, log, vehicle, drones)) return false;
+    if (!keep_fresh(open)) return false;
     note_charges(setting, log, drones);
     if (!is_customer) come_home(setting, vehicle);
     return true;
@@ -282,18 +290,17 @@ void open_vehicle(const Instance& instance, State& state, Int r, Int k) {
 
 void close_vehicle(const Instance& instance, State& state, Int r) {
     const Int b = state.problem[r];
-    const Vehicle& vehicle = state.vehicle[r];
-    const Setting setting = setting_of(instance, b, vehicle.type);
-    const Int num_depots = instance.size[b].depots;
-    VehicleLog log = log_of(state.log, r);
+    OpenVehicle open = open_vehicle_of(instance, b, state, r);
+    auto& [setting, vehicle, log, drones] = open;
     for (Int trip = 0; trip < log.count.trips; ++trip) {
         Int known = log.trip[trip].start;
         if (trip == 0) known = std::max(known, vehicle.start_best);
-        Int start = latest_start(setting, num_depots, log, trip, known);
-        if (trip == 0) start = start_within_work(setting, num_depots, log, start);
-        if (start > log.trip[trip].start) retime(setting, num_depots, log, trip, start);
+        Int start = latest_start(setting, log, trip, known);
+        if (trip == 0) start = start_within_work(setting, log, start);
+        if (start > log.trip[trip].start) retime(setting, log, trip, start);
     }
-    if (log.count.trips > 0) add_cost(instance, setting, log, b, vehicle.type, state.cost[r]);
+    if (log.count.trips == 0) return;
+    add_cost(instance, setting, log, b, vehicle.type, state.cost[r]);
 }
 
 }  // namespace tandem

@@ -29,43 +29,35 @@ void copy_vehicle(State& state, Int r, Int to) {
 
 // Tell whether a vehicle come home could have left so late as to keep its working duration. Cheaper
 // than `improve_departure`.
-bool works_within(const Setting& setting, Int num_depots, VehicleLog& log, const Vehicle& vehicle) {
-    const Int start = start_within_work(setting, num_depots, log, vehicle.start_best);
+bool works_within(OpenVehicle& open) {
+    auto& [setting, vehicle, log, drones] = open;
+    const Int start = start_within_work(setting, log, vehicle.start_best);
     return vehicle.free - first_departure(setting, log, start) <= setting.type.max_working_duration;
 }
 
 }  // namespace
 
-bool legal_by_trial(const Instance& instance, State& state, Int r, Int scratch, Int reload,
-                    bool by_drone, Int node, Outlook& outlook) {
-    const Int b = state.problem[r];
-    const Setting setting = setting_of(instance, b, state.vehicle[r].type);
-    const Int num_depots = instance.size[b].depots;
+bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook) {
+    const auto& [instance, state, r, scratch] = rollout;
+    const auto [node, by_drone] = service;
     copy_vehicle(state, r, scratch);
-    Vehicle& vehicle = state.vehicle[scratch];
-    VehicleLog log = log_of(state.log, scratch);
-    const View<Drone, 1> drones = state.drone[scratch].first(setting.type.drones);
-    const auto drive_to = [&](Int to) {
-        return drive(setting, num_depots, log, vehicle, drones, to);
-    };
-    if (reload != no_reload && !drive_to(reload)) return false;
-    if (by_drone ? !launch(setting, num_depots, log, vehicle, drones, node) : !drive_to(node)) {
-        return false;
-    }
+    OpenVehicle open = open_vehicle_of(instance, state.problem[r], state, scratch);
+    const auto& [setting, vehicle, log, drones] = open;
+    if (reload != no_reload && !drive(open, reload)) return false;
+    if (!(by_drone ? launch(open, node) : drive(open, node))) return false;
     const Int here = log.count.stops - 1;
-    if (!drive_to(setting.type.ends_at)) return false;
+    if (!drive(open, setting.type.ends_at)) return false;
     if (by_drone) {
         const LoggedSortie& sortie = log.sortie[log.count.sorties - 1];
         outlook = {sortie.arrival, sortie.start, vehicle.free};
     } else {
         outlook = {log.stop[here].arrival, log.stop[here].start, vehicle.free};
     }
-    return vehicle.free <= setting.type.shift_latest &&
-           works_within(setting, num_depots, log, vehicle);
+    return vehicle.free <= setting.type.shift_latest && works_within(open);
 }
 
-bool may_reload(const Instance& instance, State& state, Int r, Int scratch, Int place,
-                Outlook& outlook) {
+bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
+    const auto& [instance, state, r, scratch] = rollout;
     const Int b = state.problem[r];
     const Vehicle& vehicle = state.vehicle[r];
     const Int k = vehicle.type;
@@ -80,11 +72,11 @@ bool may_reload(const Instance& instance, State& state, Int r, Int scratch, Int 
         if (state.served(r, node)) continue;
         if (some_apart(goods) && !go_together(goods[node], 0, vehicle.barred_on_vehicle)) continue;
         if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
-            legal_by_trial(instance, state, r, scratch, place, false, node, outlook)) {
+            legal_by_trial(rollout, place, {node, false}, outlook)) {
             return true;
         }
         if (instance.can_fly(b, k, node) && legs(place, home) <= reach &&
-            legal_by_trial(instance, state, r, scratch, place, true, node, outlook)) {
+            legal_by_trial(rollout, place, {node, true}, outlook)) {
             return true;
         }
     }

@@ -5,19 +5,31 @@
 
 namespace tandem {
 
+// A rollout, by its row of the state, and the row that actions are tried on.
+struct Rollout {
+    const Instance& instance;
+    State& state;
+    Int r;
+    Int scratch;
+};
+
+// An action on a customer.
+struct Service {
+    Int node;
+    bool by_drone;
+};
+
 constexpr Int no_reload = -1;
 
 // Tell whether an action on a customer is legal by doing it and the return home on a scratch row.
 //
 // Exact for every customer that the load, the kind and the number of trips allow. If `reload` is a
 // node, the trip ends there before.
-bool legal_by_trial(const Instance& instance, State& state, Int r, Int scratch, Int reload,
-                    bool by_drone, Int node, Outlook& outlook);
+bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook);
 
 // Tell whether the trip may end at a place that is not where the route may: if another follows.
 //
 // Somebody can be served from there before the vehicle goes where its route ends.
-bool may_reload(const Instance& instance, State& state, Int r, Int scratch, Int place,
-                Outlook& outlook);
+bool may_reload(const Rollout& rollout, Int place, Outlook& outlook);
 
 }  // namespace tandem

@@ -55,8 +55,7 @@ Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, In
 template <bool writes>
 class Replay {
 public:
-    Replay(const Setting& setting, Int num_depots, const VehicleLog& log)
-        : setting_(setting), num_depots_(num_depots), log_(log) {}
+    Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {}
 
     bool run(Int first_trip, Int start) {
         op_ = log_.trip[first_trip].first_op;
@@ -92,7 +91,7 @@ private:
         LoggedStop& stop = log_.stop[index];
         Int service_start = arrival;
         leave_ = index == first_ ? leaves_first(setting_.type, arrival) : arrival;
-        if (stop.node >= num_depots_) {
+        if (stop.node >= setting_.num_depots) {
             const NodeRows place = setting_.node[stop.node];
             service_start = start_of_service(place, arrival);
             if (!is_allowed(place, arrival, stop.arrival)) return false;
@@ -213,7 +212,6 @@ private:
     }
 
     const Setting& setting_;
-    const Int num_depots_;
     const VehicleLog& log_;
     Int op_ = 0;
     Int leave_ = 0;
@@ -229,16 +227,15 @@ private:
 
 }  // namespace
 
-bool retime(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip, Int start) {
-    return Replay<true>(setting, num_depots, log).run(first_trip, start);
+bool retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start) {
+    return Replay<true>(setting, log).run(first_trip, start);
 }
 
-bool costs_nothing(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip,
-                   Int start) {
-    return Replay<false>(setting, num_depots, log).run(first_trip, start);
+bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int start) {
+    return Replay<false>(setting, log).run(first_trip, start);
 }
 
-Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log) {
+Int most_excess(const Setting& setting, const VehicleLog& log) {
     const Int first = log.trip[log.count.trips - 1].first_stop;
     const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
     Int departure = log.stop[first].leave;
@@ -251,7 +248,7 @@ Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log) {
     };
     for (Int index = first; index < log.count.stops; ++index) {
         const LoggedStop& stop = log.stop[index];
-        if (stop.node >= num_depots) look_at(stop.node, stop.start);
+        if (stop.node >= setting.num_depots) look_at(stop.node, stop.start);
     }
     for (const LoggedSortie& sortie : sorties) {
         if (sortie.launch_stop >= first) look_at(sortie.node, sortie.start);
@@ -259,13 +256,13 @@ Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log) {
     return most;
 }
 
-Int latest_start(const Setting& setting, Int num_depots, VehicleLog& log, Int trip, Int known) {
+Int latest_start(const Setting& setting, VehicleLog& log, Int trip, Int known) {
     Int low = known + 1;
-    if (!costs_nothing(setting, num_depots, log, trip, low)) return known;
+    if (!costs_nothing(setting, log, trip, low)) return known;
     Int high = log.stop[log.count.stops - 1].leave + 1;
     while (high - low > 1) {
         const Int middle = (low + high) / 2;
-        (costs_nothing(setting, num_depots, log, trip, middle) ? low : high) = middle;
+        (costs_nothing(setting, log, trip, middle) ? low : high) = middle;
     }
     return low;
 }
@@ -283,12 +280,12 @@ Int start_to_depart(const Setting& setting, const VehicleLog& log, Int departure
     return launch_begin(setting.types[log.sortie[log.op[0].sortie].row], departure, 0);
 }
 
-Int start_within_work(const Setting& setting, Int num_depots, VehicleLog& log, Int known) {
+Int start_within_work(const Setting& setting, VehicleLog& log, Int known) {
     if (has_begun(setting.type)) return known;
     const Int needed = log.stop[log.count.stops - 1].leave - setting.type.max_working_duration;
     if (first_departure(setting, log, known) >= needed) return known;
     const Int later = start_to_depart(setting, log, needed);
-    return costs_nothing(setting, num_depots, log, 0, later) ? later : known;
+    return costs_nothing(setting, log, 0, later) ? later : known;
 }
 
 }  // namespace tandem

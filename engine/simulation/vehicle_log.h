@@ -19,6 +19,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
     const View<const Node, 3> nodes = instance.node[b];
     const View<const Int, 3> durations = instance.duration[b];
     return {
+        .num_depots = instance.size[b].depots,
         .node = places_of(nodes, type),
         .node_by_air = places_by_air(nodes, type),
         .amount = instance.amount[b],
@@ -56,18 +57,17 @@ inline Int travel_arrival(const Setting& setting, Int origin, Int to, Int leave)
 //
 // The log takes new times, void if a hard window doesn't hold; the result tells whether endurance
 // holds, too.
-bool retime(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip, Int start);
+bool retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
 
 // Tell whether a later start of `first_trip` costs nothing: no more lateness, no longer sortie, no
 // later end than logged, and no parcel too long aboard. Writes trial times of sorties alone.
-bool costs_nothing(const Setting& setting, Int num_depots, VehicleLog& log, Int first_trip,
-                   Int start);
+bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
 
 // By how much a parcel is too long aboard on the last trip; at most 0 if none is.
-Int most_excess(const Setting& setting, Int num_depots, const VehicleLog& log);
+Int most_excess(const Setting& setting, const VehicleLog& log);
 
 // The latest start of a trip that costs nothing; `known` is one that costs nothing.
-Int latest_start(const Setting& setting, Int num_depots, VehicleLog& log, Int trip, Int known);
+Int latest_start(const Setting& setting, VehicleLog& log, Int trip, Int known);
 
 // When truck or drone first leaves the depot if the first trip begins at `start`; if its work
 // counts from an instant, however late it leaves: that instant.
@@ -80,6 +80,6 @@ Int start_to_depart(const Setting& setting, const VehicleLog& log, Int departure
 //
 // Only the soonest that would keep it is tried: mostly all before one that costs nothing cost
 // nothing, but where batteries are charged, not all do.
-Int start_within_work(const Setting& setting, Int num_depots, VehicleLog& log, Int known);
+Int start_within_work(const Setting& setting, VehicleLog& log, Int known);
 
 }  // namespace tandem
