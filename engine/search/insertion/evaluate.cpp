@@ -89,12 +89,13 @@ bool time_part(const World& world, const Fleet& fleet, Int slot, Int first, Int 
     const View<Stop, 1> stops = fleet.stop[to];
     const View<Sortie, 1> sorties = fleet.sortie[to];
     const View<const Stop, 1> old = fleet.stop[slot];
-    const Int k = route.type, length = route.length, count = route.sorties;
-    const VehicleType& type = world.type[k];
+    const Truck truck(world, route.type);
+    const Int length = route.length, count = route.sorties;
+    const VehicleType& type = truck.type;
     const TravelLegs legs = legs_of(world.leg, type.travel);
     Int time = old[first].arrival, cum = old[first].before;
     Int depart = first > 0 ? old[first - 1].depart : far;
-    make_ready(world, k, stops, sorties, count);
+    make_ready(truck, stops, sorties, count);
     acc.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
                                    fleet.trip(slot, old[first].trip), first);
     Int p = 0, s = 0, driven = 0;
@@ -103,14 +104,14 @@ bool time_part(const World& world, const Fleet& fleet, Int slot, Int first, Int 
         Int last = p;
         if (stop.kind == start_stop) acc.launched = 0;
         if (s < count && sorties[s].launch == p) {
-            last = time_block(world, k, stops, length, sorties, count, p, s, time, acc);
+            last = time_block(truck, stops, length, sorties, count, p, s, time, acc);
             if (last < 0) return false;
             while (s < count && sorties[s].launch <= last) ++s;
             for (Int q = p; q < last; ++q) {
                 driven += leg(legs, stops[q].node, stops[q + 1].node).distance;
             }
         } else {
-            plain_block(world, k, stop, time);
+            truck.time_alone(stop, time);
         }
         if (time > stop.hi || time < stop.lo) return false;
         depart = std::min(depart, stop.dep - cum);

@@ -26,9 +26,9 @@ public:
         if (count_ <= few) {
             return std::min_element(numbers_.begin(), numbers_.begin() + count_) - numbers_.begin();
         }
-        const auto least = std::min_element(least_.begin(), least_.begin() + blocks());
-        const Int begin = (least - least_.begin()) * length_;
-        return std::find(numbers_.begin() + begin, numbers_.end(), *least) - numbers_.begin();
+        const double least = least_of(least_.data(), blocks());
+        const Int block = std::find(least_.begin(), least_.end(), least) - least_.begin();
+        return std::find(&numbers_[block * length_], numbers_.end(), least) - numbers_.begin();
     }
 
     // Take a number out; the last is put in its place.
@@ -47,9 +47,26 @@ private:
     Int blocks() const { return (count_ + length_ - 1) / length_; }
 
     void note(Int block) {
-        const double* begin = numbers_.begin() + block * length_;
-        const double* end = numbers_.begin() + std::min(count_, (block + 1) * length_);
-        least_[static_cast<std::size_t>(block)] = *std::min_element(begin, end);
+        const Int begin = block * length_;
+        least_[static_cast<std::size_t>(block)] =
+            least_of(&numbers_[begin], std::min(length_, count_ - begin));
+    }
+
+    // The least of some numbers, in lanes that processors compare at once.
+    static double least_of(const double* numbers, Int count) {
+        constexpr Int width = 4;
+        std::array<double, width> lanes;
+        lanes.fill(numbers[0]);
+        const Int whole = count - count % width;
+        for (Int index = 0; index < whole; index += width) {
+            for (Int lane = 0; lane < width; ++lane) {
+                double& least = lanes[static_cast<std::size_t>(lane)];
+                least = std::min(least, numbers[index + lane]);
+            }
+        }
+        double least = *std::min_element(lanes.begin(), lanes.end());
+        for (Int index = whole; index < count; ++index) least = std::min(least, numbers[index]);
+        return least;
     }
 
     View<double, 1> numbers_;

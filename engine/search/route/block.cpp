@@ -139,7 +139,7 @@ bool is_aboard(View<const Sortie, 1> sorties, Int index, Int oldest) {
 // Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 //
 // A drone that is there is recovered before another is launched.
-Int next_operation(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p, Int node,
+Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
                    const BlockSums& acc) {
     Int chosen = -1, earliest = far;
     const Int free = std::max(acc.time + acc.free_d, acc.free_c);
@@ -148,7 +148,7 @@ Int next_operation(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p
         Int begin = far;
         if (sortie.state == sortie_flies) {
             if (sortie.recovery == p) {
-                const SortieCraft craft = craft_of(skies, sortie);
+                const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
                 const Int last = sortie.nodes[sortie.count - 1];
                 const Int flight = leg(craft.homeward, last, node).duration;
                 const Int ready = std::max(acc.time + sortie.ready_d, sortie.ready_c);
@@ -156,7 +156,7 @@ Int next_operation(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p
             }
         } else if (sortie.state == sortie_waits && sortie.launch == p &&
                    is_aboard(sorties, index, acc.oldest)) {
-            const SortieCraft craft = craft_of(skies, sortie);
+            const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
             if (charges_aboard(craft.type)) {
                 note_charge(craft.type, sorties, index, acc.first_sortie);
             }
@@ -173,13 +173,13 @@ Int next_operation(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p
 }
 
 // Launch and recover all that stop `p` asks for. In place; false if not allowed.
-bool operate(const Skies& skies, View<Sortie, 1> sorties, Int count, Int p, Int node,
+bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
              BlockSums& acc) {
     while (true) {
-        const Int index = next_operation(skies, sorties, count, p, node, acc);
+        const Int index = next_operation(truck, sorties, count, p, node, acc);
         if (index < 0) break;
         Sortie& sortie = sorties[index];
-        const SortieCraft craft = craft_of(skies, sortie);
+        const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
         const bool allowed = sortie.state == sortie_flies ? bring_home(craft, sortie, node, acc)
                                                           : fly_out(craft, sortie, node, acc);
         if (!allowed) return false;
@@ -204,12 +204,10 @@ void note_idle(NodesRows places, View<Stop, 1> stops, Int first, Int last) {
 
 }  // namespace
 
-void make_ready(const World& world, Int k, View<const Stop, 1> stops, View<Sortie, 1> sorties,
-                Int count) {
-    const Skies skies = skies_of(world, k);
-    const bool single = are_single(world.place[0][0]);
+void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count) {
+    const bool single = are_single(truck.own[0]);
     for (Sortie& sortie : sorties.first(count)) {
-        const SortieCraft craft = craft_of(skies, sortie);
+        const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
         const Int node = sortie.home = stops[sortie.recovery].node;
         sortie.state = sortie_waits;
         sortie.held = none;
@@ -232,13 +230,11 @@ void make_ready(const World& world, Int k, View<const Stop, 1> stops, View<Sorti
     }
 }
 
-Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
+Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
                Int count, Int first, Int oldest, Int time, BlockSums& acc) {
-    const VehicleType& type = world.type[k];
-    const NodesRows places = places_of(world.place, type);
-    const TravelLegs legs = legs_of(world.leg, type.travel);
-    const Skies skies = skies_of(world, k);
-    auto [d, c] = origin(world, k, time);
+    const VehicleType& type = truck.type;
+    const TravelLegs legs = legs_of(truck.world.leg, type.travel);
+    auto [d, c] = truck.origin(time);
     acc.time = time;
     acc.hi = acc.dep = far;
     acc.lo = none;
@@ -250,14 +246,14 @@ Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<
         stop.arrival = std::max(time + d, c);
         stop.block = first;
         if (stop.kind == customer_stop) {
-            if (!reach(places[stop.node], stop.arrival, d, c, acc)) return -1;
+            if (!reach(truck.places[stop.node], stop.arrival, d, c, acc)) return -1;
         } else if (stop.kind == start_stop) {
             c = std::max(c, std::max(stop.release, stop.hold));
         }
         acc.free_d = d;
         acc.free_c = c;
-        const auto [served_d, served_c] = serve(world, k, stop, time, d, c);
-        if (!operate(skies, sorties, count, p, stop.node, acc)) return -1;
+        const auto [served_d, served_c] = truck.serve(stop, time, {d, c});
+        if (!operate(truck, sorties, count, p, stop.node, acc)) return -1;
         d = std::max(served_d, acc.free_d);
         c = std::max(served_c, acc.free_c);
         stop.leave = std::max(time + d, c);
@@ -272,7 +268,7 @@ Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<
         if (stop.kind == end_stop || p + 1 >= length) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
-        const Pair there = travel(world, k, stop.node, next, stop.gap, d, c);
+        const Pair there = truck.travel(stop.node, next, stop.gap, {d, c});
         d = there.d;
         c = there.c;
         ++p;
@@ -283,7 +279,7 @@ Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<
     begun.hi = acc.hi;
     begun.lo = acc.lo;
     begun.dep = acc.dep;
-    note_idle(places, stops, first, p);
+    note_idle(truck.places, stops, first, p);
     return p;
 }
 

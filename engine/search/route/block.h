@@ -13,62 +13,76 @@
 
 namespace tandem {
 
-// Return the pair of an arrival at `time`, at the beginning of a block.
-inline Pair origin(const World& world, Int k, Int time) {
-    return is_steady(world.type[k]) ? Pair{0, none} : Pair{none, time};
-}
+// A truck of a type, and what it meets on its way, looked up once for a route.
+struct Truck {
+    Truck(const World& world_of_it, Int row)
+        : world(world_of_it),
+          k(row),
+          type(world_of_it.type[row]),
+          places(places_of(world_of_it.place, type)),
+          own(world_of_it.place[0]),
+          steady(is_steady(type)) {}
 
-// Return the pair at the end of a leg of `duration` at full speed, from `node` to another.
-inline Pair travel(const World& world, Int k, Int node, Int to, Int duration, Int d, Int c) {
-    const VehicleType& type = world.type[k];
-    if (is_steady(type)) return {d + duration, c + duration};
-    const Int arrival = leg_end(type, world.profile_time[k], world.profile_factor[k], duration, c);
-    return {none, arrival + setup_beside(type, world.setup, node, to)};
-}
+    const World& world;
+    Int k;
+    const VehicleType& type;
+    NodesRows places;  // as this type meets them
+    NodesRows own;     // by the service durations that are customers' own
+    bool steady;
 
-// Return the pair at the end of what a truck does at a stop by itself, reached at (d, c).
-inline Pair serve(const World& world, Int k, const Stop& stop, Int time, Int d, Int c) {
-    if (stop.kind == customer_stop) {
-        const NodeRows place = places_of(world.place, world.type[k])[stop.node];
-        const auto [start_d, start_c] = start_within(place, time, d, c);
-        return {start_d + service_duration(place), start_c + service_duration(place)};
-    }
-    if (stop.kind == start_stop) {
-        const Int ready = std::max(c, std::max(stop.release, stop.hold));
-        return {d, leaves_first(world.type[k], ready)};
-    }
-    return {d, c};
-}
+    // Return the pair of an arrival at `time`, at the beginning of a block.
+    Pair origin(Int time) const { return steady ? Pair{0, none} : Pair{none, time}; }
 
-// Write the block of a stop without launches, reached at `time`. In place.
-inline void plain_block(const World& world, Int k, Stop& stop, Int time) {
-    const auto [d, c] = origin(world, k, time);
-    const auto [end_d, end_c] = serve(world, k, stop, time, d, c);
-    stop.d = end_d;
-    stop.c = end_c;
-    stop.lo = none;
-    stop.hi = far;
-    stop.dep = far;
-    if (stop.kind == customer_stop) {
-        const NodeRows place = world.place[0][stop.node];
-        stop.hi = latest_allowed(place);
-        stop.dep = in_same_window(place, time);
-    } else if (stop.kind == end_stop) {
-        stop.hi = world.type[k].shift_latest;
+    // Return the pair at the end of a leg of `duration` at full speed, from `node` to another.
+    Pair travel(Int node, Int to, Int duration, Pair leave) const {
+        if (steady) return {leave.d + duration, leave.c + duration};
+        const Int arrival =
+            leg_end(type, world.profile_time[k], world.profile_factor[k], duration, leave.c);
+        return {none, arrival + setup_beside(type, world.setup, node, to)};
     }
-}
+
+    // Return the pair at the end of what it does at a stop by itself, reached at a pair.
+    Pair serve(const Stop& stop, Int time, Pair reached) const {
+        if (stop.kind == customer_stop) {
+            const NodeRows place = places[stop.node];
+            const auto [d, c] = start_within(place, time, reached.d, reached.c);
+            return {d + service_duration(place), c + service_duration(place)};
+        }
+        if (stop.kind == start_stop) {
+            const Int ready = std::max(reached.c, std::max(stop.release, stop.hold));
+            return {reached.d, leaves_first(type, ready)};
+        }
+        return reached;
+    }
+
+    // Write the block of a stop without launches, reached at `time`. In place.
+    void time_alone(Stop& stop, Int time) const {
+        const auto [d, c] = serve(stop, time, origin(time));
+        stop.d = d;
+        stop.c = c;
+        stop.lo = none;
+        stop.hi = far;
+        stop.dep = far;
+        if (stop.kind == customer_stop) {
+            const NodeRows place = own[stop.node];
+            stop.hi = latest_allowed(place);
+            stop.dep = in_same_window(place, time);
+        } else if (stop.kind == end_stop) {
+            stop.hi = type.shift_latest;
+        }
+    }
+};
 
 // Have the sorties of a route wait for their launches. In place.
 //
 // And write how long each is held back: until windows let it be back within its limit. Where some
 // have several, that hangs on when it could begin, and is for `soonest_takeoff`.
-void make_ready(const World& world, Int k, View<const Stop, 1> stops, View<Sortie, 1> sorties,
-                Int count);
+void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count);
 
 // Write the block from stop `first`, which the truck reaches at `time`. In place.
 //
 // `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
-Int time_block(const World& world, Int k, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
+Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
                Int count, Int first, Int oldest, Int time, BlockSums& acc);
 
 }  // namespace tandem

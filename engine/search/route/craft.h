@@ -8,14 +8,6 @@
 
 namespace tandem {
 
-// What drones on a truck of type `k` meet.
-struct Skies {
-    const World& world;
-    Int k;
-};
-
-inline Skies skies_of(const World& world, Int k) { return {world, k}; }
-
 // The row and the nodes of a sortie's drones, its legs to customers and those home.
 struct SortieCraft {
     const VehicleType& type;
@@ -24,9 +16,9 @@ struct SortieCraft {
     TravelLegs homeward;
 };
 
-inline SortieCraft craft_of(const Skies& skies, const Sortie& sortie) {
-    const World& world = skies.world;
-    const VehicleType& type = world.type[row_of_drone(world.type, skies.k, sortie.drone)];
+// Return what the drone of a sortie meets that a truck of type `k` launches.
+inline SortieCraft craft_of(const World& world, Int k, const Sortie& sortie) {
+    const VehicleType& type = world.type[row_of_drone(world.type, k, sortie.drone)];
     return {type, places_by_air(world.place, type), legs_of(world.leg, type.drone_travel),
             legs_of(world.leg, type.home_travel)};
 }

@@ -58,10 +58,11 @@ bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip
 
 bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
                    BlockSums& acc) {
-    const Int k = route.type, length = route.length, count = route.sorties;
-    Int time = world.type[k].shift_earliest, cum = 0, depart = far;
+    const Truck truck(world, route.type);
+    const Int length = route.length, count = route.sorties;
+    Int time = truck.type.shift_earliest, cum = 0, depart = far;
     acc.awaited = 0;
-    make_ready(world, k, stops, sorties, count);
+    make_ready(truck, stops, sorties, count);
     Int p = 0, s = 0;
     while (p < length) {
         Stop& stop = stops[p];
@@ -71,11 +72,11 @@ bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<S
             acc.first_sortie = s;
         }
         if (s < count && sorties[s].launch == p) {
-            last = time_block(world, k, stops, length, sorties, count, p, s, time, acc);
+            last = time_block(truck, stops, length, sorties, count, p, s, time, acc);
             if (last < 0) return false;
             while (s < count && sorties[s].launch <= last) ++s;
         } else {
-            plain_block(world, k, stop, time);
+            truck.time_alone(stop, time);
             stop.flying = stop.idle = 0;
             stop.block = p;
         }
@@ -93,7 +94,7 @@ bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<S
         if (behind.kind == end_stop) {
             time = leave + behind.gap;
         } else {
-            time = travel(world, k, behind.node, stops[last + 1].node, behind.gap, none, leave).c;
+            time = truck.travel(behind.node, stops[last + 1].node, behind.gap, {none, leave}).c;
         }
         cum += behind.gap;
         p = last + 1;
