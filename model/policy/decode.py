@@ -2,9 +2,9 @@
 
 import json
 import time
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
-from functools import cache
 from itertools import chain
 from pathlib import Path
 from typing import Literal, NamedTuple
@@ -148,44 +148,19 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
     if config.num_samples < 1 or config.temperature <= 0:
         raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
                          f"{config.temperature!r} are not allowed")
-    flag = silent() if stop is None else stop
     rounds = _rounds(policy, view, config)
     blocks = sum(map(len, rounds))
     seeds = iter(np.random.SeedSequence(config.seed).spawn(blocks + len(rounds)))
     routes, found = RoutePool(view.scene.instance), NOTHING
-
-    @cache
-    def seen_from(symmetry: int) -> View:
-        return view if symmetry == 0 else replace(
-            view, memory=encode(policy, view.tokens, symmetry))
-
-    def is_due(block: _Block) -> bool:
-        is_late = deadline is not None and time.perf_counter() >= deadline
-        return not flag[0] and (block.is_first or not is_late)
-
-    def plan(block: _Block, seed: np.random.SeedSequence) -> list[Rollout]:
-        if not is_due(block):
-            return []
-        return _decode_block(policy, seen_from(block.symmetry), block.temperatures,
-                             np.random.default_rng(seed), found, flag)
-
+    planning = _Planning(policy, view, deadline, silent() if stop is None else stop)
     with ThreadPoolExecutor(min(max(map(len, rounds)), num_cores())) as pool:
         for now in rounds:
             own = [next(seeds) for _ in now]
-            if policy.step_weights is not None and all(block.is_view for block in now):
-                due = [block.symmetry for block in now if is_due(block)]
-                views = list(pool.map(seen_from, due))
-                planned = [] if not views else [roll_out_views(
-                    policy.step_weights, [each.memory for each in views], view.scene, flag,
-                    num_cores())]
-            else:
-                # All of them, before what they go on from changes.
-                planned = list(pool.map(plan, now, own))
-            for rollout in chain.from_iterable(planned):
+            for rollout in planning.plan(now, own, found, pool):
                 routes.add(rollout.actions)
                 found = min(found, rollout, key=cost_of)
             if blocks > 1:
-                found = routes.improved(found, np.random.default_rng(next(seeds)), flag)
+                found = routes.improved(found, np.random.default_rng(next(seeds)), planning.stop)
     return found
 
 
@@ -227,6 +202,48 @@ def _greedy(views: int, in_parts: bool) -> list[list[_Block]]:
     whole = [_Block(symmetry, [0.0], symmetry == 0, True) for symmetry in range(views - parts)]
     lines = [_Block(symmetry, [0.0] * parts) for symmetry in range(min(LANES, len(whole)))]
     return [whole, lines] if parts > 0 else [whole]
+
+
+class _Planning:
+    """Plans a problem in rounds, from several views."""
+
+    def __init__(self, policy: Policy, view: View, deadline: float | None,
+                 stop: IntArray) -> None:
+        self.stop = stop
+        self._policy = policy
+        self._deadline = deadline
+        self._views = {0: view}
+
+    def plan(self, blocks: Sequence[_Block], seeds: Sequence[np.random.SeedSequence],
+             so_far: Rollout, pool: ThreadPoolExecutor) -> list[Rollout]:
+        """Return what blocks plan, those that are due, before what they go on from changes."""
+        weights = self._policy.step_weights
+        if weights is None or not all(block.is_view for block in blocks):
+            planned = pool.map(lambda block, seed: self._plan_block(block, seed, so_far), blocks,
+                               seeds)
+            return list(chain.from_iterable(planned))
+        views = list(pool.map(self._seen_from, (
+            block.symmetry for block in blocks if self._is_due(block))))
+        return roll_out_views(weights, [view.memory for view in views], self._views[0].scene,
+                              self.stop, num_cores()) if views else []
+
+    def _plan_block(self, block: _Block, seed: np.random.SeedSequence,
+                    so_far: Rollout) -> list[Rollout]:
+        if not self._is_due(block):
+            return []
+        return _decode_block(self._policy, self._seen_from(block.symmetry), block.temperatures,
+                             np.random.default_rng(seed), so_far, self.stop)
+
+    def _is_due(self, block: _Block) -> bool:
+        is_late = self._deadline is not None and time.perf_counter() >= self._deadline
+        return not self.stop[0] and (block.is_first or not is_late)
+
+    def _seen_from(self, symmetry: int) -> View:
+        if symmetry not in self._views:
+            first = self._views[0]
+            self._views[symmetry] = replace(
+                first, memory=encode(self._policy, first.tokens, symmetry))
+        return self._views[symmetry]
 
 
 def _decode_block(policy: Policy, view: View, temperatures: list[float],
