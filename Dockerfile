@@ -3,13 +3,17 @@ FROM python:3.13-slim AS builder
 ENV PIP_DISABLE_PIP_VERSION_CHECK=1 \
     PIP_NO_CACHE_DIR=1
 
-RUN python3 -m venv /opt/tandem
+RUN apt-get update \
+    && apt-get install --yes --no-install-recommends g++ \
+    && rm -rf /var/lib/apt/lists/* \
+    && python3 -m venv /opt/tandem
 WORKDIR /src
 COPY pyproject.toml README.md LICENSE ./
+COPY engine ./engine
 COPY app ./app
 COPY model ./model
 RUN /opt/tandem/bin/pip install '.[trace,roads]' \
-    && /opt/tandem/bin/pip uninstall --yes setuptools pip
+    && /opt/tandem/bin/pip uninstall --yes pip
 
 
 FROM python:3.13-slim
