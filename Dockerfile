@@ -20,13 +20,11 @@ FROM python:3.13-slim
 
 RUN useradd --system --uid 10001 --user-group --no-create-home --home-dir /nonexistent \
         --shell /usr/sbin/nologin tandem \
-    && install --directory --owner=tandem --group=tandem /cache /data /opt/compiled
-COPY entrypoint.sh /usr/local/bin/tandem-entrypoint
+    && install --directory --owner=tandem --group=tandem /data
 COPY --from=builder /opt/tandem /opt/tandem
 
 ENV PATH=/opt/tandem/bin:$PATH \
-    MPLCONFIGDIR=/cache \
-    NUMBA_CACHE_DIR=/cache \
+    MPLCONFIGDIR=/tmp/matplotlib \
     ORT_DISABLE_TELEMETRY=1 \
     PYTHONDONTWRITEBYTECODE=1 \
     PYTHONUNBUFFERED=1 \
@@ -34,14 +32,11 @@ ENV PATH=/opt/tandem/bin:$PATH \
     TANDEM_DATA_DIR=/data
 
 USER tandem
-WORKDIR /cache
-# Compiled here, copied to the cache at start. On a processor unlike the builder's, the first start
-# compiles again into /cache. Without a database elsewhere, keys and jobs are kept in /data.
-RUN NUMBA_CACHE_DIR=/opt/compiled tandem warm
-VOLUME /cache /data
+WORKDIR /data
+# Without a database elsewhere, keys and jobs are kept here.
+VOLUME /data
 
 EXPOSE 8000
 HEALTHCHECK --interval=10s --timeout=3s --start-period=120s --retries=3 \
     CMD ["python3", "-c", "import urllib.request as r; r.urlopen('http://127.0.0.1:8000/health/ready', timeout=2)"]
-ENTRYPOINT ["tandem-entrypoint"]
 CMD ["tandem", "serve", "--host", "0.0.0.0", "--port", "8000"]

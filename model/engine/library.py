@@ -84,7 +84,7 @@ def _library() -> Any:
         raise ImportError(f"the engine isn't built: there is no {path}. In the project's folder, "
                           "run 'make engine', or install the project by pip")
     ffi = interface()
-    library = ffi.dlopen(str(path), ffi.RTLD_LAZY)
+    library = ffi.dlopen(str(path))
     digest = ffi.new("uint64_t *")
     library.tandem_header(digest)
     if digest[0] != int(hashlib.sha256(header().read_bytes()).hexdigest()[:16], 16):

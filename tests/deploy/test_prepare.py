@@ -9,10 +9,11 @@ import pytest
 
 CI = Path(__file__).parents[2] / ".ci"
 BROWSER = "chromium-headless-shell"
-PROGRAMS = {"make": "make", BROWSER: BROWSER, "node": "nodejs", "curl": "curl"}
+PROGRAMS = {"make": "make", BROWSER: BROWSER, "node": "nodejs", "curl": "curl",
+            "c++": "g++"}
 PYTHON = ("python3", "python3-venv")
 PACKAGES = ("make", *PYTHON, BROWSER, "nodejs", "curl", "postgresql",
-            "doctest-dev")
+            "g++", "doctest-dev")
 RUNS, FAILS = "exit 0", "exit 1"
 
 
