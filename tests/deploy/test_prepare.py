@@ -191,3 +191,22 @@ def test_python_of_other_versions_will_not_do(
             f"{sqlite}; exec(sys.argv[1])")
     machine.add("python3", f'exec {sys.executable} -c "{told}" "$2"')
     assert (machine.run("find-python").returncode == 0) == will_do
+
+
+def test_a_compiler_that_is_there_is_enough(machine: Machine) -> None:
+    machine.become_root()
+    machine.add("clang++")
+    assert machine.run("compiler").returncode == 0
+    assert not machine.installed.exists()
+
+
+def test_root_gets_a_compiler_installed(machine: Machine) -> None:
+    machine.become_root()
+    assert machine.run("compiler").returncode == 0
+    assert machine.installed.read_text().splitlines()[-1].split()[-1] == "g++"
+
+
+def test_who_may_install_nothing_goes_on_without_a_compiler(machine: Machine) -> None:
+    assert machine.run("compiler").returncode == 0
+    assert machine.run("compiler", CXX="c++-17").returncode == 0
+    assert "g++" in machine.run("prepare").stderr
