@@ -13,10 +13,6 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 # each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the
 # environment says: dozens of processes load them all.
 PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
-# What more customers need takes long to compile, and only slow tests need it.
-QUICK_CUSTOMERS := 3000
-=======
-PYTEST := OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
 URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
