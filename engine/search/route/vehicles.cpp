@@ -55,10 +55,10 @@ Int launch_changed(const VehicleType& type, const Route& route, View<const Sorti
     return nowhere;
 }
 
-bool may_fit(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
+bool may_fit_in_tiers(const World& world, const Fleet& fleet, Int slot, Int index, Int k,
+                      Int node) {
     const VehicleType& type = world.type[k];
     const Trip& trip = fleet.trip(slot, index);
-    if (!fits(type, load_of(trip), world.place[0][node])) return false;
     for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
         const View<const Halt, 1> halts = fleet.halt[slot][tier];
         const Amount taken =

@@ -74,10 +74,16 @@ inline void add_load(Trip& trip, const Amount& amount) {
     }
 }
 
+// Tell, as `may_fit` does, by what is aboard at the stops of a trip, where that is looked at.
+bool may_fit_in_tiers(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node);
+
 // Tell whether a vehicle of type `k` may hold what a trip does and a customer's amounts.
 //
 // Where more than its load tells, that hangs on where the customer is served: see `has_room`.
-bool may_fit(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node);
+inline bool may_fit(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
+    return fits(world.type[k], load_of(fleet.trip(slot, index)), world.place[0][node]) &&
+           (tiers_aboard(fleet) == 0 || may_fit_in_tiers(world, fleet, slot, index, k, node));
+}
 
 // Tell whether a vehicle of type `k` may fit a customer in as well, and stop once more.
 inline bool takes(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
