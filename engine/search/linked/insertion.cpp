@@ -190,17 +190,21 @@ private:
         const std::int32_t* const others = &world_.fit(newcomer_.node, 0);
         const std::int32_t* const near = &linked_.near(newcomer_.node, 0);
         const Link* const link = linked_.link.data();
-        const Run* const run = linked_.run.data();
         const Int longest = longest_detour_;
         std::size_t count = 0;
         for (Int rank = first; rank < behind && others[rank] >= 0; ++rank) {
             const Link& at = link[others[rank]];
-            const bool is_near = 2 * Int{near[rank]} - std::max(at.inward, at.onward) < longest;
-            const bool has_room = room_.may_be_on(run[std::max(at.slot, Int{0})]);
+            const Int least = 2 * Int{near[rank]} - std::max(at.inward, at.onward);
             ranks[count] = static_cast<std::int32_t>(rank);
-            count += (at.slot >= 0) & is_near & has_room;
+            count += (at.slot >= 0) & (least < longest);
         }
-        return count;
+        std::size_t chosen = 0;
+        for (std::size_t index = 0; index < count; ++index) {
+            const Int rank = ranks[index];
+            ranks[chosen] = ranks[index];
+            chosen += room_.may_be_on(linked_.run[link[others[rank]].slot]);
+        }
+        return chosen;
     }
 
     void try_neighbour(Int rank) {
@@ -275,7 +279,7 @@ private:
     }
 
     // Takes a place between two for the best if it may be there and isn't overlooked.
-    [[gnu::noinline]] void take(const Joining& joins, const Gap& gap, double cost) {
+    void take(const Joining& joins, const Gap& gap, double cost) {
         if (linked_.timed && !keeps_windows(world_.type[joins.type], gap)) return;
         if (uniform(searcher_.rng) < world_.blink) return;
         Move& move = *searcher_.move;
