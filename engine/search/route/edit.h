@@ -24,9 +24,6 @@ constexpr Int across = 2;
 constexpr Int from_end = 3;
 constexpr Int ways = 4;
 
-// Copy a move. In place.
-inline void copy_move(const Move& move, Move& to) { to = move; }
-
 // Write a stop's place in the sequence. In place.
 inline void put(View<Stop, 1> stops, Int p, Int node, Int kind) {
     Stop& stop = stops[p];

@@ -30,8 +30,6 @@ using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Line = tandem_line;
 
-constexpr Int most_visits = 8;  // customers on a sortie that the search puts there at most
-
 // `Stop.kind`.
 constexpr Int customer_stop = 0;
 constexpr Int start_stop = 1;
