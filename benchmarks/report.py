@@ -30,7 +30,7 @@ are out of the mean; and how long the call took on average where it was well ove
 Blank: the solver can't plan such instances or keep to such a budget. The last column divides
 Tandem's gap on one thread by that of the best other solver.
 
-Budgets are the wall-clock of the solver's call, code loaded and compiled before. All plans were
+Budgets are the wall-clock of the solver's call, code loaded before. All plans were
 timed and judged by Tandem's checker; conventions and best known costs are those of the sets.
 VROOM is the better of exploration levels 0 and 5, OR-Tools (guided local search) the better of two
 first plans, each given the whole budget. HGS counts processor time."""
