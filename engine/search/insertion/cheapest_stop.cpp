@@ -4,12 +4,12 @@
 #include <cmath>
 
 #include "guard.h"
+#include "randomness.h"
 #include "rules/load.h"
 #include "search/insertion/evaluate.h"
 #include "search/insertion/newcomer.h"
 #include "search/route/edit.h"
 #include "search/route/goods.h"
-#include "search/route/randomness.h"
 #include "search/route/rarer.h"
 #include "search/route/vehicles.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
@@ -14,7 +15,6 @@
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
-#include "search/route/randomness.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "randomness.h"
 #include "search/insertion/cheapest_stop.h"
-#include "search/route/randomness.h"
 
 namespace tandem {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "rules/flight.h"
 #include "rules/shift.h"
@@ -13,7 +14,6 @@
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 #include "search/route/vehicles.h"
 

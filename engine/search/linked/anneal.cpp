@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "guard.h"
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "search/linked/chain.h"
 #include "search/linked/insertion.h"
@@ -13,7 +14,6 @@
 #include "search/linked/tails.h"
 #include "search/moves/anneal.h"
 #include "search/moves/recreate.h"
-#include "search/route/randomness.h"
 #include "search/route/state.h"
 
 namespace tandem {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "rules/leg.h"
 #include "rules/load.h"
@@ -16,7 +17,6 @@
 #include "search/linked/retype.h"
 #include "search/moves/recreate.h"
 #include "search/route/edit.h"
-#include "search/route/randomness.h"
 #include "search/route/state.h"
 
 namespace tandem {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "randomness.h"
 #include "rules/load.h"
-#include "search/route/randomness.h"
 #include "search/route/state.h"
 
 namespace tandem {

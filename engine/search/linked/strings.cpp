@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "randomness.h"
 #include "search/linked/chain.h"
 #include "search/moves/ruin.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 
 namespace tandem {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "randomness.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
 #include "search/linked/chain.h"
 #include "search/moves/two_opt_star.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 

@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "guard.h"
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "search/moves/recreate.h"
 #include "search/moves/resplit.h"
 #include "search/moves/retype.h"
 #include "search/moves/ruin.h"
 #include "search/moves/two_opt_star.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 

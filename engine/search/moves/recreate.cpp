@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "rules/leg.h"
 #include "rules/load.h"
@@ -11,7 +12,6 @@
 #include "search/insertion/places.h"
 #include "search/route/edit.h"
 #include "search/route/lean.h"
-#include "search/route/randomness.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
+#include "randomness.h"
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "search/moves/split.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 

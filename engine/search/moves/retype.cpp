@@ -1,9 +1,9 @@
 #include "search/moves/retype.h"
 
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "rules/drone_types.h"
 #include "search/route/halts.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/vehicles.h"

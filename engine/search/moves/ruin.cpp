@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "randomness.h"
 #include "search/route/edit.h"
-#include "search/route/randomness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 

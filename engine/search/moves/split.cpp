@@ -5,10 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "randomness.h"
 #include "rules/flight.h"
 #include "rules/leg.h"
 #include "rules/window.h"
-#include "search/route/randomness.h"
 
 namespace tandem {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "randomness.h"
 #include "rules/clock.h"
 #include "rules/start.h"
 #include "rules/window.h"
@@ -10,7 +11,6 @@
 #include "search/route/goods.h"
 #include "search/route/halts.h"
 #include "search/route/lean.h"
-#include "search/route/randomness.h"
 #include "search/route/rarer.h"
 #include "search/route/routes.h"
 
