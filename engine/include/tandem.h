@@ -970,7 +970,7 @@ typedef struct tandem_courses {
     tandem_i64_1d row;  /* (rollout,) of the state */
     tandem_i64_1d view;  /* (rollout,) of the memory */
     tandem_f64_1d temperature;  /* (rollout,) 0 for the likeliest action at each step */
-    tandem_u64_1d generator;  /* (rollout,) address of NumPy's `bitgen_t` */
+    tandem_u64_1d random;  /* (rollout,) states of random numbers, which are moved on */
     tandem_i64_1d kept;  /* (rollout,) actions that are given */
     tandem_i64_2d actions;  /* (rollout, action) codes */
     tandem_i64_1d count;  /* (rollout,) actions in the end, -1 of one that was given up */
@@ -987,8 +987,8 @@ int tandem_step(const tandem_scene *scene, const tandem_state *state, int64_t fi
 int tandem_candidate_scores(const tandem_step_weights *weights, const tandem_f32_2d *memory,
                             const tandem_observation *seen, int64_t r, const tandem_f32_1d *scores);
 /* Choose the likeliest candidate, or one drawn by probability if the temperature isn't 0. */
-int tandem_choose(const tandem_f32_1d *scores, double temperature, uint64_t generator,
-                  int64_t *choice);
+int tandem_choose(const tandem_f32_1d *scores, double temperature,
+                  const tandem_u64_1d *random, int64_t *choice);
 /* Plan by the policy, on so many threads, each with a row of the state behind all others' to try
    actions on, until a flag tells to give up. */
 int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *memory,

@@ -2,42 +2,49 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
-#include <cmath>
 #include <exception>
-#include <limits>
 #include <memory>
-#include <numbers>
+#include <numeric>
 #include <system_error>
 #include <thread>
 #include <vector>
 
 #include "guard.h"
+#include "randomness.h"
 #include "rules/alarm.h"
 #include "simulation/simulator.h"
 
 namespace tandem {
 namespace {
 
-constexpr double clip = 10;  // what the scores are clipped to, softly
+constexpr float clip = 10;  // what the scores are clipped to, softly
 
 constexpr Int given_up = -1;  // number of actions of a rollout that was not ended
 
-// Noise may be exactly zero, which has no logarithm.
-constexpr double least_noise = std::numeric_limits<float>::min();
-
-// A bound of what `disturbed` returns, which takes no time.
-double most_disturbed(double half, double temperature, double noise) {
-    constexpr double rounding = 1e-9;
-    const double upper = half >= 0 ? std::min(half, 1.0) : half / (1 - half);
-    const Int power = static_cast<Int>(std::bit_cast<std::uint64_t>(noise) >> 52) - 1023;
-    return clip * upper / temperature - static_cast<double>(power) * std::numbers::ln2 + rounding;
+// The least number of whole lanes' floats that so many fit in.
+std::size_t in_lanes(Int count) {
+    return static_cast<std::size_t>((count + num_lanes - 1) / num_lanes * num_lanes);
 }
 
-// A score, clipped, by the temperature, and disturbed by noise: the largest is a draw by
-// probability. `half` is twice the score by what it is clipped to.
-double disturbed(double half, double temperature, double noise) {
-    return clip * std::tanh(half) / temperature - std::log(noise);
+// Replace scores by weights in proportion to probabilities, that of the best being 1.
+void weigh(std::vector<float>& scores, Int best, float temperature) {
+    const float scale = clip / temperature;
+    for (std::size_t i = 0; i < scores.size(); i += num_lanes) {
+        Lanes x;
+        load(&scores[i], x);
+        // clip * tanh(2 * x / clip)
+        Lanes power = x * (-4 / clip);
+        exponentiate(power);
+        store((1 - power) / (1 + power) * scale, &scores[i]);
+    }
+    const float top = scores[static_cast<std::size_t>(best)];
+    for (std::size_t i = 0; i < scores.size(); i += num_lanes) {
+        Lanes x;
+        load(&scores[i], x);
+        x -= top;
+        exponentiate(x);
+        store(x, &scores[i]);
+    }
 }
 
 // Room for what one decision sees.
@@ -84,7 +91,7 @@ Int most_candidates(const Instance& instance) {
 struct Course {
     Memory memory;
     double temperature;
-    const BitGenerator* bits;
+    View<std::uint64_t, 1> random;
     Int kept;              // actions that are given
     View<Int, 1> actions;  // codes
 };
@@ -97,8 +104,9 @@ public:
           state_(state),
           scratch_(scratch),
           sight_(most_candidates(scene.instance)),
-          decider_(weights, most_candidates(scene.instance)),
-          scores_(static_cast<std::size_t>(most_candidates(scene.instance))) {}
+          decider_(weights, most_candidates(scene.instance)) {
+        scores_.reserve(in_lanes(most_candidates(scene.instance)));
+    }
 
     // Plan a rollout to its end and return how many actions it has.
     Int plan(const Course& course, Int r, View<const Int, 1> stop) {
@@ -110,9 +118,10 @@ public:
             if (rung(stop)) return given_up;
             observe(scene_, state_, r, scratch_, seen);
             if (seen.count == 0) return index;
-            const View<float, 1> scores(scores_.data(), {seen.count});
-            decider_.score(course.memory, seen, scores);
-            const Int action = seen.action[choose(scores, course.temperature, *course.bits)];
+            scores_.assign(in_lanes(seen.count), 0.0F);
+            decider_.score(course.memory, seen, {scores_.data(), {seen.count}});
+            const Int choice = choose(scores_, seen.count, course.temperature, course.random);
+            const Int action = seen.action[choice];
             course.actions[index] = action;
             apply(scene_.instance, state_, r, action);
         }
@@ -155,21 +164,16 @@ void run_on(Int threads, Work&& work) {
 
 }  // namespace
 
-Int choose(View<const float, 1> scores, double temperature, const BitGenerator& bits) {
-    Int best = 0;
-    double most = -std::numeric_limits<double>::infinity();
-    for (Int index = 0; index < scores.size(); ++index) {
-        double value = scores[index];
-        if (temperature > 0) {
-            const double noise = std::max(standard_exponential(bits), least_noise);
-            const double half = value * 2 / clip;
-            if (most_disturbed(half, temperature, noise) < most) continue;
-            value = disturbed(half, temperature, noise);
-        }
-        if (value > most) {
-            best = index;
-            most = value;
-        }
+Int choose(std::vector<float>& scores, Int count, double temperature,
+           View<std::uint64_t, 1> random) {
+    const auto end = scores.begin() + count;
+    const Int best = std::max_element(scores.begin(), end) - scores.begin();
+    if (temperature <= 0) return best;
+    weigh(scores, best, static_cast<float>(temperature));
+    double left = uniform(random) * std::accumulate(scores.begin(), end, 0.0);
+    for (Int index = 0; index < count; ++index) {
+        left -= scores[static_cast<std::size_t>(index)];
+        if (left < 0) return index;
     }
     return best;
 }
@@ -178,7 +182,7 @@ void roll_out(const StepWeights& weights, View<const float, 3> memory, const Sce
               State& state, const Courses& courses, View<const Int, 1> stop, Int threads) {
     const View<const Int, 1> rows(courses.row), view(courses.view), kept(courses.kept);
     const View<const double, 1> temperature(courses.temperature);
-    const View<const std::uint64_t, 1> generator(courses.generator);
+    const View<std::uint64_t, 1> random(courses.random);
     const View<Int, 2> actions(courses.actions);
     const View<Int, 1> count(courses.count);
     const Int scratch = state.problem.size() - threads;
@@ -186,8 +190,8 @@ void roll_out(const StepWeights& weights, View<const float, 3> memory, const Sce
     run_on(std::min(threads, rows.size()), [&](Int number) {
         Planner planner(weights, scene, state, scratch + number);
         for (Int i = next++; i < rows.size(); i = next++) {
-            const auto* bits = reinterpret_cast<const BitGenerator*>(generator[i]);
-            const Course course{memory[view[i]], temperature[i], bits, kept[i], actions[i]};
+            const View<std::uint64_t, 1> own(&random[i], {1});
+            const Course course{memory[view[i]], temperature[i], own, kept[i], actions[i]};
             count[i] = planner.plan(course, rows[i], stop);
         }
     });
@@ -197,11 +201,13 @@ void roll_out(const StepWeights& weights, View<const float, 3> memory, const Sce
 
 using namespace tandem;
 
-int tandem_choose(const tandem_f32_1d* scores, double temperature, uint64_t generator,
+int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_u64_1d* random,
                   int64_t* choice) {
     return guarded([&] {
-        const View<float, 1> given(*scores);
-        *choice = choose(given, temperature, *reinterpret_cast<const BitGenerator*>(generator));
+        const Int count = scores->shape[0];
+        std::vector<float> padded(scores->data, scores->data + count);
+        padded.resize(in_lanes(count));
+        *choice = choose(padded, count, temperature, *random);
     });
 }
 

@@ -2,14 +2,17 @@
 #pragma once
 
 #include "policy/decision.h"
-#include "policy/exponential.h"
 
 namespace tandem {
 
 using Courses = tandem_courses;
 
-// The likeliest candidate, or one drawn by probability if the temperature isn't 0.
-Int choose(View<const float, 1> scores, double temperature, const BitGenerator& bits);
+// The likeliest of so many candidates, or one drawn by probability if the temperature isn't 0.
+//
+// Scores fill whole lanes. If one is drawn, they are overwritten, and the state of random numbers
+// moves on.
+Int choose(std::vector<float>& scores, Int count, double temperature,
+           View<std::uint64_t, 1> random);
 
 // Plan each rollout, on so many threads, until a flag tells to give up.
 //

@@ -89,7 +89,7 @@ class Courses(NamedTuple):
     row: IntArray  # (rollout,) of the state
     view: IntArray  # (rollout,) of the memory
     temperature: FloatArray  # (rollout,) 0 for the likeliest action at each step
-    generator: NDArray[np.uint64]  # (rollout,) address of NumPy's bit generator
+    random: NDArray[np.uint64]  # (rollout,) states of random numbers, which are moved on
     kept: IntArray  # (rollout,) actions that are given
     actions: IntArray  # (rollout, action) codes
     count: IntArray  # type: ignore[assignment]  # (rollout,) actions in the end, or GIVEN_UP
@@ -112,9 +112,12 @@ def read_weights(path: Path) -> StepWeights:
     return StepWeights(**arrays)
 
 
-def choose(scores: Float32Array, temperature: float, rng: np.random.Generator) -> int:
-    """Return the likeliest candidate, or one drawn by probability if the temperature isn't 0."""
-    return int(call("tandem_choose", scores, temperature, _address(rng)))
+def choose(scores: Float32Array, temperature: float, random: NDArray[np.uint64]) -> int:
+    """Return the likeliest candidate, or one drawn by probability if the temperature isn't 0.
+
+    `random` is a state of random numbers, (1,), which is moved on.
+    """
+    return int(call("tandem_choose", scores, temperature, random))
 
 
 def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observation,
@@ -123,11 +126,6 @@ def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observati
     scores = np.empty(seen.count[r], np.float32)
     call("tandem_candidate_scores", weights, memory, seen, r, scores)
     return scores
-
-
-def _address(rng: np.random.Generator) -> int:
-    """Return where the engine finds what it draws from, which nobody else may use meanwhile."""
-    return int(rng.bit_generator.ctypes.bit_generator.value or 0)
 
 
 class _Planning:
@@ -141,7 +139,7 @@ class _Planning:
         self._stop = silent() if stop is None else stop
         self._num_threads = num_threads
 
-    def plan(self, rows: Sequence[int], temperature: float, rng: np.random.Generator,
+    def plan(self, rows: Sequence[int], temperature: float, random: NDArray[np.uint64],
              kept: IntArray) -> list[Rollout]:
         """Plan rollouts of the state, the first from the first view; leave out those given up."""
         number = len(rows)
@@ -149,8 +147,7 @@ class _Planning:
         actions[:, :len(kept)] = kept
         courses = Courses(
             np.array(rows), np.arange(number), np.full(number, float(temperature)),
-            np.full(number, _address(rng), np.uint64), np.full(number, len(kept)), actions,
-            np.zeros(number, np.int64))
+            random, np.full(number, len(kept)), actions, np.zeros(number, np.int64))
         call("tandem_roll_out", *self._given, courses, self._stop, self._num_threads)
         cost = by_term(self._state.cost[rows]).sum(axis=1)
         return [Rollout(codes[:count].copy(), float(total)) for codes, count, total
@@ -182,6 +179,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
     instance = scene.instance
     planning = _Planning(weights, memory[None], scene, len(temperatures), stop)
     hotter = HOTTER_WITH_DRONES if (instance.type["drones"] > 0).any() else HOTTER
+    random = rng.spawn(1)[0].integers(1 << 64, size=1, dtype=np.uint64)
     plans: list[Rollout] = []
     for r, temperature in enumerate(temperatures):
         kept = NOTHING.actions
@@ -189,7 +187,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
             most_anew = MOST_ANEW if temperature > 0 else MOST_ANEW_GREEDILY
             kept = part_to_keep(instance, so_far.actions, most_anew, rng)
             temperature *= hotter
-        found = planning.plan([r], temperature, rng, kept)
+        found = planning.plan([r], temperature, random, kept)
         if not found:
             break
         plans += found
@@ -216,7 +214,7 @@ def roll_out_views(weights: StepWeights, memories: Sequence[Float32Array], scene
     """
     views = len(memories)
     planning = _Planning(weights, np.stack(memories), scene, views, stop, num_threads)
-    return planning.plan(range(views), 0.0, np.random.default_rng(0), NOTHING.actions)
+    return planning.plan(range(views), 0.0, np.zeros(views, np.uint64), NOTHING.actions)
 
 
 def cost_of(rollout: Rollout) -> float:

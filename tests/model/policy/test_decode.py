@@ -128,13 +128,21 @@ def test_draws_follow_the_probabilities_and_never_what_is_masked() -> None:
     assert drawn[0] / len(logits) == pytest.approx(0.7, abs=0.02)
 
 
-def test_draws_of_the_engine_follow_the_probabilities() -> None:
-    scores = np.arctanh(np.log(np.array([0.5, 0.3, 0.2])) / CLIP).astype(np.float32) * CLIP / 2
-    rng = np.random.default_rng(3)
-    for temperature, expected in ((1.0, [0.5, 0.3, 0.2]), (0.5, [0.658, 0.237, 0.105])):
-        drawn = [choose(scores, temperature, rng) for _ in range(20_000)]
-        assert np.bincount(drawn) / 20_000 == pytest.approx(expected, abs=0.015)
-    assert choose(scores, 0.0, rng) == 0
+@pytest.mark.parametrize("temperature", [0.1, 0.5, 1.0, 3.0])
+@pytest.mark.parametrize("count", [1, 3, 16, 40])
+def test_draws_of_the_engine_follow_the_probabilities(count: int, temperature: float) -> None:
+    scores = np.random.default_rng(3).normal(-1.0, 1.0, count).astype(np.float32)
+    weight = np.exp(CLIP * np.tanh(scores.astype(np.float64) * 2 / CLIP) / temperature)
+    random, number = np.array([7], np.uint64), 20_000
+    drawn = [choose(scores, temperature, random) for _ in range(number)]
+    share = np.bincount(drawn, minlength=count) / number
+    assert share == pytest.approx(weight / weight.sum(), abs=0.015)
+
+
+def test_nothing_is_drawn_without_temperature() -> None:
+    random = np.array([7], np.uint64)
+    assert choose(np.array([0.1, 2.0, 0.3, 2.0], np.float32), 0.0, random) == 1
+    assert random[0] == 7
 
 
 @pytest.mark.parametrize("variant", VARIANTS)

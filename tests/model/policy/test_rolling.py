@@ -1,4 +1,4 @@
-"""Rollouts by the engine: draws as NumPy's, whatever the threads."""
+"""Rollouts by the engine, the same on any number of threads."""
 
 from pathlib import Path
 
@@ -7,7 +7,7 @@ import pytest
 
 from model.kernel.instance import pack
 from model.policy.decode import Policy, View, encode, load_policy, prepare
-from model.policy.rolling import choose, roll_out, roll_out_views
+from model.policy.rolling import roll_out, roll_out_views
 from training.instances import generate
 
 WEIGHTS = Path(__file__).parents[3] / "model" / "weights"
@@ -22,26 +22,6 @@ def policy() -> Policy:
 def view(policy: Policy) -> View:
     problem = generate(np.random.default_rng(3), 30, "drone")
     return prepare(policy, problem, pack([problem]))
-
-
-def test_the_engine_draws_what_numpy_draws() -> None:
-    alike = np.zeros(7, np.float32)
-    one, other = np.random.default_rng(2), np.random.default_rng(2)
-    # Rare draws, from the tail and from between curve and layer, are among so many.
-    for _ in range(20_000):
-        assert choose(alike, 1.0, one) == other.standard_exponential(len(alike)).argmin()
-    assert one.random() == other.random()
-
-
-def test_likelier_candidates_need_less_noise() -> None:
-    rng = np.random.default_rng(4)
-    for temperature in (0.3, 1.0, 3.0):
-        scores = rng.normal(0.0, 3.0, (2000, 12)).astype(np.float32)
-        one, other = np.random.default_rng(5), np.random.default_rng(5)
-        for row in scores:
-            warm = 10 * np.tanh(row.astype(np.float64) * 2 / 10) / temperature
-            noise = other.standard_exponential(len(row))
-            assert choose(row, temperature, one) == (warm - np.log(noise)).argmax()
 
 
 def test_views_are_planned_as_each_alone_on_any_number_of_threads(policy: Policy,
