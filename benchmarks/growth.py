@@ -32,7 +32,7 @@ LONGER = 4.0
 """How many times as long the search takes that the other is measured by."""
 
 WARM = 2500
-"""Customers of what is planned first, so that all is compiled."""
+"""Customers of what is planned first, so that all is loaded."""
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ SIZES = ((0.5, 0.5, 1.0, 1.0), (1.0, 0.9, 1.1, 0.5), (2.0, 1.7, 1.3, 0.3))
 the depot; what they cost a metre, and how many there are, by the truck alone."""
 
 WARM = "drawn-0-3000-30-central"
-"""What is planned first, so that all is compiled."""
+"""What is planned first, so that all is loaded."""
 
 
 @dataclass(frozen=True)

@@ -170,7 +170,7 @@ def running(workers: int) -> Iterator[Service]:
 
 
 def _await_ready(process: subprocess.Popen[bytes], port: int, workers: int) -> None:
-    """Wait until each of the processes that share the port is warm."""
+    """Wait until each of the processes that share the port is ready."""
     in_a_row = 0
     while in_a_row < 20 * workers:
         if process.poll() is not None:

@@ -2,13 +2,11 @@
 
 Twelve kinds of problems are searched for a number of turns, divided by processor time, which other
 work on the machine hardly changes. With `--beside` another checkout, whose interpreter is
-`.venv/bin/python` in it, does the same in turn with this one, and the ratios are told. `--cold`
-also compiles everything anew in both.
+`.venv/bin/python` in it, does the same in turn with this one, and the ratios are told.
 """
 
 import json
 import os
-import resource
 import statistics
 import subprocess
 import sys
@@ -43,7 +41,7 @@ PROBE = 100
 """Turns by which the number is set that takes about a second."""
 
 Paces = dict[str, float]
-"""Turns a second by kind, or seconds of compiling."""
+"""Turns a second by kind."""
 
 app = typer.Typer(help=__doc__, pretty_exceptions_enable=False)
 
@@ -100,17 +98,6 @@ def paces_of(tree: Path, seconds: float, turns: dict[str, int] | None
     return found, made
 
 
-def seconds_to_compile(tree: Path) -> float:
-    """Return the processor time that compiling everything takes."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([_python(tree), "-m", "app", "warm"], cwd=tree, check=True,
-                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                       env={**os.environ, "PYTHONPATH": str(tree), "NUMBA_CACHE_DIR": folder})
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime - before.ru_utime
-
-
 def _python(tree: Path) -> str:
     own = tree / ".venv" / "bin" / "python"
     return str(own) if own.exists() else sys.executable
@@ -133,7 +120,6 @@ def compare(
     beside: Annotated[Path | None, typer.Option(help="Another checkout.")] = None,
     rounds: Annotated[int, typer.Option(help="How often each is measured.")] = 3,
     seconds: Annotated[float, typer.Option(help="Of each search, about.")] = 1.0,
-    cold: Annotated[bool, typer.Option(help="Compile everything anew, too.")] = False,
 ) -> None:
     """Measure this checkout, or two in turn."""
     trees = [ROOT, *([] if beside is None else [beside.resolve()])]
@@ -146,8 +132,6 @@ def compare(
             measured.append(found)
         for name in measured[0]:
             rows.setdefault(name, []).append(tuple(found[name] for found in measured))
-    if cold:
-        rows["seconds to compile"] = [tuple(seconds_to_compile(tree) for tree in trees)]
     Console().print(table(rows))
 
 

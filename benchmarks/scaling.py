@@ -38,11 +38,9 @@ def measured(number: int, is_planned: bool, turns: int = TURNS) -> Data:
     settings.MAX_CUSTOMERS = MOST_CUSTOMERS
     settings.MAX_LEGS = MOST_CUSTOMERS**2
     from app.load.memory import collect_seldom
-    from app.requests.refusal import compile_scan
     from benchmarks.many import many_customers
 
     collect_seldom()
-    compile_scan()
     body = to_json(many_customers(number))
     _steps(to_json(many_customers(2)), {}, is_planned, 0)  # what is imported and made once
     before = _peak_mb()

@@ -1,6 +1,6 @@
 """VROOM's documented examples, to both: `python -m benchmarks.vroom_examples FILE...`.
 
-The files are `docs/example_*.json` of VROOM's repository. Both get what `POST /vroom` plans of them
+The files are `example_*.json` of VROOM's repository. Both get what `POST /vroom` plans of them
 (neither breaks nor shipments), and where an example has places on the map, the legs that Tandem
 finds between them. VROOM explores as it does by default; Tandem has its default time limit.
 """

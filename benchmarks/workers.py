@@ -21,8 +21,8 @@ Solve = Callable[[Published, float, int], PeerAnswer | None]
 """Plans an instance within seconds from a seed; None if it can't plan such instances."""
 
 WARM_SECONDS, WARM_CALLS = 0.1, 3
-"""Limit and number of the first calls for each set, which don't count: code is loaded and compiled
-in them. What one has compiled may leave it no time for what comes behind."""
+"""Limit and number of the first calls for each set, which don't count: code is loaded in them. What
+one has loaded may leave it no time for what comes behind."""
 
 WARM_PATIENCE = 900.0
 """Seconds after which a solver that isn't warm is given up."""
@@ -49,7 +49,7 @@ class Solver:
 
 
 def _tandem(instance: Published, seconds: float, seed: int, threads: int) -> PeerAnswer | None:
-    # Loaded here alone: it brings the compiler, which the other processes needn't wait for.
+    # Loaded here alone: the other processes needn't wait for it.
     return import_module("benchmarks.tandem").solve(instance, seconds, seed, threads)
 
 

@@ -41,12 +41,12 @@ SLOW = (
         "schemas/test_clients.py", "sheets/", "test_api_fuzz.py", "vroom/test_planning.py",
         "vroom/test_windows.py")),
     *(f"tests/model/{name}" for name in (
-        "kernel/test_compiled.py", "kernel/test_leg.py", "policy/test_features.py",
+        "policy/test_features.py",
         "replanning/test_replan_random.py", "search/test_anneal.py",
         "search/test_battery_optimum.py", "search/test_bookkeeping.py",
         "search/test_computed_legs.py", "search/test_free_launches.py", "search/test_improve.py",
         "search/test_insertion.py", "search/test_kept.py", "search/test_moves.py",
-        "search/test_optimum.py", "search/test_plain.py", "search/test_recombining.py",
+        "search/test_optimum.py", "search/test_recombining.py",
         "search/test_starts.py", "search/test_swaps.py", "simulation/test_held_launches.py",
         "simulation/test_simulator.py", "simulation/test_vehicle_log.py", "test_planner.py")),
 )

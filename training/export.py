@@ -1,6 +1,6 @@
 """Export a trained policy to ONNX: `encoder.onnx`, `step.onnx` and a card.
 
-The weights of `attention`'s step go into `step.npz` too, for compiled rollouts, and all into
+The weights of `attention`'s step go into `step.npz` too, for the engine's rollouts, and all into
 `weights.pt`, for further training.
 
 Run with `python -m training.export --checkpoint runs/pointer/checkpoint.pt --name pointer`.

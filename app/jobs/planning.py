@@ -42,7 +42,7 @@ class PlanWork:
     Parameters
     ----------
     planner
-        A warm one.
+        The one that this process has loaded.
     store
         Where jobs are kept.
     asking

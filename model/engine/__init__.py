@@ -1,1 +1,1 @@
-"""The compiled engine: its library, and how what Python has becomes what it takes."""
+"""The engine: its library, and how what Python has becomes what it takes."""

@@ -1,1 +1,1 @@
-"""What a rule means in compiled code, once each, and how code is compiled."""
+"""A problem as arrays for the engine, and what rings while that works."""

@@ -1,4 +1,4 @@
-"""Rows with named fields, as compiled code and Python alike read and write them."""
+"""Rows with named fields, as the engine and Python alike read and write them."""
 
 from collections import namedtuple
 from functools import cache

@@ -32,12 +32,13 @@ ORT_ERRORS = (ort_errors.NoSuchFile, ort_errors.InvalidProtobuf, ort_errors.Inva
 NO_ACTION = -1
 
 BLOCK = 16
-"""Samples of a policy whose step isn't compiled that are planned side by side, in one thread, so
-that memory is bounded. They don't go on from one another: all blocks are planned on all cores."""
+"""Samples of a policy whose step isn't in the engine that are planned side by side, in one thread,
+so that memory is bounded. They don't go on from one another: all blocks are planned on all
+cores."""
 
 LINE = 8
-"""Samples of a policy whose step is compiled that are planned one after another, in one thread, and
-go on from the best so far."""
+"""Samples of a policy whose step is in the engine that are planned one after another, in one
+thread, and go on from the best so far."""
 
 LANES = 2
 """Lines of samples at the same time, each with its own random numbers. The next go on from the best
@@ -71,7 +72,7 @@ class Policy:
     step: ort.InferenceSession
     hidden_size: int
     num_features: int  # of the action features, the first that it was trained with
-    step_weights: StepWeights | None = None  # of a policy whose step is compiled, too
+    step_weights: StepWeights | None = None  # of a policy whose step is in the engine, too
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,18 +178,18 @@ def _rounds(policy: Policy, view: View, config: DecodeConfig) -> list[list[_Bloc
     """Return the blocks that are planned at the same time, those of each round."""
     views = VIEWED_CUSTOMERS // max(1, int(view.scene.instance.size[0].customers))
     views = min(max(views, 1), len(SYMMETRIES))
-    is_compiled = policy.step_weights is not None
+    in_engine = policy.step_weights is not None
     if config.decoding == "greedy":
-        return _greedy(min(views, config.most_views), is_compiled)
+        return _greedy(min(views, config.most_views), in_engine)
     if config.num_samples == 1:
         return [[_Block(0, [config.temperature], is_first=True)]]
     samples = max(config.num_samples - views, 1)
     # Parts of the best, planned greedily, would let many samples go on from too much of one plan.
-    greedy = _greedy(views, is_compiled and samples < views)
-    size = LINE if is_compiled else BLOCK
+    greedy = _greedy(views, in_engine and samples < views)
+    size = LINE if in_engine else BLOCK
     drawn = [_Block(index % len(SYMMETRIES), [config.temperature] * min(size, samples - first))
              for index, first in enumerate(range(0, samples, size))]
-    lanes = LANES if is_compiled else len(drawn)
+    lanes = LANES if in_engine else len(drawn)
     return [*greedy, *(drawn[first:first + lanes] for first in range(0, len(drawn), lanes))]
 
 
@@ -251,7 +252,7 @@ def _decode_block(policy: Policy, view: View, temperatures: list[float],
                   stop: IntArray) -> list[Rollout]:
     """Plan a rollout by each temperature.
 
-    Those of a policy whose step is compiled go on from the best so far. An alarm ends them.
+    Those of a policy whose step is in the engine go on from the best so far. An alarm ends them.
     """
     if policy.step_weights is not None:
         return roll_out(policy.step_weights, view.memory, view.scene, temperatures, rng, so_far,

@@ -1,9 +1,9 @@
 """Distances from coordinates, and how legs are rounded, of many legs and of one.
 
 Distances are rounded to the nearest millimetre and durations up to the next millisecond, both
-once, from the exact float values. Compiled code computes the same in `kernel/leg`, to the last bit:
-the same operations in the same order, of which each is rounded by itself. `docs/search.md` says
-more under "Legs by computation".
+once, from the exact float values. The engine computes the same in `engine/rules/leg.cpp`, to
+the last bit: the same operations in the same order, of which each is rounded by itself.
+`docs/search.md` says more under "Legs by computation".
 """
 
 import math

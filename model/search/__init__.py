@@ -1,1 +1,1 @@
-"""Improvement of plans by ruin and recreate, compiled, on several threads."""
+"""Improvement of plans by ruin and recreate in the engine, on several threads."""

@@ -1,1 +1,1 @@
-"""The decision process: what may come next, and what becomes of it. Compiled."""
+"""The decision process: what may come next, and what becomes of it. By the engine."""

@@ -311,7 +311,7 @@ def test_pyvrp_if_installed_finds_the_best_plan(tmp_path: Path, set_name: str, n
 def test_tandem_finds_the_best_plan(tmp_path: Path, set_name: str, name: str, text: str,
                                     cost: float) -> None:
     instance = _read(tmp_path, set_name, name, text)
-    tandem.solve(instance, 0.01, 1, 1)  # so that all code is compiled
+    tandem.solve(instance, 0.01, 1, 1)  # so that all code is loaded
     _require_best(instance, tandem.solve(instance, 0.3, 1, 1), cost)
 
 

@@ -69,7 +69,7 @@ def test_weights_committed_for_training_are_those_of_the_graphs(name: str) -> No
 
 
 @pytest.mark.parametrize(("nodes", "types", "candidates"), [(2, 1, 1), (21, 4, 30), (301, 2, 170)])
-def test_compiled_step_of_attention_agrees_with_its_graph(
+def test_step_of_attention_in_the_engine_agrees_with_its_graph(
         exported: tuple[str, Path], nodes: int, types: int, candidates: int) -> None:
     name, folder = exported
     assert (folder / STEP_WEIGHTS).exists() == (name == "attention")

@@ -18,8 +18,8 @@ Request = dict[str, Any]
 Serve = Callable[..., httpx.Client]
 
 
-def warmed(client: httpx.Client) -> httpx.Client:
-    """Return a client once its service plans."""
+def opened(client: httpx.Client) -> httpx.Client:
+    """Return a client once its service is ready."""
     soon(lambda: client.get("/health/ready").status_code == 200)
     return client
 
@@ -45,7 +45,7 @@ def connect(client: httpx.Client) -> socket.socket:
 def test_what_slots_and_queue_cannot_hold_is_refused_at_once_and_the_rest_is_planned(
         serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
-    client = warmed(serve(planner, Settings(max_concurrent_plans=2, max_queued_plans=3,
+    client = opened(serve(planner, Settings(max_concurrent_plans=2, max_queued_plans=3,
                                             max_queue_seconds=600)))
     with ThreadPoolExecutor(5) as pool:
         accepted = [pool.submit(client.post, "/plan", json=smallest) for _ in range(5)]
@@ -65,7 +65,7 @@ def test_what_slots_and_queue_cannot_hold_is_refused_at_once_and_the_rest_is_pla
 
 def test_refusal_comes_before_the_body(serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
-    client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
+    client = opened(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
     with ThreadPoolExecutor(1) as pool, connect(client) as connection:
         running = pool.submit(client.post, "/plan", json=smallest)
         soon(lambda: planner.started == 1)
@@ -81,7 +81,7 @@ def test_refused_clients_connect_anew_where_another_process_may_be_free(
         shares_port: bool) -> None:
     monkeypatch.setattr("multiprocessing.parent_process", lambda: object() if shares_port else None)
     planner = WaitingPlanner()
-    client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
+    client = opened(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
     with ThreadPoolExecutor(1) as pool:
         running = pool.submit(client.post, "/plan", json=smallest)
         soon(lambda: planner.started == 1)
@@ -96,7 +96,7 @@ def test_refused_clients_connect_anew_where_another_process_may_be_free(
 
 def test_whoever_waits_too_long_is_refused(serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
-    client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=1,
+    client = opened(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=1,
                                             max_queue_seconds=0.05)))
     with ThreadPoolExecutor(1) as pool:
         running = pool.submit(client.post, "/plan", json=smallest)
@@ -111,7 +111,7 @@ def test_whoever_waits_too_long_is_refused(serve: Serve, smallest: Request) -> N
 @pytest.mark.by_clock
 def test_abandoned_plan_stops_and_frees_its_slot(serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
-    client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
+    client = opened(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=0)))
     body = json.dumps(smallest).encode()
     with connect(client) as connection:
         connection.sendall(head(len(body)) + body)
@@ -126,7 +126,7 @@ def test_abandoned_plan_stops_and_frees_its_slot(serve: Serve, smallest: Request
 
 def test_whoever_leaves_the_queue_makes_room(serve: Serve, smallest: Request) -> None:
     planner = WaitingPlanner()
-    client = warmed(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=1,
+    client = opened(serve(planner, Settings(max_concurrent_plans=1, max_queued_plans=1,
                                             max_queue_seconds=60)))
     body = json.dumps(smallest).encode()
     with ThreadPoolExecutor(2) as pool:
@@ -156,7 +156,7 @@ def test_slow_body_is_given_up(serve: Serve) -> None:
 
 
 def test_slow_bodies_take_no_slot(serve: Serve, smallest: Request) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(max_concurrent_plans=1, max_queued_plans=0)))
+    client = opened(serve(FirstFitPlanner(), Settings(max_concurrent_plans=1, max_queued_plans=0)))
     with connect(client) as one, connect(client) as other:
         for connection in (one, other):
             connection.sendall(head(100) + b"{")
@@ -164,7 +164,7 @@ def test_slow_bodies_take_no_slot(serve: Serve, smallest: Request) -> None:
 
 
 def test_bodies_together_are_bounded(serve: Serve, smallest: Request) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(max_buffered_bytes=1000)))
+    client = opened(serve(FirstFitPlanner(), Settings(max_buffered_bytes=1000)))
     body = json.dumps(smallest).encode()
     assert 200 < len(body) < 600
 
@@ -181,7 +181,7 @@ def test_bodies_together_are_bounded(serve: Serve, smallest: Request) -> None:
 
 
 def test_clients_that_leave_while_sending_are_forgotten(serve: Serve, smallest: Request) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(max_buffered_bytes=1000)))
+    client = opened(serve(FirstFitPlanner(), Settings(max_buffered_bytes=1000)))
     body = json.dumps(smallest).encode()
     for _ in range(5):
         with connect(client) as connection:
@@ -196,7 +196,7 @@ def test_clients_that_leave_while_sending_are_forgotten(serve: Serve, smallest: 
 def test_requests_beyond_the_settings_are_refused_by_name(
         serve: Serve, smallest: Request, change: dict[str, Any], path: str, code: str,
         setting: str) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(
+    client = opened(serve(FirstFitPlanner(), Settings(
         max_customers=2, max_num_samples=10, max_plan_seconds=5)))
     smallest["options"] = {"num_samples": 10, "time_limit": 5.0}
     assert client.post("/plan", json=smallest).status_code == 200
@@ -212,7 +212,7 @@ def test_requests_beyond_the_settings_are_refused_by_name(
 
 
 def test_bounds_join_the_other_errors_of_a_request(serve: Serve, smallest: Request) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(max_customers=1)))
+    client = opened(serve(FirstFitPlanner(), Settings(max_customers=1)))
     smallest["options"] = {"time_limit": 61, "colour": "red"}
     del smallest["fleet"][0]["capacity"]
     codes = [error["code"] for error in client.post("/plan", json=smallest).json()["errors"]]
@@ -226,7 +226,7 @@ def test_bounds_join_the_other_errors_of_a_request(serve: Serve, smallest: Reque
     ({"time_limit": 1.5, "decoding": "sample", "num_samples": 128}, 200)])
 def test_samples_that_nothing_cuts_short_are_bounded(
         serve: Serve, smallest: Request, options: dict[str, Any], status: int) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(max_plan_seconds=1.5)))
+    client = opened(serve(FirstFitPlanner(), Settings(max_plan_seconds=1.5)))
     smallest["customers"] = [{**smallest["customers"][0], "id": str(number)}
                              for number in range(300)]
     smallest["options"] = options
@@ -237,7 +237,7 @@ def test_samples_that_nothing_cuts_short_are_bounded(
 
 
 def test_fleets_that_take_too_much_memory_are_refused(serve: Serve, smallest: Request) -> None:
-    client = warmed(serve(FirstFitPlanner(), Settings(max_legs=20)))
+    client = opened(serve(FirstFitPlanner(), Settings(max_legs=20)))
     truck = smallest["fleet"][0]
     drones = {"count": 1, "capacity": [1], "speed_kmh": 50}
     # Two customers and a depot: nine legs for each way to travel.

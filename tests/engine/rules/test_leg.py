@@ -27,7 +27,7 @@ def look_up(legs: AllLegs, back: AllLegs) -> tuple[IntArray, IntArray, IntArray]
 
 
 def computed(legs: StraightLegs) -> ComputedLegs:
-    """Return legs as compiled code has them."""
+    """Return legs as the engine has them."""
     points = legs.points
     point, law = np.zeros(COUNT, dtype_of("tandem_point")), np.zeros(1, dtype_of("tandem_leg_law"))
     for axis, at in zip("xyz", points.at.T, strict=False):

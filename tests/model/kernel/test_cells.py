@@ -46,7 +46,7 @@ def test_points_at_one_place_take_no_longer() -> None:
         return spent
 
     apart = np.random.default_rng(3).random((40 * NUMBER, 2))
-    seconds(apart[:NUMBER])  # compiles
+    seconds(apart[:NUMBER])  # loads the engine
     assert seconds(np.zeros_like(apart)) < 5 * seconds(apart)
 
 

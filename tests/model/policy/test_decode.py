@@ -146,7 +146,7 @@ def test_nothing_is_drawn_without_temperature() -> None:
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
-def test_compiled_rollouts_and_the_graph_plan_the_same(variant: str) -> None:
+def test_rollouts_of_the_engine_and_the_graph_plan_the_same(variant: str) -> None:
     policy = load_policy(WEIGHTS / "attention")
     assert policy.step_weights is not None
     by_graph, alone = replace(policy, step_weights=None), DecodeConfig(most_views=1)

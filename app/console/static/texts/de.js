@@ -248,7 +248,6 @@ export default {
   app: {
     loading: 'Die Konsole wird geladen.',
     starting: 'Der Dienst startet.',
-    progress: 'Fortschritt',
     close: 'Schließen',
     more: 'und {{count}} weitere',
   },

@@ -235,7 +235,6 @@ export default {
   app: {
     loading: 'Loading the console.',
     starting: 'The service is starting.',
-    progress: 'How far it is',
     close: 'Close',
     more: 'and {{count}} more',
   },
