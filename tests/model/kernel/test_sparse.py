@@ -6,7 +6,7 @@ import numpy as np
 
 from model.kernel.sparse import HUGE, sparse_rows
 
-ROW = np.dtype([("number", np.int64), ("others", np.int64, 511)])
+ROW = np.dtype((np.record, np.dtype([("number", np.int64), ("others", np.int64, 511)])))
 """As long as a page."""
 
 LARGER_THAN_MEMORY = 2**43
