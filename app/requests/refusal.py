@@ -8,7 +8,7 @@ import json
 import re
 from collections.abc import Iterator, Sequence
 from contextlib import suppress
-from itertools import islice
+from itertools import count, islice
 from types import EllipsisType
 
 import msgspec
@@ -18,7 +18,7 @@ from pydantic_core import ErrorDetails
 from app.errors import (
     ErrorCode, InputError, InvalidRequestError, NotJsonError, schema_errors,
 )
-from app.requests.shapes import read_shape
+from app.requests.shapes import Loose, read_shape
 from app.schemas.hints import with_hints
 from app.schemas.times import read_body
 
@@ -30,6 +30,9 @@ MAX_SEARCHED_BYTES = 4 * 2**20
 
 LEAST_BYTES = 2**14
 """Shorter bodies can't do harm."""
+
+MAX_SEARCHED_VALUES = 2_000_000
+"""Of bodies with more values, what is wrong first is told as it was found."""
 
 LISTED_BYTES = 2**17
 """In longer bodies, without rows of numbers, what is wrong first is told alone: an error takes
@@ -75,13 +78,13 @@ def require_readable(body: bytes, model: type[BaseModel]) -> None:
     """
     if len(body) < LEAST_BYTES:
         return
+    require_json(body)
     # Brackets in texts count as well, of which there are few.
     parts, most = body.count(b"[") + body.count(b"{"), MAX_PARTS + len(body) // BYTES_PER_PART
     if parts > most:
         raise InvalidRequestError([InputError(
             code="TOO_MANY_PARTS", path="$", message=f"There are more than {most} objects and "
             "arrays, more than any request needs: send less.")])
-    require_json(body)
     if len(body) <= LISTED_BYTES:
         return
     try:
@@ -125,8 +128,11 @@ def _errors_first(body: bytes, model: type[BaseModel], told: str) -> list[InputE
     path = path.rstrip("`")
     stated = [int(place) if place.isdigit() else key or ... for place, key in _STEP.findall(path)]
     # Of an array of numbers, of which this is one, but one error is told.
-    most = MAX_SEARCHED_BYTES if "`float`" in message else LISTED_BYTES
-    for steps, reduced in _reduced(body, stated):
+    is_number = "`float`" in message
+    most = MAX_SEARCHED_BYTES if is_number else LISTED_BYTES
+    # Where there are very many values, each entry found takes memory, but rows of numbers are few.
+    is_searched = is_number or body.count(b",") <= MAX_SEARCHED_VALUES
+    for steps, reduced in _reduced(body, stated) if is_searched else ():
         if len(reduced) <= most:
             first = tuple(0 if isinstance(step, int) else step for step in steps)
             found = [details | {"loc": (*steps, *details["loc"][len(steps):])}
@@ -147,7 +153,7 @@ def _reduced(body: bytes, steps: Sequence[Step]) -> Iterator[tuple[tuple[str | i
         return
     step, *further = steps
     if isinstance(step, int):
-        entry = msgspec.json.decode(body, type=list[msgspec.Raw])[step]
+        entry = _entry(body, step)
         for inner, reduced in _reduced(entry, further):
             yield (step, *inner), b"[" + reduced + b"]"
         return
@@ -156,6 +162,30 @@ def _reduced(body: bytes, steps: Sequence[Step]) -> Iterator[tuple[tuple[str | i
         with suppress(LookupError, msgspec.ValidationError):
             for inner, reduced in _reduced(fields[key], further):
                 yield (key, *inner), b"{" + json.dumps(key).encode() + b":" + reduced + b"}"
+
+
+def _entry(array: bytes, index: int) -> bytes:
+    """Return the entry of an array at an index, from 0; those before it are let go one by one."""
+    ahead = count()
+
+    def pass_over(_: type, value: object) -> object:
+        if next(ahead) == index:
+            raise _FoundError(value)
+        return Loose()
+
+    try:
+        msgspec.json.decode(array, type=list[Loose], dec_hook=pass_over)
+    except _FoundError as found:
+        return msgspec.json.encode(found.value)
+    raise LookupError(index)
+
+
+class _FoundError(Exception):
+    """A value was found, and reading ends."""
+
+    def __init__(self, value: object) -> None:
+        super().__init__()
+        self.value = value
 
 
 def _told(message: str, path: str) -> InputError:
