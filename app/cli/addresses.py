@@ -19,7 +19,7 @@ PATIENCE = 60.0
 """Seconds in which addresses are looked up."""
 
 addresses_cli = typer.Typer(help="Look addresses up, and prepare extracts for that.",
-                            no_args_is_help=True)
+                            no_args_is_help=True, add_completion=False)
 
 
 @addresses_cli.callback()

@@ -1,175 +1,60 @@
 """The `tandem` command."""
 
-import time
-from pathlib import Path
-from typing import Annotated
+from importlib import import_module
+from typing import Any
 
 import typer
+from typer.core import TyperGroup
 
-from app.access.setup import ExposedError, check_exposure
-from app.cli.addresses import addresses_cli
-from app.cli.database import database_cli
-from app.cli.file_errors import EXIT_BAD_INPUT, refuse
-from app.cli.importing import import_sheet
-from app.cli.keys import keys_cli
-from app.cli.plot import plot
-from app.cli.roads import roads_cli, roads_of
-from app.cli.serving import run_server
-from app.cli.settings_page import settings_page
-from app.database.files import FolderError, check_folder
-from app.errors import RequestError
-from app.files.importers import FileFormat, convert_file
-from app.load.memory import collect_seldom
-from app.plans.service import plan_options, preparing, reply_of
-from app.plans.task import Task, task_of
-from app.requests.bounds import UNBOUNDED
-from app.requests.plan_reading import plan_to_solution
-from app.requests.reading import read_request
-from app.schemas.fields import Rounding
-from app.settings import Settings
-from model.judge.check import Evaluation
-from model.planner import load_planner
-from model.solution import COST_TERMS
+from app.load.memory import collect_seldom, loading
 
-LEAST_PREPARING = 60.0
-"""Seconds that may pass before the search however short its time: nobody else waits for it."""
-
-EXIT_INFEASIBLE = 1
-
-cli = typer.Typer(help="Plan deliveries for trucks that carry drones.", no_args_is_help=True,
-                  add_completion=False)
-cli.add_typer(keys_cli, name="keys")
-cli.add_typer(database_cli, name="database")
-cli.add_typer(roads_cli, name="roads")
-cli.add_typer(addresses_cli, name="addresses")
-cli.command()(plot)
-cli.command("import")(import_sheet)
-
-ProblemFile = Annotated[Path, typer.Argument(help="Request of POST /plan as JSON.", exists=True,
-                                             dir_okay=False)]
-PlanFile = Annotated[Path, typer.Argument(help="Reply of POST /plan as JSON.", exists=True,
-                                          dir_okay=False)]
-Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write the plan to.")]
-InstanceFormat = Annotated[FileFormat, typer.Option(
-    "--format", help="auto knows Solomon's format by its headings; all else is VRPLIB.")]
-RoundingOption = Annotated[Rounding, typer.Option(help=(
-    "How distances are rounded. exact: as the crow flies; round: to whole units, as CVRPLIB does "
-    "without time windows; trunc: to whole units, downwards; dimacs: to tenths, downwards, as is "
-    "usual with time windows; thousandths: as is usual with mixed fleets."))]
+COMMANDS = {
+    "keys": "app.cli.keys:keys_cli",
+    "database": "app.cli.database:database_cli",
+    "roads": "app.cli.roads:roads_cli",
+    "addresses": "app.cli.addresses:addresses_cli",
+    "plot": "app.cli.plot:plot",
+    "import": "app.cli.importing:import_sheet",
+    "serve": "app.cli.serving:serve",
+    "settings": "app.cli.settings_page:list_settings",
+    "plan": "app.cli.planning:plan",
+    "check": "app.cli.planning:check_plan",
+    "convert": "app.cli.planning:convert",
+}
+"""Where each command is. One that plans needn't wait for all that one that serves imports."""
 
 
-@cli.command()
-def serve(
-    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
-    port: Annotated[int, typer.Option(help="Port to listen on.", min=0, max=65535)] = 8000,
-    workers: Annotated[int, typer.Option(help="Processes that share the port.", min=1,
-                                         max=256)] = 1,
-) -> None:
-    """Answer planning requests over HTTP."""
-    settings = Settings()
-    try:
-        check_exposure(settings, host)
-    except ExposedError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(EXIT_BAD_INPUT) from error
-    try:
-        if settings.database_url is None or settings.role != "api":
-            check_folder(settings)
-    except FolderError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(EXIT_BAD_INPUT) from error
-    with roads_of(settings):
-        # What is wrong with them is told here, in words and once.
-        pass
-    run_server(settings, host, port, workers)
+class Commands(TyperGroup):
+    """The `COMMANDS`, each imported when it is asked for."""
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Return the names of all."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Return a command; None if there is none of that name."""
+        if cmd_name not in COMMANDS:
+            return None
+        module, _, name = COMMANDS[cmd_name].partition(":")
+        with loading():
+            found = getattr(import_module(module), name)
+        if not isinstance(found, typer.Typer):
+            function, found = found, typer.Typer(add_completion=False)
+            found.command(cmd_name)(function)
+        command = typer.main.get_command(found)
+        command.name = cmd_name
+        return command
 
 
-@cli.command("settings")
-def list_settings() -> None:
-    """List all settings, the environment variables that they are read from, as Markdown."""
-    typer.echo(settings_page(), nl=False)
+cli = typer.Typer(cls=Commands, no_args_is_help=True, add_completion=False)
 
 
-@cli.command()
-def plan(problem_file: ProblemFile, output: Output = None) -> None:
-    """Plan one problem."""
-    settings = Settings()
-    try:
-        with roads_of(settings) as roads:
-            started = time.perf_counter()
-            request = read_request(problem_file.read_bytes(), settings.policies)
-            hurried = preparing(request.options, UNBOUNDED, lambda: False).beside_search(
-                LEAST_PREPARING, "the search")
-            task = task_of(request, hurried, roads=roads)
-            prepared = time.perf_counter() - started
-            _print_warnings(task)
-            planner = load_planner(settings.weights_dir, settings.policies)
-            # What loading takes is no part of the time limit.
-            reply = reply_of(planner, task, plan_options(request.options, settings.search_threads),
-                             time.perf_counter() - prepared, waited=hurried.waited)
-    except RequestError as error:
-        refuse(problem_file, error)
-    if output is None:
-        typer.echo(reply)
-    else:
-        output.write_bytes(reply)
-
-
-@cli.command("check")
-def check_plan(problem_file: ProblemFile, plan_file: PlanFile) -> None:
-    """Judge a plan: print the rules it breaks and its cost. Exits with 1 if it breaks any."""
-    try:
-        with roads_of(Settings()) as roads:
-            task = task_of(read_request(problem_file.read_bytes(), policies=None), roads=roads)
-    except RequestError as error:
-        refuse(problem_file, error)
-    try:
-        solution = plan_to_solution(plan_file.read_bytes(), task.problem)
-    except RequestError as error:
-        refuse(plan_file, error)
-    _print_warnings(task)
-    evaluation = task.check(solution)
-    _print_evaluation(evaluation)
-    if not evaluation.is_feasible:
-        raise typer.Exit(EXIT_INFEASIBLE)
-
-
-@cli.command()
-def convert(
-    instance_file: Annotated[Path, typer.Argument(
-        metavar="INPUT", help="Instance in VRPLIB or Solomon format.", exists=True,
-        dir_okay=False)],
-    output: Annotated[Path | None, typer.Option(
-        "--output", "-o", help="File to write the request to.")] = None,
-    file_format: InstanceFormat = "auto",
-    rounding: RoundingOption = "exact",
-) -> None:
-    """Turn a published instance into a request of POST /plan, a unit being 1 m, 1 s and 1 cost."""
-    try:
-        request = convert_file(instance_file, file_format, rounding)
-    except RequestError as error:
-        refuse(instance_file, error)
-    if output is None:
-        typer.echo(request)
-    else:
-        output.write_bytes(request)
+@cli.callback()
+def _tandem() -> None:
+    """Plan deliveries for trucks that carry drones."""
 
 
 def main() -> None:
     """Run the command line."""
     collect_seldom()
     cli()
-
-
-def _print_warnings(task: Task) -> None:
-    for warning in task.warnings:
-        typer.echo(f"warning {warning.code} {warning.path}: {warning.message}", err=True)
-
-
-def _print_evaluation(evaluation: Evaluation) -> None:
-    for violation in evaluation.violations:
-        typer.echo(f"{violation.code} {violation.path}: {violation.message}")
-    cost = evaluation.cost
-    for term in (*COST_TERMS, "total"):
-        typer.echo(f"{term:10} {getattr(cost, term):.6f}")
-    typer.echo("feasible" if evaluation.is_feasible else "infeasible")

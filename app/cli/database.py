@@ -15,7 +15,7 @@ from app.settings import Settings
 EXIT_FAILED = 1
 
 database_cli = typer.Typer(help="See and change the version of the database's tables.",
-                           no_args_is_help=True)
+                           no_args_is_help=True, add_completion=False)
 
 
 @database_cli.command()

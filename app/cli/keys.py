@@ -11,7 +11,8 @@ import typer
 from app.access.keys import KeyStore
 from app.cli.database import database, fail
 
-keys_cli = typer.Typer(help="Make, list and revoke API keys.", no_args_is_help=True)
+keys_cli = typer.Typer(help="Make, list and revoke API keys.", no_args_is_help=True,
+                       add_completion=False)
 
 
 class ScopeName(StrEnum):

@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
-from app.cli.roads import roads_of
+from app.cli.opening import roads_of
 from app.errors import RequestError
 from app.pictures.scene import Scene
 from app.requests.plan_reading import parse_plan

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Annotated
 
@@ -11,21 +11,18 @@ from tqdm import tqdm
 
 from app.addresses.index import build_index
 from app.addresses.reading import AddressesError
-from app.addresses.setting import GeocoderSettingError
 from app.cli.file_errors import EXIT_BAD_INPUT
 from app.roads.building import BuildError, Show, build_roads
-from app.roads.opening import opened_roads
-from app.roads.roads import Roads
-from app.roads.setting import Extract, SettingError, Vehicle
+from app.roads.setting import Extract, Vehicle
 from app.roads.tools import ToolsMissingError, find_tools
-from app.settings import Settings
 from app.streets.filing import folder_beside
 from app.streets.reading import StreetsError
 from app.streets.store import build_streets
 
 BAR = "{desc} |{bar}| {percentage:3.0f} % [{elapsed}]"
 
-roads_cli = typer.Typer(help="Prepare roads for plans.", no_args_is_help=True)
+roads_cli = typer.Typer(help="Prepare roads for plans.", no_args_is_help=True,
+                        add_completion=False)
 
 
 @roads_cli.callback()
@@ -70,18 +67,6 @@ def _gather(extract: Path) -> None:
         build_index(extract, [folder_beside(extract)])
     except (AddressesError, OSError) as error:
         typer.echo(f"No addresses are looked up in it: {error}.", err=True)
-
-
-@contextmanager
-def roads_of(settings: Settings) -> Iterator[Roads]:
-    """Yield roads and geocoders that the settings name; say in words what is wrong with them."""
-    with ExitStack() as stack:
-        try:
-            roads = stack.enter_context(opened_roads(settings))
-        except (SettingError, GeocoderSettingError) as error:
-            typer.echo(str(error), err=True)
-            raise typer.Exit(EXIT_BAD_INPUT) from error
-        yield roads
 
 
 @contextmanager

@@ -1,14 +1,19 @@
-"""Runs the service as one process, or several on one port."""
+"""`tandem serve`: runs the service as one process, or several on one port."""
 
 import os
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import Annotated, Any
 
+import typer
 import uvicorn
 from fastapi import FastAPI
 
+from app.access.setup import ExposedError, check_exposure
+from app.cli.file_errors import EXIT_BAD_INPUT
+from app.cli.opening import roads_of
+from app.database.files import FolderError, check_folder
 from app.load.memory import collect_seldom, keep_memory
 from app.load.protocol import HttpProtocol
 from app.main import create_app
@@ -18,6 +23,31 @@ from app.settings import Settings
 
 HEALTHCHECK_SECONDS = 30
 """How long a process may not answer its parent, which then starts another in its place."""
+
+
+def serve(
+    host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
+    port: Annotated[int, typer.Option(help="Port to listen on.", min=0, max=65535)] = 8000,
+    workers: Annotated[int, typer.Option(help="Processes that share the port.", min=1,
+                                         max=256)] = 1,
+) -> None:
+    """Answer planning requests over HTTP."""
+    settings = Settings()
+    try:
+        check_exposure(settings, host)
+    except ExposedError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+    try:
+        if settings.database_url is None or settings.role != "api":
+            check_folder(settings)
+    except FolderError as error:
+        typer.echo(str(error), err=True)
+        raise typer.Exit(EXIT_BAD_INPUT) from error
+    with roads_of(settings):
+        # What is wrong with them is told here, in words and once.
+        pass
+    run_server(settings, host, port, workers)
 
 
 def run_server(settings: Settings, host: str, port: int, workers: int) -> None:

@@ -1,9 +1,10 @@
-"""All settings as a table for people."""
+"""`tandem settings`: all settings as a table for people."""
 
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Literal, get_args, get_origin
 
+import typer
 from pydantic.fields import FieldInfo
 from pydantic_core import to_json
 
@@ -19,6 +20,11 @@ made by `tandem settings`.
 | variable | default | allowed | meaning |
 | --- | --- | --- | --- |
 """
+
+
+def list_settings() -> None:
+    """List all settings, the environment variables that they are read from, as Markdown."""
+    typer.echo(settings_page(), nl=False)
 
 
 def settings_page() -> str:

@@ -35,6 +35,20 @@ def collect_seldom() -> None:
     gc.set_threshold(*COLLECTING)
 
 
+@contextmanager
+def loading() -> Iterator[None]:
+    """Have Python look for no circles while modules are imported, nor among their objects later.
+
+    To look took a third of the time that a command takes to start, and nothing was found.
+    """
+    gc.disable()
+    try:
+        yield
+    finally:
+        gc.freeze()
+        gc.enable()
+
+
 def keep_memory() -> bool:
     """Have the process keep the memory that it frees; tell whether it can.
 
