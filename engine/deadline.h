@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include "guard.h"
 #include "view.h"
 
 namespace tandem {
@@ -12,23 +13,36 @@ namespace tandem {
 // is looked at each time, and the clock, which takes as long as some of these parts, now and then.
 class Deadline {
 public:
-    // What Python writes: not 0 once nobody wants more, at any time and from any thread; and the
-    // last instant in nanoseconds of the steady clock, Python's `time.perf_counter_ns`.
+    // What Python writes (`model.kernel.alarm`): not 0 once nobody wants more, at any time and from
+    // any thread; and the last instant in nanoseconds of the steady clock, Python's
+    // `time.perf_counter_ns`.
     explicit Deadline(View<const std::int64_t, 1> alarm) : alarm_(alarm.data()) {}
 
     // Whether work has to end; from then on it always has.
     bool passed() const {
         if (passed_) return true;
-        if (__atomic_load_n(&alarm_[cancelled], __ATOMIC_RELAXED) != 0) return passed_ = true;
+        if (is_cancelled()) return passed_ = true;
         if (--calls_ > 0) return false;
         calls_ = calls_between_looks;
         return passed_ = now() >= alarm_[last_instant];
     }
 
+    // Ends, by `Ended`, what is of no use but as a whole.
+    void go_on() const {
+        if (passed()) throw Ended{};
+    }
+
+    // The same, but where it is of more use late than never, only if nobody wants it any more.
+    void go_on_late() const {
+        if (is_cancelled()) throw Ended{};
+    }
+
 private:
     static constexpr int cancelled = 0, last_instant = 1;
-    // Of parts that take half a millisecond at most, so that the clock is looked at every 16.
-    static constexpr int calls_between_looks = 32;
+    // Of parts that take a millisecond at most, so that the clock is looked at every 16.
+    static constexpr int calls_between_looks = 16;
+
+    bool is_cancelled() const { return __atomic_load_n(&alarm_[cancelled], __ATOMIC_RELAXED) != 0; }
 
     static std::int64_t now() {
         const auto since = std::chrono::steady_clock::now().time_since_epoch();

@@ -5,7 +5,10 @@
 
 namespace tandem {
 
-enum Code : int { done = 0, out_of_memory = -1, failed = -2 };
+enum Code : int { done = 0, out_of_memory = -1, failed = -2, ended = -3 };
+
+// Thrown by what was told to end before there was anything to show for it.
+struct Ended {};
 
 // Run what may throw; return 0, or what it threw as a code.
 template <class F>
@@ -15,6 +18,8 @@ int guarded(F&& run) {
         return done;
     } catch (const std::bad_alloc&) {
         return out_of_memory;
+    } catch (const Ended&) {
+        return ended;
     } catch (...) {
         return failed;
     }

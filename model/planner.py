@@ -14,7 +14,7 @@ from model.judge.check import Evaluation
 from model.judge.memory import Memory
 from model.kernel.alarm import Alarm
 from model.kernel.instance import Instance, pack
-from model.kernel.pausing import EndedError, Pause, pausing
+from model.kernel.pausing import EndedError, Pause, never, pausing
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rolling import NOTHING
 from model.problem import Problem
@@ -46,7 +46,7 @@ GIVE_UP_SHARE = 0.5
 class Listener(NamedTuple):
     """What a caller may say and hear while a plan is improved."""
 
-    should_stop: Callable[[], bool] = lambda: False
+    should_stop: Callable[[], bool] = never
     on_progress: Callable[[Progress], None] = lambda _: None
 
 
@@ -185,7 +185,7 @@ class Planner:
             if alarm.has_rung:
                 return None
             view = prepare(policy, problem, instance)
-            found = decode(policy, view, config, give_up, alarm.flag)
+            found = decode(policy, view, config, give_up, alarm.setting)
         return None if found is NOTHING else extract(problem, instance, found.actions)
 
 

@@ -836,7 +836,7 @@ typedef struct tandem_world {
     tandem_i64_2d profile_factor;  /* (type, change + 1) */
     tandem_i32_2d near;  /* (node, rank) customers, nearest first, -1 behind the last */
     tandem_i32_2d fit;  /* (node, rank) customers whom a truck would visit before or after */
-    tandem_i64_1d stop;  /* (1,) not 0 once the search must end, as `model.kernel.alarm` says */
+    tandem_i64_1d deadline;  /* (2,) when the search must end, as `model.kernel.alarm` says */
 } tandem_world;
 
 typedef struct tandem_fleet {
@@ -990,10 +990,10 @@ int tandem_candidate_scores(const tandem_step_weights *weights, const tandem_f32
 int tandem_choose(const tandem_f32_1d *scores, double temperature,
                   const tandem_u64_1d *random, int64_t *choice);
 /* Plan by the policy, on so many threads, each with a row of the state behind all others' to try
-   actions on, until a flag tells to give up. */
+   actions on, until an alarm tells to give up. */
 int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *memory,
                     const tandem_scene *scene, const tandem_state *state,
-                    const tandem_courses *courses, const tandem_i64_1d *stop, int64_t threads);
+                    const tandem_courses *courses, const tandem_i64_1d *alarm, int64_t threads);
 
 /* Search: neighbourhood. */
 

@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
+#include "deadline.h"
 #include "guard.h"
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "simulation/simulator.h"
 
 namespace tandem {
@@ -99,23 +99,25 @@ struct Course {
 // Plans one rollout after another, in one thread.
 class Planner {
 public:
-    Planner(const StepWeights& weights, const Scene& scene, State& state, Int scratch)
+    Planner(const StepWeights& weights, const Scene& scene, State& state, Int scratch,
+            const Deadline& deadline)
         : scene_(scene),
           state_(state),
           scratch_(scratch),
+          deadline_(deadline),
           sight_(most_candidates(scene.instance)),
           decider_(weights, most_candidates(scene.instance)) {
         scores_.reserve(in_lanes(most_candidates(scene.instance)));
     }
 
     // Plan a rollout to its end and return how many actions it has.
-    Int plan(const Course& course, Int r, View<const Int, 1> stop) {
+    Int plan(const Course& course, Int r) {
         for (Int index = 0; index < course.kept; ++index) {
             apply(scene_.instance, state_, r, course.actions[index]);
         }
         const Seen seen = sight_.seen();
         for (Int index = course.kept; index < course.actions.size(); ++index) {
-            if (rung(stop)) return given_up;
+            if (deadline_.passed()) return given_up;
             observe(scene_, state_, r, scratch_, seen);
             if (seen.count == 0) return index;
             scores_.assign(in_lanes(seen.count), 0.0F);
@@ -132,6 +134,7 @@ private:
     const Scene& scene_;
     State& state_;
     Int scratch_;
+    Deadline deadline_;
     Sight sight_;
     Decider decider_;
     std::vector<float> scores_;
@@ -179,7 +182,7 @@ Int choose(std::vector<float>& scores, Int count, double temperature,
 }
 
 void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
-              State& state, const Courses& courses, View<const Int, 1> stop, Int threads) {
+              State& state, const Courses& courses, View<const Int, 1> alarm, Int threads) {
     const View<const Int, 1> rows(courses.row), view(courses.view), kept(courses.kept);
     const View<const double, 1> temperature(courses.temperature);
     const View<std::uint64_t, 1> random(courses.random);
@@ -188,11 +191,11 @@ void roll_out(const StepWeights& weights, View<const float, 3> memory, const Sce
     const Int scratch = state.problem.size() - threads;
     std::atomic<Int> next = 0;
     run_on(std::min(threads, rows.size()), [&](Int number) {
-        Planner planner(weights, scene, state, scratch + number);
+        Planner planner(weights, scene, state, scratch + number, Deadline(alarm));
         for (Int i = next++; i < rows.size(); i = next++) {
             const View<std::uint64_t, 1> own(&random[i], {1});
             const Course course{memory[view[i]], temperature[i], own, kept[i], actions[i]};
-            count[i] = planner.plan(course, rows[i], stop);
+            count[i] = planner.plan(course, rows[i]);
         }
     });
 }
@@ -213,12 +216,12 @@ int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_
 
 int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_3d* memory,
                     const tandem_scene* scene, const tandem_state* state,
-                    const tandem_courses* courses, const tandem_i64_1d* stop, int64_t threads) {
+                    const tandem_courses* courses, const tandem_i64_1d* alarm, int64_t threads) {
     return guarded([&] {
         const Instance instance = instance_of(scene->instance);
         const Scales scale = scales_of(scene->scale);
         State running = state_of(*state);
         roll_out(step_weights_of(*weights), *memory, {instance, scale, scene->type_token}, running,
-                 *courses, View<Int, 1>(*stop), threads);
+                 *courses, View<Int, 1>(*alarm), threads);
     });
 }

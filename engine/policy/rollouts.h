@@ -14,10 +14,10 @@ using Courses = tandem_courses;
 Int choose(std::vector<float>& scores, Int count, double temperature,
            View<std::uint64_t, 1> random);
 
-// Plan each rollout, on so many threads, until a flag tells to give up.
+// Plan each rollout, on so many threads, until an alarm tells to give up.
 //
 // Each thread tries actions on a row of its own of the state, behind those of all rollouts.
 void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
-              State& state, const Courses& courses, View<const Int, 1> stop, Int threads);
+              State& state, const Courses& courses, View<const Int, 1> alarm, Int threads);
 
 }  // namespace tandem

@@ -12,13 +12,15 @@ namespace {
 
 // Copies the routes of the whole that a thread owns to the first slots of its part, empties all
 // others, and returns what the routes cost.
-double take_routes(const Searcher& whole, Searcher& part, View<const Int, 1> owner, Int number) {
+double take_routes(const World& world, const Searcher& whole, Searcher& part,
+                   View<const Int, 1> owner, Int number) {
     const Fleet& now = part.now;
     const SearchCounts& count = *part.count;
     double cost = 0.0;
     Int filled = 0;
     for (const Int slot : whole.active.first(whole.count->active)) {
         if (owner[slot] != number) continue;
+        world.deadline.go_on();
         copy_route(whole.now, slot, now, filled, count.lean != 0);
         locate(now, filled);
         cost += now.cost[filled];
@@ -43,7 +45,7 @@ void take_part(const World& world, const Searcher& whole, Searcher& part, View<c
     SearchCounts& count = *part.count;
     ++count.stamp;
     for (Place& place : now.where) place.slot = elsewhere;
-    const double cost = take_routes(whole, part, owner, number);
+    const double cost = take_routes(world, whole, part, owner, number);
     for (Int k = 0; k < world.num_types; ++k) now.used[k] = world.type[k].count - spare[k];
     list_active(part);
     count.changed = all_slots;

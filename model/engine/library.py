@@ -20,13 +20,14 @@ import numpy as np
 
 from model.engine.header import dtype_of, dtype_of_type, header, interface, is_row
 from model.engine.packing import Packed, address_of, number_of, packed
+from model.kernel.pausing import EndedError
 
 __all__ = ["call", "dtype_of", "packed", "path_of_library"]
 
 Convert = Callable[[Any], Any]
 """Makes an argument what cffi takes. Raises a TypeError that names it."""
 
-_ERRORS = {-1: MemoryError, -2: RuntimeError}
+_ERRORS = {-1: MemoryError, -2: RuntimeError, -3: EndedError}
 
 
 def call(name: str, *args: Any) -> Any:
@@ -52,6 +53,8 @@ def call(name: str, *args: Any) -> Any:
         If an argument isn't what the function takes; names its field.
     MemoryError, RuntimeError
         If the function fails.
+    EndedError
+        If nobody wants any more what it was doing.
     """
     function, converts, results = _function(name)
     if len(args) > len(converts):

@@ -1,4 +1,4 @@
-"""A flag that compiled code looks at, raised at a deadline or once a caller wants no more."""
+"""When the engine ends what it does: at a deadline, or once a caller wants no more."""
 
 import math
 import threading
@@ -8,27 +8,33 @@ from types import TracebackType
 
 import numpy as np
 
+from model.kernel.pausing import never
 from model.problem import IntArray
 
-LOOKS = 0.01
+LOOKS = 0.005
 """Seconds between two looks at whether the caller wants no more."""
 
+CANCELLED, LAST_INSTANT = 0, 1
+"""In an alarm's setting, which the engine reads at any time: not 0 once nobody wants more; and the
+last instant, by `time.perf_counter_ns`."""
 
-def silent() -> IntArray:
-    """Return the flag of an alarm that never rings."""
-    return np.zeros(1, np.int64)
+
+def has_rung(setting: IntArray) -> bool:
+    """Tell whether an alarm has rung, by its setting."""
+    return bool(setting[CANCELLED]) or time.perf_counter_ns() >= setting[LAST_INSTANT]
 
 
 class Alarm:
-    """Raises its flag from a thread of its own, while compiled code runs without the interpreter.
+    """Ends what the engine does without the interpreter.
 
-    Compiled code would have to ask the system for the time, and couldn't ask the caller at all;
-    a number in memory costs it nothing that can be measured.
+    The engine looks at the clock itself. It can't ask the caller: a thread does where there is
+    anything to ask, and notes that in the setting.
     """
 
-    def __init__(self, deadline: float, should_stop: Callable[[], bool] = lambda: False) -> None:
+    def __init__(self, deadline: float = math.inf,
+                 should_stop: Callable[[], bool] = never) -> None:
         """Ring at `deadline`, on `time.perf_counter`, or once `should_stop` says so."""
-        self.flag = silent()
+        self.setting = np.array([0, min(deadline * 1e9, 2**63 - 1)], np.int64)
         self._deadline = deadline
         self._should_stop = should_stop
         self._over = threading.Event()
@@ -37,12 +43,15 @@ class Alarm:
     @property
     def has_rung(self) -> bool:
         """Tell whether it has rung."""
-        return bool(self.flag[0])
+        return has_rung(self.setting)
+
+    def sooner(self, deadline: float) -> "Alarm":
+        """Return another that rings when this one does, and at a deadline of its own."""
+        return Alarm(min(deadline, self._deadline), self._should_stop)
 
     def __enter__(self) -> "Alarm":
-        if self._is_time():
-            self.flag[0] = 1
-        else:
+        if self._should_stop is not never:
+            self.setting[CANCELLED] = self._should_stop()
             self._thread.start()
         return self
 
@@ -52,13 +61,6 @@ class Alarm:
         if self._thread.is_alive():
             self._thread.join()
 
-    def _is_time(self) -> bool:
-        return time.perf_counter() >= self._deadline or self._should_stop()
-
     def _watch(self) -> None:
-        left = math.inf
-        while not self._over.wait(max(0.0, min(LOOKS, left))):
-            if self._is_time():
-                self.flag[0] = 1
-                return
-            left = self._deadline - time.perf_counter()
+        while not (self.has_rung or self._over.wait(LOOKS)):
+            self.setting[CANCELLED] = self._should_stop()

@@ -16,6 +16,11 @@ def go_on() -> None:
     """Never end."""
 
 
+def never() -> bool:
+    """Tell that work isn't to end: nobody asks for that."""
+    return False
+
+
 def pausing(should_stop: Callable[[], bool], deadline: float = math.inf,
             patience: float = 0.0) -> Pause:
     """Return what ends work by an `EndedError`, from `patience` seconds on.

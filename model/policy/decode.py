@@ -13,7 +13,7 @@ import numpy as np
 import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
-from model.kernel.alarm import silent
+from model.kernel.alarm import Alarm, has_rung
 from model.kernel.cores import num_cores
 from model.kernel.instance import Instance
 from model.policy.decision_features import Observation, Rollouts, Scene
@@ -128,7 +128,7 @@ def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
 
 
 def decode(policy: Policy, view: View, config: DecodeConfig,
-           deadline: float | None = None, stop: IntArray | None = None) -> Rollout:
+           deadline: float | None = None, alarm: IntArray | None = None) -> Rollout:
     """Plan by the policy; return the cheapest plan by routes of all rollouts.
 
     Parameters
@@ -143,8 +143,8 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
     deadline
         On `time.perf_counter`; no round of samples begins later, but the first block. None: no
         limit.
-    stop
-        Flag of an alarm at which rollouts are given up; `NOTHING` is returned if all are.
+    alarm
+        Setting of an alarm at which rollouts are given up; `NOTHING` is returned if all are.
     """
     if config.num_samples < 1 or config.temperature <= 0:
         raise ValueError(f"num_samples, temperature: {config.num_samples!r}, "
@@ -153,7 +153,7 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
     blocks = sum(map(len, rounds))
     seeds = iter(np.random.SeedSequence(config.seed).spawn(blocks + len(rounds)))
     routes, found = RoutePool(view.scene.instance), NOTHING
-    planning = _Planning(policy, view, deadline, silent() if stop is None else stop)
+    planning = _Planning(policy, view, deadline, Alarm().setting if alarm is None else alarm)
     with ThreadPoolExecutor(min(max(map(len, rounds)), num_cores())) as pool:
         for now in rounds:
             own = [next(seeds) for _ in now]
@@ -161,7 +161,7 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
                 routes.add(rollout.actions)
                 found = min(found, rollout, key=cost_of)
             if blocks > 1:
-                found = routes.improved(found, np.random.default_rng(next(seeds)), planning.stop)
+                found = routes.improved(found, np.random.default_rng(next(seeds)), planning.alarm)
     return found
 
 
@@ -209,8 +209,8 @@ class _Planning:
     """Plans a problem in rounds, from several views."""
 
     def __init__(self, policy: Policy, view: View, deadline: float | None,
-                 stop: IntArray) -> None:
-        self.stop = stop
+                 alarm: IntArray) -> None:
+        self.alarm = alarm
         self._policy = policy
         self._deadline = deadline
         self._views = {0: view}
@@ -226,18 +226,18 @@ class _Planning:
         views = list(pool.map(self._seen_from, (
             block.symmetry for block in blocks if self._is_due(block))))
         return roll_out_views(weights, [view.memory for view in views], self._views[0].scene,
-                              self.stop, num_cores()) if views else []
+                              self.alarm, num_cores()) if views else []
 
     def _plan_block(self, block: _Block, seed: np.random.SeedSequence,
                     so_far: Rollout) -> list[Rollout]:
         if not self._is_due(block):
             return []
         return _decode_block(self._policy, self._seen_from(block.symmetry), block.temperatures,
-                             np.random.default_rng(seed), so_far, self.stop)
+                             np.random.default_rng(seed), so_far, self.alarm)
 
     def _is_due(self, block: _Block) -> bool:
         is_late = self._deadline is not None and time.perf_counter() >= self._deadline
-        return not self.stop[0] and (block.is_first or not is_late)
+        return not has_rung(self.alarm) and (block.is_first or not is_late)
 
     def _seen_from(self, symmetry: int) -> View:
         if symmetry not in self._views:
@@ -249,14 +249,14 @@ class _Planning:
 
 def _decode_block(policy: Policy, view: View, temperatures: list[float],
                   rng: np.random.Generator, so_far: Rollout,
-                  stop: IntArray) -> list[Rollout]:
+                  alarm: IntArray) -> list[Rollout]:
     """Plan a rollout by each temperature.
 
     Those of a policy whose step is in the engine go on from the best so far. An alarm ends them.
     """
     if policy.step_weights is not None:
         return roll_out(policy.step_weights, view.memory, view.scene, temperatures, rng, so_far,
-                        stop)
+                        alarm)
     rows, warmth = len(temperatures), np.array([temperatures], np.float32).T
     rollouts = Rollouts(view.scene, np.zeros(rows, np.int64))
     seen = rollouts.seen
@@ -264,7 +264,7 @@ def _decode_block(policy: Policy, view: View, temperatures: list[float],
     choice = np.zeros(rows, np.int64)
     actions = []
     for _ in range(max_steps(view.scene.instance)):
-        if stop[0]:
+        if has_rung(alarm):
             return []
         most = rollouts.step(choice)
         if most == 0:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from model.kernel.alarm import has_rung
 from model.problem import BoolArray, FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ WHOLE = 1e-6
 
 
 def cheapest_partition(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
-                       known: float, stop: IntArray) -> BoolArray | None:
+                       known: float, alarm: IntArray) -> BoolArray | None:
     """Return which columns to choose, (column,), or None if none are found.
 
     Parameters
@@ -41,10 +42,10 @@ def cheapest_partition(columns: Sequence[IntArray], cost: FloatArray, room: IntA
         (row,) how often each row may be met at most; below zero: it is met just once.
     known
         Cost of a choice that is known, above zero: dearer ones aren't looked for.
-    stop
-        Flag of an alarm at which nothing more is looked for.
+    alarm
+        Setting of an alarm at which nothing more is looked for.
     """
-    chosen = _chosen(columns, cost * (KNOWN / known), room, stop)
+    chosen = _chosen(columns, cost * (KNOWN / known), room, alarm)
     # A solver's word isn't taken for it.
     if chosen is not None:
         rows = [columns[index] for index in np.flatnonzero(chosen).tolist()]
@@ -55,9 +56,9 @@ def cheapest_partition(columns: Sequence[IntArray], cost: FloatArray, room: IntA
 
 
 def _chosen(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
-            stop: IntArray) -> BoolArray | None:
+            alarm: IntArray) -> BoolArray | None:
     relaxed = _program(columns, cost, room, False)
-    share = _solved(relaxed, stop)
+    share = _solved(relaxed, alarm)
     if share is None:
         return None
     chosen: BoolArray = share > 0.5
@@ -66,7 +67,7 @@ def _chosen(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
     gap = KNOWN - relaxed.getInfo().objective_function_value
     open_yet = np.flatnonzero(np.array(relaxed.getSolution().col_dual) <= gap + WHOLE)
     tempting = [columns[index] for index in open_yet.tolist()]
-    share = _solved(_program(tempting, cost[open_yet], room, True), stop)
+    share = _solved(_program(tempting, cost[open_yet], room, True), alarm)
     if share is None:
         return None
     chosen = np.zeros(len(columns), np.bool_)
@@ -106,16 +107,16 @@ def _program(columns: Sequence[IntArray], cost: FloatArray, room: IntArray,
     return solver
 
 
-def _solved(solver: "highspy.Highs", stop: IntArray) -> FloatArray | None:
+def _solved(solver: "highspy.Highs", alarm: IntArray) -> FloatArray | None:
     """Return the solution of a program, (column,), or None if none is found."""
 
     def look(event: "highspy.highs.HighsCallbackEvent") -> None:
-        if stop[0]:
+        if has_rung(alarm):
             event.interrupt()
 
     solver.cbSimplexInterrupt += look
     solver.cbMipInterrupt += look
     solver.run()
-    if stop[0] or solver.getInfo().primal_solution_status != FEASIBLE:
+    if has_rung(alarm) or solver.getInfo().primal_solution_status != FEASIBLE:
         return None
     return np.array(solver.getSolution().col_value)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.engine.library import call, packed
-from model.kernel.alarm import silent
+from model.kernel.alarm import Alarm
 from model.policy.decision_features import (
     NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, Scene,
 )
@@ -132,11 +132,11 @@ class _Planning:
     """Plans of one problem under way."""
 
     def __init__(self, weights: StepWeights, memory: Float32Array, scene: Scene, rows: int,
-                 stop: IntArray | None, num_threads: int = 1) -> None:
+                 alarm: IntArray | None, num_threads: int = 1) -> None:
         self._state = reset(scene.instance, np.zeros(rows, np.int64), num_threads)
         self._most = max_steps(scene.instance)
         self._given = packed(weights), memory, packed(scene), packed(self._state)
-        self._stop = silent() if stop is None else stop
+        self._alarm = Alarm().setting if alarm is None else alarm
         self._num_threads = num_threads
 
     def plan(self, rows: Sequence[int], temperature: float, random: NDArray[np.uint64],
@@ -148,7 +148,7 @@ class _Planning:
         courses = Courses(
             np.array(rows), np.arange(number), np.full(number, float(temperature)),
             random, np.full(number, len(kept)), actions, np.zeros(number, np.int64))
-        call("tandem_roll_out", *self._given, courses, self._stop, self._num_threads)
+        call("tandem_roll_out", *self._given, courses, self._alarm, self._num_threads)
         cost = by_term(self._state.cost[rows]).sum(axis=1)
         return [Rollout(codes[:count].copy(), float(total)) for codes, count, total
                 in zip(actions, courses.count.tolist(), cost, strict=True) if count != GIVEN_UP]
@@ -156,7 +156,7 @@ class _Planning:
 
 def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
              temperatures: Sequence[float], rng: np.random.Generator, so_far: Rollout = NOTHING,
-             stop: IntArray | None = None) -> list[Rollout]:
+             alarm: IntArray | None = None) -> list[Rollout]:
     """Plan a problem several times, one after another; return the plans.
 
     Parameters
@@ -173,11 +173,11 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
         For all others.
     so_far
         What was found before. Rollouts keep a part of the cheapest so far.
-    stop
-        Flag of an alarm at which the rest is given up.
+    alarm
+        Setting of an alarm at which the rest is given up.
     """
     instance = scene.instance
-    planning = _Planning(weights, memory[None], scene, len(temperatures), stop)
+    planning = _Planning(weights, memory[None], scene, len(temperatures), alarm)
     hotter = HOTTER_WITH_DRONES if (instance.type["drones"] > 0).any() else HOTTER
     random = rng.spawn(1)[0].integers(1 << 64, size=1, dtype=np.uint64)
     plans: list[Rollout] = []
@@ -196,7 +196,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
 
 
 def roll_out_views(weights: StepWeights, memories: Sequence[Float32Array], scene: Scene,
-                   stop: IntArray | None = None, num_threads: int = 1) -> list[Rollout]:
+                   alarm: IntArray | None = None, num_threads: int = 1) -> list[Rollout]:
     """Plan a problem greedily from each of some views at the same time; return the plans.
 
     Parameters
@@ -207,13 +207,13 @@ def roll_out_views(weights: StepWeights, memories: Sequence[Float32Array], scene
         By view, (token, memory width) that its encoder made of the problem.
     scene
         The problem, packed alone.
-    stop
-        Flag of an alarm at which all that are not ended are given up.
+    alarm
+        Setting of an alarm at which all that are not ended are given up.
     num_threads
         Of the engine.
     """
     views = len(memories)
-    planning = _Planning(weights, np.stack(memories), scene, views, stop, num_threads)
+    planning = _Planning(weights, np.stack(memories), scene, views, alarm, num_threads)
     return planning.plan(range(views), 0.0, np.zeros(views, np.uint64), NOTHING.actions)
 
 

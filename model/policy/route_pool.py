@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.engine.library import packed
-from model.kernel.alarm import silent
+from model.kernel.alarm import Alarm, has_rung
 from model.kernel.instance import Instance
 from model.policy.partition import cheapest_partition
 from model.policy.keeping import serves, vehicles_nearby
@@ -75,7 +75,7 @@ class RoutePool:
                 self._routes[key] = route
 
     def improved(self, best: Rollout, rng: np.random.Generator,
-                 stop: IntArray | None = None) -> Rollout:
+                 alarm: IntArray | None = None) -> Rollout:
         """Return the cheapest plan that is found by the routes seen, at most as dear as `best`.
 
         Parameters
@@ -84,15 +84,15 @@ class RoutePool:
             A plan whose routes were added.
         rng
             Draws the customers near whom routes are chosen anew where there are more than `REGION`.
-        stop
-            Flag of an alarm at which the best so far is returned.
+        alarm
+            Setting of an alarm at which the best so far is returned.
         """
-        flag = silent() if stop is None else stop
+        alarm = Alarm().setting if alarm is None else alarm
         self._forget(best)
         for _ in range(-(-int(self._instance.size[0].customers) // REGION)):
-            if flag[0] or len(best.actions) == 0:
+            if has_rung(alarm) or len(best.actions) == 0:
                 break
-            best = self._improved_near(best, rng, flag)
+            best = self._improved_near(best, rng, alarm)
         return best
 
     def _forget(self, best: Rollout) -> None:
@@ -102,7 +102,7 @@ class RoutePool:
             self._routes, self._by_actions = dict(newer), {}
             self.add(best.actions)
 
-    def _improved_near(self, best: Rollout, rng: np.random.Generator, stop: IntArray) -> Rollout:
+    def _improved_near(self, best: Rollout, rng: np.random.Generator, alarm: IntArray) -> Rollout:
         routes = [self._routes[self._by_actions[codes.tobytes()]]
                   for codes in _split(best.actions)]
         anew, customers = np.zeros(len(routes), np.bool_), 0
@@ -113,7 +113,7 @@ class RoutePool:
             anew[vehicle] = True
         kept = [route for route, is_anew in zip(routes, anew.tolist(), strict=True) if not is_anew]
         old = [route for route, is_anew in zip(routes, anew.tolist(), strict=True) if is_anew]
-        chosen = self._cheapest(kept, old, stop)
+        chosen = self._cheapest(kept, old, alarm)
         if chosen is None:
             return best
         plan = [*kept, *chosen]
@@ -123,7 +123,7 @@ class RoutePool:
         return Rollout(np.concatenate([NOTHING.actions, *(route.actions for route in plan)]), cost)
 
     def _cheapest(self, kept: Sequence[Route], old: Sequence[Route],
-                  stop: IntArray) -> list[Route] | None:
+                  alarm: IntArray) -> list[Route] | None:
         """Return the cheapest routes in the place of old ones beside those kept; None if none."""
         may_serve = ~_served(self._instance, kept)
         left_out = may_serve & ~_served(self._instance, old)
@@ -140,7 +140,7 @@ class RoutePool:
         if known <= 0.0:
             return None
         chosen = cheapest_partition(columns, price, np.append(np.full(len(nodes), -1), room),
-                                    known, stop)
+                                    known, alarm)
         if chosen is None:
             return None
         return [routes[index] for index in np.flatnonzero(chosen[:len(routes)]).tolist()]

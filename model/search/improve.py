@@ -4,13 +4,14 @@ import math
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from model.kernel.alarm import Alarm
 from model.kernel.instance import Instance
-from model.kernel.pausing import EndedError, pausing
+from model.kernel.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
@@ -165,7 +166,7 @@ class _Team:
 
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
-            deadline: float | None = None, should_stop: Callable[[], bool] = lambda: False,
+            deadline: float | None = None, should_stop: Callable[[], bool] = never,
             on_progress: Callable[[Progress], None] = lambda _: None,
             reading: Reading = lambda routes, sorties: 0.0) -> Improved:
     """Search for a better plan than the one given.
@@ -184,7 +185,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     deadline
         On `time.perf_counter`; None: no limit.
     should_stop
-        Asked every few milliseconds, from several threads.
+        Asked every few milliseconds, from several threads, and between rounds.
     on_progress
         Told of the best routes so far, `ROUNDS` times or each `LONGEST_ROUND`.
     reading
@@ -206,21 +207,22 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     began, end = time.perf_counter(), math.inf if deadline is None else deadline
     # Where no routes are given, a late plan is better than none.
     latest = end if solution.routes else math.inf
+    found = Improved(solution, math.inf, 0.0, 0, False)
     try:
         ground = lay_ground(problem, instance, pausing(should_stop, latest, GRACE), along=True)
+        with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
+            limits = Limits(began, end,
+                            None if config.turns is None else config.turns // config.threads,
+                            lambda: alarm.has_rung or should_stop())
+            task = _Task(problem, instance, ground, config, limits, alarm, reading)
+            trucks_first = not solution.routes and _trucks_come_first(problem, config.moves)
+            if trucks_first:
+                found = _plan_by_truck(task)
+                if alarm.has_rung:
+                    return found
+            return _improved(task, found.solution, trucks_first, on_progress)
     except EndedError:
-        return Improved(solution, math.inf, 0.0, 0, False)
-    with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
-        limits = Limits(began, end,
-                         None if config.turns is None else config.turns // config.threads,
-                         lambda: alarm.has_rung or should_stop())
-        task = _Task(problem, instance, ground, config, limits, alarm, reading)
-        if not solution.routes and _trucks_come_first(problem, config.moves):
-            by_truck = _plan_by_truck(task)
-            if alarm.has_rung:
-                return by_truck
-            return _improved(task, by_truck.solution, True, on_progress)
-        return _improved(task, solution, False, on_progress)
+        return found
 
 
 @dataclass(frozen=True)
@@ -240,14 +242,14 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
               on_progress: Callable[[Progress], None]) -> Improved:
     """Search for a better plan than the one given, which trucks alone made if `from_trucks`."""
     problem, config, limits = task.problem, task.config, task.limits
-    world = make_world(problem, task.instance, config.moves, task.ground, task.alarm.flag)
+    world = make_world(problem, task.instance, config.moves, task.ground, task.alarm.setting)
     numbering, fresh = task.ground.numbering, not solution.routes
     plan = (first_plan(problem, world) if fresh
             else renumbered(solution, numbering.number.tolist().__getitem__))
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, world, plan, seeds[0])
     is_large = problem.num_customers >= LARGE_FROM
-    _begin(world, whole, fresh, fresh and bool(plan.routes), limits, is_large)
+    _begin(world, whole, fresh, fresh and bool(plan.routes), task)
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(world, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
@@ -265,7 +267,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
         on_progress(Progress(float(whole.value.best), turns, best))
 
     crew = Crew(world, problem.coordinates[numbering.node], whole, seeds[1:])
-    with ThreadPoolExecutor(config.threads) as pool:
+    with ThreadPoolExecutor(config.threads) as pool, suppress(EndedError):
         _search(_Team(whole, workers, limits, pool, after_round), world, crew, seeds[1:])
     return Improved(best(), float(whole.value.best), first_cost,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
@@ -287,20 +289,20 @@ def _size(whole: Searcher) -> tuple[int, int]:
     return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
-def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, limits: Limits,
-           is_large: bool) -> None:
+def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, task: _Task) -> None:
     """Insert the customers left out; if nothing was given, plan all anew where that is better.
 
     In place. `by_savings`: what there is was made so. Where the clock ends the search, it ends
     other beginnings early, once there is one.
     """
-    deadline = math.inf
+    limits, deadline = task.limits, math.inf
+    is_large = task.problem.num_customers >= LARGE_FROM
     if limits.turns is None:
         deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
     # Savings are far better than insertion there, which in large problems takes its time.
     is_best = by_savings and is_large and only_loads_limit(world)
-    with Alarm(deadline, limits.should_stop) as alarm:
-        hurried = world._replace(stop=alarm.flag)
+    with task.alarm.sooner(deadline) as alarm:
+        hurried = world._replace(deadline=alarm.setting)
         begin_anew(world, whole, fresh and not is_best, hurried)
         if fresh and world.mixed and not by_savings:
             _begin_by_types(hurried, whole, limits,

@@ -2,9 +2,11 @@
 
 import math
 import time
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from model.engine.packing import Packed, packed
+from model.kernel.pausing import EndedError
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
@@ -63,10 +65,13 @@ class Worker:
         most, end = self.limits.round_end(self.turns, self.span)
         self.given = packed(self.world), packed(self.searcher)
         self.tied = None if self.linked is None else packed(self.linked)
-        if self.tied is not None:
+        if self.tied is None:
+            self._search(most, end)
+            return
+        # Where there is no time to tie routes, they are written.
+        with suppress(EndedError):
             tie(*self.given, self.tied)
-        self._search(most, end)
-        if self.tied is not None:
+            self._search(most, end)
             write_back(*self.given, self.tied)
 
     def _search(self, most: float, end: float) -> None:

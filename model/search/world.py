@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from model.kernel.alarm import silent
+from model.kernel.alarm import Alarm
 from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance
 from model.kernel.leg import LEG_DURATION, ComputedLegs, are_the_same_back
-from model.kernel.records import Record, Records
+from model.kernel.records import Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem,
 )
@@ -58,10 +58,11 @@ ALL_MOVES = Moves()
 
 
 def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
-               ground: Ground | None = None, stop: Record | None = None) -> World:
+               ground: Ground | None = None, deadline: IntArray | None = None) -> World:
     """Lay out a problem for the search.
 
-    `ground` is that of the same problem, if it is there already; `stop` an alarm's flag.
+    `ground` is that of the same problem, if it is there already; `deadline` an alarm's
+    setting.
     """
     ground = lay_ground(problem, instance) if ground is None else ground
     instance = renumbered(instance, ground.numbering)
@@ -100,7 +101,8 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, splice=_splices(problem, swap), leg=ground.leg, back=ground.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
-        near=ground.near, fit=ground.fit, stop=silent() if stop is None else stop,
+        near=ground.near, fit=ground.fit,
+        deadline=Alarm().setting if deadline is None else deadline,
     )
 
 

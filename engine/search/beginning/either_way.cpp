@@ -51,6 +51,7 @@ void join_either_way(const World& world, Int k, Int ranks, View<const Int, 1> ke
         set_up_cargo(world, node, cargo[node]);
     }
     for (const Int key : keys) {
+        world.deadline.go_on_late();
         const auto [a, b] = pair(world, ranks, key);
         if (is_amid(chain[a]) || is_amid(chain[b])) continue;
         const Int one = route_of(chain, a);

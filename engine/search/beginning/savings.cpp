@@ -154,6 +154,7 @@ void write_excess(const World& world, Int k, Int ranks, View<Int, 1> excess) {
     const double speed = speed_of(world, type);
     std::fill(excess.begin(), excess.end(), 0);
     for (Int a = world.num_depots; a < world.num_nodes; ++a) {
+        world.deadline.go_on_late();
         if (!world.can(k, 0, a)) continue;
         const Int to_end = leg(legs, a, type.ends_at).distance;
         const Int leaves = end_of_service(places[a], 0);
@@ -223,6 +224,7 @@ void join(const World& world, Int k, Int ranks, View<const Int, 1> keys, View<Ch
         set_up_cargo(world, node, cargo[node]);
     }
     for (const Int key : keys) {
+        world.deadline.go_on_late();
         const auto [a, b] = pair(world, ranks, key);
         const Int way = leg(chains.legs, a, b).duration;
         if (chain[a].behind != nowhere || chain[b].before != nowhere ||

@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "guard.h"
-#include "rules/alarm.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/window.h"
@@ -22,7 +21,7 @@ void alone_costs(const World& world, Fleet& fleet, BlockSums& acc, const View<do
     for (Int k = 0; k < world.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
             for (Int node = world.num_depots; node < world.num_nodes; ++node) {
-                if (world.can(k, by_drone, node) && !rung(world.stop) &&
+                if (world.can(k, by_drone, node) && !world.deadline.passed() &&
                     serve_alone(world, fleet, slot, k, node, by_drone == 1, acc)) {
                     alone(k, by_drone, node) = fleet.cost[slot];
                 }
@@ -37,6 +36,7 @@ void begin(const World& world, Searcher& searcher, Int num_routes) {
     for (Int node = 0; node < world.num_nodes; ++node) now.where[node].slot = nowhere;
     double cost = 0.0;
     for (Int slot = 0; slot < num_routes; ++slot) {
+        world.deadline.go_on_late();
         Route& route = now.route[slot];
         if (refresh(world, now, slot, *searcher.acc)) {
             ++now.used[route.type];

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
@@ -362,7 +361,7 @@ void take_cheapest(const World& world, const Searcher& searcher, Int node) {
     const View<double, 1> least = searcher.least;
     Int left = searcher.count->offers;
     Least cheapest(least, left);
-    while (left > 0 && !rung(world.stop)) {
+    while (left > 0 && !world.deadline.passed()) {
         const Int first = cheapest.first();
         if (least[first] >= bound.best) break;
         const double cost = price_offer(world, searcher, offer[first], node, least[first]);

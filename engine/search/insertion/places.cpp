@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "rules/flight.h"
 #include "rules/shift.h"
 #include "rules/window.h"
@@ -90,7 +89,7 @@ void try_routes(const World& world, const Searcher& searcher, Int node, bool enl
             const Route& route = now.route[slot];
             const bool flies = world.can(route.type, 1, node);
             if (!flies && !world.can(route.type, 0, node)) continue;
-            if (rung(world.stop)) return;
+            if (world.deadline.passed()) return;
             const bool known = world.keeps && !enlarge && route.stamp != changing;
             if (known && is_kept(searcher, slot, node)) {
                 if (!costly) take_kept(searcher, slot, node);
@@ -179,7 +178,7 @@ double try_trips(const World& world, const Searcher& searcher, Int node, Int num
     for (Int index = first; index < first + std::min(number, active); ++index) {
         const Int slot = searcher.active[index < active ? index : index - active];
         const Int k = now.route[slot].type;
-        if (now.route[slot].trips >= world.type[k].max_trips || rung(world.stop) ||
+        if (now.route[slot].trips >= world.type[k].max_trips || world.deadline.passed() ||
             !goods_may_follow(world, now, slot, node)) {
             continue;
         }

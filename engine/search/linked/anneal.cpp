@@ -6,7 +6,6 @@
 
 #include "guard.h"
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "search/linked/chain.h"
 #include "search/linked/insertion.h"
 #include "search/linked/retype.h"
@@ -100,7 +99,7 @@ bool ruin_and_recreate(const World& world, Searcher& searcher, Linked& linked) {
             limit - (value.cost - saved - left_out + left_out_cost(world, searcher.absent, first));
     }
     auto [done, added] = recreate_linked(world, searcher, linked, first, spare);
-    if (rung(world.stop)) {
+    if (world.deadline.passed()) {
         take_back(world, searcher, linked);
         --count.turn;
         return false;

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
@@ -159,7 +158,7 @@ public:
     // Tries a customer on all routes with room.
     void try_everywhere() {
         for (const Int slot : searcher_.active.first(searcher_.count->active)) {
-            if (rung(world_.stop)) break;
+            if (world_.deadline.passed()) break;
             Joining joins;
             if (!may_join(slot, joins)) continue;
             try_ends(joins);
@@ -356,7 +355,7 @@ Recreated recreate_linked(const World& world, Searcher& searcher, Linked& linked
     Int left = first;
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
-        if (rung(world.stop)) return {false, total};
+        if (world.deadline.passed()) return {false, total};
         const Newcomer newcomer = newcomer_at(world, m, node, enlarge);
         const bool opens = opening && index == first;
         const double cost = find_linked(world, searcher, linked, newcomer, opens);

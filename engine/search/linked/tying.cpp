@@ -108,6 +108,7 @@ void clear_route(Fleet& fleet, Int slot, Int stamp) {
 void measure_near(const World& world, Linked& linked) {
     const Int m = world.type[0].travel;
     for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+        world.deadline.go_on_late();
         const LegRow inward = legs_to(world.back, m, node);
         const LegRow onward = legs_from(world.leg, m, node);
         for (Int rank = 0; rank < world.fit.shape(1); ++rank) {
@@ -124,6 +125,7 @@ void tie(const World& world, Searcher& searcher, Linked& linked) {
         linked.link[node].slot = searcher.now.where[node].slot;
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
+        world.deadline.go_on();
         if (searcher.now.route[slot].length > 0) link_route(world, linked, searcher.now, slot);
         linked.best_first[slot] = nowhere;
         if (searcher.best.route[slot].length > 0) link_best(linked, searcher.best, slot);

@@ -7,7 +7,6 @@
 
 #include "guard.h"
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "search/moves/recreate.h"
 #include "search/moves/resplit.h"
 #include "search/moves/retype.h"
@@ -131,7 +130,7 @@ bool take_turn(const World& world, Searcher& searcher) {
         spare = limit - cost_to_insert(world, searcher, first);
     }
     const bool done = recreate(world, searcher, first, looks_everywhere(world, false), spare);
-    if (rung(world.stop)) {
+    if (world.deadline.passed()) {
         undo(searcher);
         --count.turn;
         return false;
@@ -240,7 +239,7 @@ void anneal(const World& world, Searcher& searcher, Int turns, Int order) {
             if (!take_turn(world, searcher)) return;
             const Int parts = world.single_drones ? 1 + resplits : 1;
             for (Int part = 0; part < parts; ++part) {
-                if ((part > 0 || world.tails) && !rung(world.stop)) {
+                if ((part > 0 || world.tails) && !world.deadline.passed()) {
                     move_parts(world, searcher, part == 0);
                 }
             }

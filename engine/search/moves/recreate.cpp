@@ -4,7 +4,6 @@
 #include <array>
 
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
@@ -143,7 +142,7 @@ bool recreate(const World& world, const Searcher& searcher, Int first, bool scan
     Int left = first;
     for (Int index = first; index < count.absent; ++index) {
         const Int node = absent[index];
-        if (rung(world.stop)) {
+        if (world.deadline.passed()) {
             absent[left++] = node;
             continue;
         }

@@ -1,7 +1,6 @@
 #include "search/moves/retype.h"
 
 #include "randomness.h"
-#include "rules/alarm.h"
 #include "rules/drone_types.h"
 #include "search/route/halts.h"
 #include "search/route/refresh.h"
@@ -118,7 +117,7 @@ void cheapen_types(const World& world, Searcher& searcher) {
     for (Int slot : searcher.touched.first(searcher.count->touched)) {
         if (searcher.now.route[slot].length == 0) continue;
         for (Int k = 0; k < world.num_types; ++k) {
-            if (rung(world.stop)) return;
+            if (world.deadline.passed()) return;
             give_type(world, searcher, slot, k, true);
         }
     }

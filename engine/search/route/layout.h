@@ -12,6 +12,7 @@
 // `docs/search.md` derives what is made of them under "Times on a route".
 #pragma once
 
+#include "deadline.h"
 #include "problem/instance.h"
 
 namespace tandem {
@@ -108,9 +109,8 @@ struct World {
     View<const std::int64_t, 2> profile_factor;  // (type, change + 1)
     View<const std::int32_t, 2> near;  // (node, rank) customers, nearest first, -1 behind the last
     View<const std::int32_t, 2>
-        fit;  // (node, rank) customers whom a truck would visit before or after
-    View<const std::int64_t, 1>
-        stop;  // (1,) not 0 once the search must end, as `model.kernel.alarm` says
+        fit;            // (node, rank) customers whom a truck would visit before or after
+    Deadline deadline;  // of the thread whose world it is
 };
 
 inline World world_of(const tandem_world& from) {
@@ -154,7 +154,7 @@ inline World world_of(const tandem_world& from) {
             from.profile_factor,
             from.near,
             from.fit,
-            from.stop};
+            Deadline(from.deadline)};
 }
 
 struct Fleet {

@@ -3,6 +3,7 @@
 import math
 
 from model.engine.library import call
+from model.kernel.alarm import has_rung
 from model.search.route.engine import BY_FAR, BY_WIDTH, anneal, go_back, missing_cost
 from model.search.route.layout import World
 from model.search.route.state import Searcher
@@ -33,7 +34,7 @@ def begin_anew(world: World, searcher: Searcher, freely: bool,
         insert_missing(world, searcher, BY_FAR)
     if hurried is None or world.optional:
         hurried = world
-    if freely and hurried.stop[0] == 0:
+    if freely and not has_rung(hurried.deadline):
         _construct(hurried, searcher)
 
 

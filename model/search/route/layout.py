@@ -86,7 +86,7 @@ class World(NamedTuple):
     profile_factor: IntArray  # (type, change + 1)
     near: Int32Array  # (node, rank) customers, nearest first, -1 behind the last
     fit: Int32Array  # (node, rank) customers whom a truck would visit before or after
-    stop: IntArray  # (1,) not 0 once the search must end, as `model.kernel.alarm` says
+    deadline: IntArray  # (2,) when the search must end, as `model.kernel.alarm` says
 
 
 class Fleet(NamedTuple):

@@ -1,4 +1,4 @@
-"""A flag raised while compiled code runs, and what ends at it."""
+"""Alarms that ring while the engine runs, and what ends at them."""
 
 import math
 import threading
@@ -9,12 +9,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.engine.library import call
 from model.judge.check import check
-from model.kernel.alarm import Alarm, silent
+from model.kernel.alarm import CANCELLED, Alarm
 from model.kernel.instance import pack
-from model.problem import FULL_SPEED, Problem, SpeedProfile
+from model.kernel.pausing import EndedError
+from model.problem import FULL_SPEED, IntArray, Problem, SpeedProfile
 from model.search.beginning.construct import begin_anew, insert_missing
 from model.search.beginning.translate import make_searcher
+from model.search.first_plan import first_plan
 from model.search.improve import Improved, SearchConfig, improve
 from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.state import Searcher
@@ -27,6 +30,14 @@ from training.instances import generate
 MOST_SECONDS = 1.0
 """On the processor, until a search of some turns has ended that is told to."""
 
+MOST_LATE = 0.02
+"""Seconds after which whatever the engine does has ended that is told to."""
+
+TRIES = 5
+"""Of which the soonest counts, since other processes take their time as well."""
+
+VARIANTS = ("cvrp", "soft", "drone", "mixed", "multitrip")
+
 NEVER = 10**9
 """Turns that no search makes in that time."""
 
@@ -37,12 +48,33 @@ def problem_of(variant: str, num_customers: int = 60) -> Problem:
 
 
 def begun(problem: Problem) -> tuple[Searcher, np.ndarray]:
-    """Return a search that has begun, and the flag that it looks at."""
-    flag = silent()
-    world = make_world(problem, pack([problem]), stop=flag)
+    """Return a search that has begun, and the setting of the alarm that ends it."""
+    setting = Alarm().setting
+    world = make_world(problem, pack([problem]), deadline=setting)
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
     begin_anew(world, searcher, True)
-    return searcher, flag
+    return searcher, setting
+
+
+def late_after_cancelling(setting: IntArray, wait: float, work: Callable[[], object]) -> float:
+    """Return how many seconds after another thread cancels it work ends, at best."""
+    late = []
+    for _ in range(TRIES):
+        setting[CANCELLED] = 0
+        cancelled: list[float] = []
+
+        def cancel(at: list[float] = cancelled) -> None:
+            at.append(time.perf_counter())
+            setting[CANCELLED] = 1
+
+        timer = threading.Timer(wait, cancel)
+        timer.start()
+        work()
+        ended = time.perf_counter()
+        timer.join()
+        late.append(ended - cancelled[0])
+    assert min(late) > 0.0  # it had not ended by itself
+    return min(late)
 
 
 def test_rings_at_its_deadline_and_not_before() -> None:
@@ -67,15 +99,80 @@ def test_rings_once_the_caller_wants_no_more() -> None:
         soon(lambda: alarm.has_rung)
 
 
-@pytest.mark.parametrize("variant", ["cvrp", "soft", "drone", "mixed", "multitrip"])
-def test_turns_end_while_compiled_code_runs(variant: str) -> None:
+def test_another_alarm_rings_sooner_and_never_later() -> None:
+    with Alarm(math.inf).sooner(time.perf_counter()) as alarm:
+        assert alarm.has_rung
+    with Alarm(time.perf_counter()).sooner(math.inf) as alarm:
+        assert alarm.has_rung
+    with Alarm(math.inf, lambda: True).sooner(math.inf) as alarm:
+        assert alarm.has_rung
+
+
+def test_no_thread_asks_where_nobody_answers() -> None:
+    before = threading.active_count()
+    with Alarm(time.perf_counter() + 60.0):
+        assert threading.active_count() == before
+    with Alarm(math.inf, lambda: False):
+        assert threading.active_count() == before + 1
+    assert threading.active_count() == before
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_the_engine_ends_turns_by_its_own_clock(variant: str) -> None:
+    problem = problem_of(variant)
+    searcher, _ = begun(problem)
+
+    def late() -> float:
+        deadline = time.perf_counter() + 0.02
+        world = make_world(problem, pack([problem]), deadline=Alarm(deadline).setting)
+        anneal(world, searcher, NEVER, ANY)
+        return time.perf_counter() - deadline
+
+    assert 0.0 <= min(late() for _ in range(TRIES)) < MOST_LATE
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_turns_end_soon_after_another_thread_cancels(variant: str) -> None:
+    problem = problem_of(variant)
+    searcher, setting = begun(problem)
+    world = make_world(problem, pack([problem]), deadline=setting)
+    assert late_after_cancelling(
+        setting, 0.02, lambda: anneal(world, searcher, NEVER, ANY)) < MOST_LATE
+
+
+def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
+        endless: Problem) -> None:
+    setting = Alarm().setting
+    world = make_world(endless, pack([endless], legs=False), deadline=setting)
+    searcher = make_searcher(endless, world, Solution((), ()), np.random.SeedSequence(0))
+
+    def insert() -> None:
+        call("tandem_disband", searcher)
+        insert_missing(world, searcher, BY_FAR)
+
+    assert late_after_cancelling(setting, 0.2, insert) < MOST_LATE
+    assert searcher.count.missing > 0
+
+
+def test_a_first_plan_is_given_up_if_nobody_wants_it_and_made_however_late() -> None:
+    problem = problem_of("cvrp", 2500)
+    instance = pack([problem], legs=False)
+    late = make_world(problem, instance, deadline=Alarm(0.0).setting)
+    assert len(first_plan(problem, late).routes) > 0
+    late.deadline[CANCELLED] = 1
+    with pytest.raises(EndedError):
+        first_plan(problem, late)
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_turns_end_while_the_engine_runs(variant: str) -> None:
     problem = problem_of(variant)
     world = make_world(problem, pack([problem]))
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
     begin_anew(world, searcher, True)
     began = time.thread_time()
     with Alarm(math.inf, lambda: bool(searcher.count.turn > 0)) as alarm:
-        anneal(world._replace(stop=alarm.flag), searcher, NEVER, ANY)
+        anneal(world._replace(deadline=alarm.setting), searcher, NEVER, ANY)
     assert time.thread_time() - began < MOST_SECONDS
     assert 0 < searcher.count.turn < NEVER
     assert check(problem, read_plan(world, searcher)).violations == ()
@@ -84,11 +181,11 @@ def test_turns_end_while_compiled_code_runs(variant: str) -> None:
 @pytest.mark.parametrize("variant", ["cvrp", "drone", "mixed"])
 def test_nothing_changes_after_the_alarm(variant: str) -> None:
     problem = problem_of(variant)
-    searcher, flag = begun(problem)
-    world = make_world(problem, pack([problem]), stop=flag)
+    searcher, setting = begun(problem)
+    world = make_world(problem, pack([problem]), deadline=setting)
     anneal(world, searcher, 50, ANY)
     turns, costs = int(searcher.count.turn), searcher.value.copy()
-    flag[0] = 1
+    setting[CANCELLED] = 1
     anneal(world, searcher, 50, ANY)
     assert searcher.count.turn == turns
     assert (searcher.value.cost, searcher.value.best) == (costs.cost, costs.best)
@@ -96,29 +193,28 @@ def test_nothing_changes_after_the_alarm(variant: str) -> None:
 
 def test_an_insertion_of_all_leaves_out_whom_there_is_no_time_for() -> None:
     problem = problem_of("vrptw")
-    flag = silent()
-    world = make_world(problem, pack([problem]), stop=flag)
+    setting = Alarm().setting
+    world = make_world(problem, pack([problem]), deadline=setting)
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
-    flag[0] = 1
+    setting[CANCELLED] = 1
     insert_missing(world, searcher, BY_FAR)
     nobody = read_plan(world, searcher)
     assert nobody.routes == ()
     assert len(nobody.unassigned) == problem.num_customers
-    flag[0] = 0
+    setting[CANCELLED] = 0
     insert_missing(world, searcher, BY_FAR)
     assert read_plan(world, searcher).unassigned == ()
 
 
-@pytest.mark.parametrize("has_rung", [False, True])
-def test_no_other_plan_is_begun_once_there_is_no_time(has_rung: bool) -> None:
+@pytest.mark.parametrize("rings", [False, True])
+def test_no_other_plan_is_begun_once_there_is_no_time(rings: bool) -> None:
     problem = problem_of("vrptw")
     world = make_world(problem, pack([problem]))
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
-    flag = silent()
-    flag[0] = has_rung
-    begin_anew(world, searcher, True, world._replace(stop=flag))
+    alarm = Alarm(0.0 if rings else math.inf)
+    begin_anew(world, searcher, True, world._replace(deadline=alarm.setting))
     assert read_plan(world, searcher).unassigned == ()
-    assert (searcher.count.turn == 1) == has_rung
+    assert (searcher.count.turn == 1) == rings
 
 
 def test_a_plan_for_few_is_begun_however_late_where_nobody_has_to_be_served() -> None:
@@ -127,9 +223,7 @@ def test_a_plan_for_few_is_begun_however_late_where_nobody_has_to_be_served() ->
     world = make_world(problem, pack([problem]))
     searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
     searcher.value.best = math.inf  # as if there were a dear plan for all
-    flag = silent()
-    flag[0] = 1
-    begin_anew(world, searcher, True, world._replace(stop=flag))
+    begin_anew(world, searcher, True, world._replace(deadline=Alarm(0.0).setting))
     assert searcher.count.turn > 1
 
 

@@ -208,7 +208,7 @@ def test_symmetries_show_the_same_plane_in_eight_ways(policy: Policy, problem: P
 @pytest.mark.parametrize("config", [DecodeConfig(), DecodeConfig("sample", 3 * BLOCK)])
 def test_rollouts_end_at_an_alarm(policy: Policy, problem: Problem, config: DecodeConfig) -> None:
     scene = prepare(policy, problem, pack([problem]))
-    assert decode(policy, scene, config, stop=np.ones(1, np.int64)) is NOTHING
+    assert decode(policy, scene, config, alarm=Alarm(0.0).setting) is NOTHING
 
 
 def test_rollouts_go_on_until_an_alarm(policy: Policy) -> None:
@@ -217,5 +217,5 @@ def test_rollouts_go_on_until_an_alarm(policy: Policy) -> None:
     decode(policy, scene, DecodeConfig())
     began = time.thread_time()
     with Alarm(time.perf_counter() + 0.1) as alarm:
-        decode(policy, scene, DecodeConfig("sample", 100_000), stop=alarm.flag)
+        decode(policy, scene, DecodeConfig("sample", 100_000), alarm=alarm.setting)
     assert time.thread_time() - began < 2.0

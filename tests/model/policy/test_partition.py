@@ -3,10 +3,11 @@
 import numpy as np
 import pytest
 
+from model.kernel.alarm import Alarm
 from model.policy.partition import cheapest_partition
 from model.problem import FloatArray, IntArray
 
-SILENT, RUNG = np.zeros(1, np.int64), np.ones(1, np.int64)
+SILENT, RUNG = Alarm().setting, Alarm(0.0).setting
 
 
 def cheapest(columns: list[IntArray], cost: FloatArray, room: IntArray) -> float:

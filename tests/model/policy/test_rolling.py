@@ -5,6 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from model.kernel.alarm import Alarm
 from model.kernel.instance import pack
 from model.policy.decode import Policy, View, encode, load_policy, prepare
 from model.policy.rolling import roll_out, roll_out_views
@@ -39,5 +40,5 @@ def test_views_are_planned_as_each_alone_on_any_number_of_threads(policy: Policy
 
 def test_views_are_given_up_at_an_alarm(policy: Policy, view: View) -> None:
     assert policy.step_weights is not None
-    rung = np.ones(1, np.int64)
+    rung = Alarm(0.0).setting
     assert not roll_out_views(policy.step_weights, [view.memory] * 3, view.scene, rung, 2)

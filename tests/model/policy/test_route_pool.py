@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
+from model.kernel.alarm import Alarm
 from model.kernel.instance import pack
 from model.policy import route_pool
 from model.policy.route_pool import RoutePool
@@ -120,7 +121,7 @@ def test_the_best_so_far_is_kept_after_an_alarm() -> None:
     plans = rolled(problem, 3)
     for plan in plans:
         pool.add(plan.actions)
-    assert pool.improved(plans[0], np.random.default_rng(0), np.ones(1, np.int64)) is plans[0]
+    assert pool.improved(plans[0], np.random.default_rng(0), Alarm(0.0).setting) is plans[0]
 
 
 def test_nobody_is_served_where_that_costs_less() -> None:
