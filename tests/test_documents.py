@@ -15,6 +15,7 @@ PAST = ("CHANGELOG.md",)
 """Tell what there was, too."""
 
 NAMED = re.compile(rf"`((?:{'|'.join(FOLDERS)})/[^`\s]*)`")
+LINK = re.compile(r"\]\(([^)\s]+)\)")
 ENDINGS = ("", ".py", ".h", ".cpp")
 """Which may be left out."""
 
@@ -36,6 +37,35 @@ def is_there(named: str) -> bool:
 def missing(text: str) -> list[str]:
     """Return the paths in backticks that lead nowhere."""
     return [named for named in NAMED.findall(text) if not is_there(named)]
+
+
+def headings(page: Path) -> set[str]:
+    """Return the headings of a page as links name them."""
+    titles = re.findall(r"^#+ +(.+)$", page.read_text("utf-8"), re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", title.lower()).replace(" ", "-") for title in titles}
+
+
+def broken_links(page: Path) -> list[str]:
+    """Return the links of a page that lead to no file or heading of the project."""
+    broken = []
+    for link in LINK.findall(page.read_text("utf-8")):
+        name, _, heading = link.partition("#")
+        target = page.parent / name if name else page
+        if not link.startswith(("http:", "https:")) and not (
+                target.exists() and (not heading or heading in headings(target))):
+            broken.append(link)
+    return broken
+
+
+def test_links_of_pages_lead_somewhere() -> None:
+    pages = (*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"))
+    assert {page.name: broken for page in pages if (broken := broken_links(page))} == {}
+
+
+def test_links_that_lead_nowhere_are_found(tmp_path: Path) -> None:
+    page = tmp_path / "page.md"
+    page.write_text("# What it's for\n[a](page.md#what-its-for) [b](#what) [c](other.md)")
+    assert broken_links(page) == ["#what", "other.md"]
 
 
 def test_files_that_pages_and_comments_name_are_there() -> None:

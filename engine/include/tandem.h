@@ -715,20 +715,20 @@ typedef struct tandem_sights {
 typedef struct tandem_legs {
     tandem_i32_4d stated;  /* (travel, origin, to, 2); null where some are computed */
     tandem_i64_5d table;  /* (direction, table, node, node, 2); one direction if they are the same back */
-    tandem_point_1d point;  /* (node,) POINT */
-    tandem_leg_law_1d law;  /* (travel,) LAW */
+    tandem_point_1d point;  /* (node,) */
+    tandem_leg_law_1d law;  /* (travel,) */
 } tandem_legs;
 
 typedef struct tandem_instance {
-    tandem_size_1d size;  /* (problem,) SIZE */
-    tandem_node_4d node;  /* (problem, variant, node, 1 + gaps) NODE */
-    tandem_i64_4d amount;  /* (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all */
-    tandem_price_2d price;  /* (problem, node) PRICE */
-    tandem_goods_2d goods;  /* (problem, node) GOODS, or (problem, 0) */
-    tandem_setup_2d setup;  /* (problem, node) SETUP, or (problem, 0) */
+    tandem_size_1d size;  /* (problem,) */
+    tandem_node_4d node;  /* (problem, variant, node, 1 + gaps) */
+    tandem_i64_4d amount;  /* (problem, node, tier, entry); no tiers where the demand of nodes tells all */
+    tandem_price_2d price;  /* (problem, node) */
+    tandem_goods_2d goods;  /* (problem, node), or (problem, 0) */
+    tandem_setup_2d setup;  /* (problem, node), or (problem, 0) */
     tandem_i64_2d fresh_for;  /* (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one */
-    tandem_vehicle_type_2d type;  /* (problem, row) TYPE; trucks first, as many as SIZE says */
-    tandem_rate_2d rate;  /* (problem, row) RATE */
+    tandem_vehicle_type_2d type;  /* (problem, row); trucks first, as many as `size` says */
+    tandem_rate_2d rate;  /* (problem, row) */
     tandem_bool_3d reload;  /* (problem, type, node) where a trip may end and the next begin */
     tandem_bool_3d can_drive;  /* (problem, type, node) table, kind, skills and capacity allow a truck */
     tandem_bool_3d can_fly;  /* (problem, type, node) likewise for its drones */
@@ -742,11 +742,11 @@ typedef struct tandem_instance {
 } tandem_instance;
 
 typedef struct tandem_vehicle_logs {
-    tandem_log_lengths_1d count;  /* (rollout,) LENGTHS */
-    tandem_logged_trip_2d trip;  /* (rollout, trip) LOGGED_TRIP */
-    tandem_logged_stop_2d stop;  /* (rollout, stop) LOGGED_STOP */
-    tandem_operation_2d op;  /* (rollout, op) OPERATION */
-    tandem_logged_sortie_2d sortie;  /* (rollout, sortie) LOGGED_SORTIE */
+    tandem_log_lengths_1d count;  /* (rollout,) */
+    tandem_logged_trip_2d trip;  /* (rollout, trip) */
+    tandem_logged_stop_2d stop;  /* (rollout, stop) */
+    tandem_operation_2d op;  /* (rollout, op) */
+    tandem_logged_sortie_2d sortie;  /* (rollout, sortie) */
 } tandem_vehicle_logs;
 
 typedef struct tandem_state {
@@ -755,10 +755,10 @@ typedef struct tandem_state {
     tandem_i64_1d num_unserved;  /* (rollout,) */
     tandem_i64_2d used;  /* (rollout, type) vehicles opened */
     tandem_bool_1d done;  /* (rollout,) */
-    tandem_vehicle_1d vehicle;  /* (rollout,) VEHICLE, the open one */
-    tandem_drone_2d drone;  /* (rollout, drone) DRONE, its drones */
+    tandem_vehicle_1d vehicle;  /* (rollout,) the open one */
+    tandem_drone_2d drone;  /* (rollout, drone) its drones */
     tandem_vehicle_logs log;
-    tandem_cost_1d cost;  /* (rollout,) COST of the vehicles closed so far */
+    tandem_cost_1d cost;  /* (rollout,) of the vehicles closed so far */
     tandem_bool_3d fresh;  /* (problem, type, node) servable alone by a fresh vehicle */
 } tandem_state;
 
@@ -774,9 +774,9 @@ typedef struct tandem_observation {
     tandem_i64_1d count;  /* (rollout,) */
     tandem_i64_2d action;  /* (rollout, candidate) codes */
     tandem_i64_2d token;  /* (rollout, candidate) node, or number of nodes + type */
-    tandem_outlook_2d outlook;  /* (rollout, candidate) OUTLOOK */
-    tandem_f32_3d feature;  /* (rollout, candidate, NUM_ACTION_FEATURES) */
-    tandem_f32_2d glob;  /* (rollout, NUM_GLOBAL_FEATURES) */
+    tandem_outlook_2d outlook;  /* (rollout, candidate) */
+    tandem_f32_3d feature;  /* (rollout, candidate, number) */
+    tandem_f32_2d glob;  /* (rollout, number) */
     tandem_i64_1d here;  /* (rollout,) token of the vehicle's place */
 } tandem_observation;
 
@@ -816,15 +816,15 @@ typedef struct tandem_world {
     tandem_f64_1d unassigned_more;  /* (node,) what leaving out another costs above that */
     bool unequal;  /* leaving out some costs more than others */
     tandem_bool_1d must_serve;  /* (node,) leaving it out costs more than any route for one */
-    tandem_node_3d place;  /* (variant, node, row) NODE */
-    tandem_i64_3d amount;  /* (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all */
-    tandem_price_1d price;  /* (node,) PRICE, per ms */
-    tandem_goods_1d goods;  /* (node,) GOODS, none where all go together */
-    tandem_setup_1d setup;  /* (node,) SETUP, none where nobody sets up */
+    tandem_node_3d place;  /* (variant, node, row) */
+    tandem_i64_3d amount;  /* (node, tier, entry); no tiers where the demand of nodes tells all */
+    tandem_price_1d price;  /* (node,) per ms */
+    tandem_goods_1d goods;  /* (node,) none where all go together */
+    tandem_setup_1d setup;  /* (node,) none where nobody sets up */
     tandem_i64_1d fresh_for;  /* (node,) ms, none where nothing is limited */
-    tandem_vehicle_type_1d type;  /* (row,) TYPE */
-    tandem_rate_1d rate;  /* (row,) RATE, per mm and per ms */
-    tandem_i64_1d mode;  /* (row,) MODE_ flags */
+    tandem_vehicle_type_1d type;  /* (row,) */
+    tandem_rate_1d rate;  /* (row,) per mm and per ms */
+    tandem_i64_1d mode;  /* (row,) `mode_` flags */
     tandem_bool_2d reload;  /* (type, node) where a trip may end and the next begin */
     tandem_i64_1d visits;  /* (row,) customers on a sortie */
     tandem_bool_3d can;  /* (row, 2, node) by truck, by drone */
@@ -840,14 +840,14 @@ typedef struct tandem_world {
 } tandem_world;
 
 typedef struct tandem_fleet {
-    tandem_route_1d route;  /* (slot,) ROUTE */
+    tandem_route_1d route;  /* (slot,) */
     tandem_f64_1d cost;  /* (slot,) */
     tandem_f64_1d early;  /* (slot,) of it, what waiting costs where trips are held back */
-    tandem_stop_2d stop;  /* (slot, position) STOP */
-    tandem_halt_3d halt;  /* (slot, tier, position) HALT; no tiers where `TRIP.load` tells all */
-    tandem_trip_2d trip;  /* (slot, trip) TRIP */
-    tandem_sortie_2d sortie;  /* (slot, sortie) SORTIE */
-    tandem_place_1d where;  /* (node,) PLACE */
+    tandem_stop_2d stop;  /* (slot, position) */
+    tandem_halt_3d halt;  /* (slot, tier, position); no tiers where loads of trips tell all */
+    tandem_trip_2d trip;  /* (slot, trip) */
+    tandem_sortie_2d sortie;  /* (slot, sortie) */
+    tandem_place_1d where;  /* (node,) */
     tandem_i64_1d used;  /* (type,) routes */
 } tandem_fleet;
 
@@ -855,8 +855,8 @@ typedef struct tandem_searcher {
     tandem_fleet now;
     tandem_fleet before;  /* those touched this turn, as they are listed there; who is where is not noted */
     tandem_fleet best;  /* likewise not */
-    tandem_search_counts *count;  /* COUNTS */
-    tandem_search_values *value;  /* VALUES */
+    tandem_search_counts *count;
+    tandem_search_values *value;
     tandem_u64_1d rng;  /* (1,) */
     tandem_i64_1d active;  /* slots in use, and behind them those that are free */
     tandem_i64_1d rank;  /* (slot,) where it stands in `active` */
@@ -873,34 +873,34 @@ typedef struct tandem_searcher {
     tandem_f64_1d line_cost;  /* (node + 3,) scratch */
     tandem_f64_1d key;  /* (node,) order of insertion */
     tandem_i64_1d moved;  /* scratch */
-    tandem_move *move;  /* MOVE, scratch, best insertion */
-    tandem_move_1d offer;  /* (offer,) MOVE, scratch, insertions that may be best */
+    tandem_move *move;  /* scratch, best insertion */
+    tandem_move_1d offer;  /* (offer,) scratch, insertions that may be best */
     tandem_f64_1d least;  /* (offer,) scratch, what each costs at least */
-    tandem_block_sums *acc;  /* SUMS of a block, scratch */
-    tandem_bound *bound;  /* BOUND, scratch */
+    tandem_block_sums *acc;  /* of a block, scratch */
+    tandem_bound *bound;  /* scratch */
     tandem_f64_3d alone;  /* (type, 2, node) cost of a route that serves one customer */
-    tandem_kept_2d kept;  /* (node, slot) KEPT, the best places on lean routes as they are */
-    tandem_move_2d kept_move;  /* (node, slot) MOVE, the best insertions where not all routes are lean */
+    tandem_kept_2d kept;  /* (node, slot) the best places on lean routes as they are */
+    tandem_move_2d kept_move;  /* (node, slot) the best insertions where not all routes are lean */
     tandem_f64_2d kept_cost;  /* (node, slot) where not all routes are lean, what these cost */
 } tandem_searcher;
 
 typedef struct tandem_linked {
-    tandem_link_1d link;  /* (node,) LINK */
-    tandem_run_1d run;  /* (slot,) RUN */
-    tandem_piece_1d piece;  /* (piece,) PIECE */
-    tandem_link_1d removed;  /* (customer,) LINK, of the pieces one after another */
+    tandem_link_1d link;  /* (node,) */
+    tandem_run_1d run;  /* (slot,) */
+    tandem_piece_1d piece;  /* (piece,) */
+    tandem_link_1d removed;  /* (customer,) of the pieces one after another */
     tandem_i64_1d removed_node;  /* (customer,) who that is */
-    tandem_entry_1d entry;  /* (customer,) ENTRY */
-    tandem_moment_1d moment;  /* (moment,) MOMENT */
+    tandem_entry_1d entry;  /* (customer,) */
+    tandem_moment_1d moment;  /* (moment,) */
     tandem_i64_1d retyped;  /* (slot,) routes that another type drives since this turn */
-    tandem_i64_1d former;  /* (slot,) the type that did before, else NOWHERE */
-    tandem_noted *noted;  /* NOTED */
+    tandem_i64_1d former;  /* (slot,) the type that did before, else `nowhere` */
+    tandem_noted *noted;
     tandem_i64_1d hit;  /* (slot,) turn of the last string */
     tandem_i32_2d near;  /* (node, rank) mm to or from those that `World.fit` lists, or what fits */
-    tandem_i64_1d best_first;  /* (slot,) first customer of the best plan's route, else NOWHERE */
+    tandem_i64_1d best_first;  /* (slot,) first customer of the best plan's route, else `nowhere` */
     tandem_i64_1d best_type;  /* (slot,) */
     tandem_i64_1d best_behind;  /* (node,) */
-    tandem_least *cheapest;  /* LEAST, of all types */
+    tandem_least *cheapest;  /* of all types */
     bool timed;  /* something limits when customers are served */
 } tandem_linked;
 
@@ -962,7 +962,7 @@ int tandem_finish(const tandem_instance *instance, const tandem_state *state, in
 typedef struct tandem_scene {
     tandem_instance instance;
     tandem_scales scale;
-    tandem_f32_3d type_token;  /* (problem, type, NUM_TYPE_FEATURES) */
+    tandem_f32_3d type_token;  /* (problem, type, number) */
 } tandem_scene;
 
 /* Rollouts of one problem, each begun by actions that are given. */

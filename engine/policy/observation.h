@@ -25,9 +25,9 @@ struct Observation {
     View<std::int64_t, 1> count;   // (rollout,)
     View<std::int64_t, 2> action;  // (rollout, candidate) codes
     View<std::int64_t, 2> token;   // (rollout, candidate) node, or number of nodes + type
-    View<Outlook, 2> outlook;      // (rollout, candidate) OUTLOOK
-    View<float, 3> feature;        // (rollout, candidate, NUM_ACTION_FEATURES)
-    View<float, 2> glob;           // (rollout, NUM_GLOBAL_FEATURES)
+    View<Outlook, 2> outlook;      // (rollout, candidate)
+    View<float, 3> feature;        // (rollout, candidate, number)
+    View<float, 2> glob;           // (rollout, number)
     View<std::int64_t, 1> here;    // (rollout,) token of the vehicle's place
 };
 

@@ -42,8 +42,8 @@ struct Legs {
     View<const std::int32_t, 4> stated;  // (travel, origin, to, 2); none where some are computed
     View<const std::int64_t, 5>
         table;  // (direction, table, node, node, 2); one direction if they are the same back
-    View<const Point, 1> point;  // (node,) POINT
-    View<const LegLaw, 1> law;   // (travel,) LAW
+    View<const Point, 1> point;  // (node,)
+    View<const LegLaw, 1> law;   // (travel,)
 };
 
 inline Legs legs_of(const tandem_legs& from) {
@@ -51,17 +51,17 @@ inline Legs legs_of(const tandem_legs& from) {
 }
 
 struct Instance {
-    View<const Size, 1> size;  // (problem,) SIZE
-    View<const Node, 4> node;  // (problem, variant, node, 1 + gaps) NODE
+    View<const Size, 1> size;  // (problem,)
+    View<const Node, 4> node;  // (problem, variant, node, 1 + gaps)
     View<const std::int64_t, 4>
-        amount;  // (problem, node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
-    View<const Price, 2> price;  // (problem, node) PRICE
-    View<const Goods, 2> goods;  // (problem, node) GOODS, or (problem, 0)
-    View<const Setup, 2> setup;  // (problem, node) SETUP, or (problem, 0)
+        amount;  // (problem, node, tier, entry); no tiers where the demand of nodes tells all
+    View<const Price, 2> price;  // (problem, node)
+    View<const Goods, 2> goods;  // (problem, node), or (problem, 0)
+    View<const Setup, 2> setup;  // (problem, node), or (problem, 0)
     View<const std::int64_t, 2>
         fresh_for;  // (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
-    View<const VehicleType, 2> type;  // (problem, row) TYPE; trucks first, as many as SIZE says
-    View<const Rate, 2> rate;         // (problem, row) RATE
+    View<const VehicleType, 2> type;  // (problem, row); trucks first, as many as `size` says
+    View<const Rate, 2> rate;         // (problem, row)
     View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
     View<const bool, 3>
         can_drive;  // (problem, type, node) table, kind, skills and capacity allow a truck

@@ -16,11 +16,11 @@ using Cost = tandem_cost;
 using Outlook = tandem_outlook;
 
 struct VehicleLogs {
-    View<LogLengths, 1> count;     // (rollout,) LENGTHS
-    View<LoggedTrip, 2> trip;      // (rollout, trip) LOGGED_TRIP
-    View<LoggedStop, 2> stop;      // (rollout, stop) LOGGED_STOP
-    View<Operation, 2> op;         // (rollout, op) OPERATION
-    View<LoggedSortie, 2> sortie;  // (rollout, sortie) LOGGED_SORTIE
+    View<LogLengths, 1> count;     // (rollout,)
+    View<LoggedTrip, 2> trip;      // (rollout, trip)
+    View<LoggedStop, 2> stop;      // (rollout, stop)
+    View<Operation, 2> op;         // (rollout, op)
+    View<LoggedSortie, 2> sortie;  // (rollout, sortie)
 };
 
 inline VehicleLogs vehicle_logs_of(const tandem_vehicle_logs& from) {
@@ -46,15 +46,15 @@ inline VehicleLog log_of(const VehicleLogs& logs, Int r) {
 struct Setting {
     Int num_depots;
     View<const Node, 2> node;         // (node, row)
-    View<const Node, 2> node_by_air;  // (node, row), as drones meet them
+    View<const Node, 2> node_by_air;  // (node, row) as drones meet them
     View<const Int, 3> amount;     // (node, tier, amounts); no tiers where `Node::demand` tells all
-    View<const Goods, 1> goods;    // (node,), none where all go together
+    View<const Goods, 1> goods;    // (node,) none where all go together
     View<const Int, 1> fresh_for;  // (node,) ms, none where nothing is limited
     const VehicleType& type;
     View<const Int, 2> drive;           // (node, node) ms
     View<const Int, 2> fly;             // (node, node) ms
     View<const Int, 2> fly_home;        // (node, node) ms, to where the truck is
-    View<const Setup, 1> setup;         // (node,), none where nobody sets up
+    View<const Setup, 1> setup;         // (node,) none where nobody sets up
     View<const Int, 1> profile_time;    // (change,)
     View<const Int, 1> profile_factor;  // (change + 1,)
     View<const VehicleType, 1> types;   // (row,)
@@ -79,10 +79,10 @@ struct State {
     View<std::int64_t, 1> num_unserved;  // (rollout,)
     View<std::int64_t, 2> used;          // (rollout, type) vehicles opened
     View<bool, 1> done;                  // (rollout,)
-    View<Vehicle, 1> vehicle;            // (rollout,) VEHICLE, the open one
-    View<Drone, 2> drone;                // (rollout, drone) DRONE, its drones
+    View<Vehicle, 1> vehicle;            // (rollout,) the open one
+    View<Drone, 2> drone;                // (rollout, drone) its drones
     VehicleLogs log;
-    View<Cost, 1> cost;   // (rollout,) COST of the vehicles closed so far
+    View<Cost, 1> cost;   // (rollout,) of the vehicles closed so far
     View<bool, 3> fresh;  // (problem, type, node) servable alone by a fresh vehicle
 };
 

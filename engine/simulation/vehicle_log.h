@@ -1,7 +1,7 @@
 // When one vehicle's route happens: as soon as possible, and how late it may depart.
 //
 // A vehicle log lists what one vehicle does: trips, their stops, its sorties, and the launches and
-// recoveries at each stop in order. `replay` times it; `latest_start` finds the latest beginning of
+// recoveries at each stop in order. `retime` times it; `latest_start` finds the latest beginning of
 // a trip that costs nothing elsewhere.
 #pragma once
 

@@ -14,24 +14,24 @@ using Noted = tandem_noted;
 using Least = tandem_least;
 
 struct Linked {
-    View<Link, 1> link;                  // (node,) LINK
-    View<Run, 1> run;                    // (slot,) RUN
-    View<Piece, 1> piece;                // (piece,) PIECE
-    View<Link, 1> removed;               // (customer,) LINK, of the pieces one after another
+    View<Link, 1> link;                  // (node,)
+    View<Run, 1> run;                    // (slot,)
+    View<Piece, 1> piece;                // (piece,)
+    View<Link, 1> removed;               // (customer,) of the pieces one after another
     View<std::int64_t, 1> removed_node;  // (customer,) who that is
-    View<Entry, 1> entry;                // (customer,) ENTRY
-    View<Moment, 1> moment;              // (moment,) MOMENT
+    View<Entry, 1> entry;                // (customer,)
+    View<Moment, 1> moment;              // (moment,)
     View<std::int64_t, 1> retyped;       // (slot,) routes that another type drives since this turn
-    View<std::int64_t, 1> former;        // (slot,) the type that did before, else NOWHERE
-    Noted* noted;                        // NOTED
-    View<std::int64_t, 1> hit;           // (slot,) turn of the last string
+    View<std::int64_t, 1> former;        // (slot,) the type that did before, else `nowhere`
+    Noted* noted;
+    View<std::int64_t, 1> hit;  // (slot,) turn of the last string
     View<std::int32_t, 2>
         near;  // (node, rank) mm to or from those that `World.fit` lists, or what fits
     View<std::int64_t, 1>
-        best_first;  // (slot,) first customer of the best plan's route, else NOWHERE
+        best_first;  // (slot,) first customer of the best plan's route, else `nowhere`
     View<std::int64_t, 1> best_type;    // (slot,)
     View<std::int64_t, 1> best_behind;  // (node,)
-    Least* cheapest;                    // LEAST, of all types
+    Least* cheapest;                    // of all types
     bool timed;                         // something limits when customers are served
 };
 

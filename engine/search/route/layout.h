@@ -87,16 +87,16 @@ struct World {
     View<const double, 1> unassigned_more;  // (node,) what leaving out another costs above that
     bool unequal;                           // leaving out some costs more than others
     View<const bool, 1> must_serve;  // (node,) leaving it out costs more than any route for one
-    View<const Node, 3> place;       // (variant, node, row) NODE
+    View<const Node, 3> place;       // (variant, node, row)
     View<const std::int64_t, 3>
-        amount;                  // (node, tier, AMOUNTS); no tiers where `NODE.demand` tells all
-    View<const Price, 1> price;  // (node,) PRICE, per ms
-    View<const Goods, 1> goods;  // (node,) GOODS, none where all go together
-    View<const Setup, 1> setup;  // (node,) SETUP, none where nobody sets up
+        amount;  // (node, tier, entry); no tiers where the demand of nodes tells all
+    View<const Price, 1> price;             // (node,) per ms
+    View<const Goods, 1> goods;             // (node,) none where all go together
+    View<const Setup, 1> setup;             // (node,) none where nobody sets up
     View<const std::int64_t, 1> fresh_for;  // (node,) ms, none where nothing is limited
-    View<const VehicleType, 1> type;        // (row,) TYPE
-    View<const Rate, 1> rate;               // (row,) RATE, per mm and per ms
-    View<const std::int64_t, 1> mode;       // (row,) MODE_ flags
+    View<const VehicleType, 1> type;        // (row,)
+    View<const Rate, 1> rate;               // (row,) per mm and per ms
+    View<const std::int64_t, 1> mode;       // (row,) `mode_` flags
     View<const bool, 2> reload;             // (type, node) where a trip may end and the next begin
     View<const std::int64_t, 1> visits;     // (row,) customers on a sortie
     View<const bool, 3> can;                // (row, 2, node) by truck, by drone
@@ -158,14 +158,14 @@ inline World world_of(const tandem_world& from) {
 }
 
 struct Fleet {
-    View<Route, 1> route;    // (slot,) ROUTE
-    View<double, 1> cost;    // (slot,)
-    View<double, 1> early;   // (slot,) of it, what waiting costs where trips are held back
-    View<Stop, 2> stop;      // (slot, position) STOP
-    View<Halt, 3> halt;      // (slot, tier, position) HALT; no tiers where `TRIP.load` tells all
-    View<Trip, 2> trip;      // (slot, trip) TRIP
-    View<Sortie, 2> sortie;  // (slot, sortie) SORTIE
-    View<Place, 1> where;    // (node,) PLACE
+    View<Route, 1> route;        // (slot,)
+    View<double, 1> cost;        // (slot,)
+    View<double, 1> early;       // (slot,) of it, what waiting costs where trips are held back
+    View<Stop, 2> stop;          // (slot, position)
+    View<Halt, 3> halt;          // (slot, tier, position); no tiers where loads of trips tell all
+    View<Trip, 2> trip;          // (slot, trip)
+    View<Sortie, 2> sortie;      // (slot, sortie)
+    View<Place, 1> where;        // (node,)
     View<std::int64_t, 1> used;  // (type,) routes
 };
 
@@ -178,8 +178,8 @@ struct Searcher {
     Fleet now;
     Fleet before;  // those touched this turn, as they are listed there; who is where is not noted
     Fleet best;    // likewise not
-    SearchCounts* count;            // COUNTS
-    SearchValues* value;            // VALUES
+    SearchCounts* count;
+    SearchValues* value;
     View<std::uint64_t, 1> rng;     // (1,)
     View<std::int64_t, 1> active;   // slots in use, and behind them those that are free
     View<std::int64_t, 1> rank;     // (slot,) where it stands in `active`
@@ -196,15 +196,14 @@ struct Searcher {
     View<double, 1> line_cost;       // (node + 3,) scratch
     View<double, 1> key;             // (node,) order of insertion
     View<std::int64_t, 1> moved;     // scratch
-    Move* move;                      // MOVE, scratch, best insertion
-    View<Move, 1> offer;             // (offer,) MOVE, scratch, insertions that may be best
+    Move* move;                      // scratch, best insertion
+    View<Move, 1> offer;             // (offer,) scratch, insertions that may be best
     View<double, 1> least;           // (offer,) scratch, what each costs at least
-    BlockSums* acc;                  // SUMS of a block, scratch
-    Bound* bound;                    // BOUND, scratch
+    BlockSums* acc;                  // of a block, scratch
+    Bound* bound;                    // scratch
     View<double, 3> alone;           // (type, 2, node) cost of a route that serves one customer
-    View<Kept, 2> kept;  // (node, slot) KEPT, the best places on lean routes as they are
-    View<Move, 2>
-        kept_move;  // (node, slot) MOVE, the best insertions where not all routes are lean
+    View<Kept, 2> kept;              // (node, slot) the best places on lean routes as they are
+    View<Move, 2> kept_move;    // (node, slot) the best insertions where not all routes are lean
     View<double, 2> kept_cost;  // (node, slot) where not all routes are lean, what these cost
 };
 
