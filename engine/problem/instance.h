@@ -18,10 +18,10 @@ using Point = tandem_point;
 
 using Int = std::int64_t;
 
-constexpr Int far = Int{1} << 58;  // an instant later than any that occurs
-constexpr Int none = -far;         // and one earlier
-constexpr Int tier = 3;            // how many dimensions of load are looked at together
-constexpr Int max_tiers = 3;       // for all eight dimensions
+constexpr Int far = Int{1} << 58;       // an instant later than any that occurs
+constexpr Int none = -far;              // and one earlier
+constexpr Int dimensions_per_tier = 3;  // how many dimensions of load are looked at together
+constexpr Int max_tiers = 3;            // for all eight dimensions
 
 constexpr Int unlimited = Int{1} << 42;        // no limit on a time (ms) or a distance (mm)
 constexpr Int unreachable_leg = Int{1} << 50;  // duration and distance of what can't be flown

@@ -49,7 +49,7 @@ inline Int charged(const VehicleType& type, Int kept, Int since, Int time) {
 
 // When a drone has what a flight takes that leaves so much `left` of a full battery; at once if
 // that is more than it holds. It came aboard as for `charged`.
-inline Int charged_by(const VehicleType& type, Int kept, Int since, Int left) {
+inline Int time_charged(const VehicleType& type, Int kept, Int since, Int left) {
     const Int missing = type.battery - left - kept;
     if (left < 0 || missing <= 0) return since;
     return since + (missing + type.charge - 1) / type.charge;
@@ -67,7 +67,7 @@ inline Int power_at(const VehicleType& type, const Int* powers, Int weight) {
 }
 
 // What is left after a power was needed for so long.
-inline Int spend(Int left, Int power, Int duration) {
+inline Int discharge(Int left, Int power, Int duration) {
     if (left < 0 || power == 0) return left;
     // The product might not fit 64 bits.
     return duration > left / power ? empty_battery : left - power * duration;
@@ -82,19 +82,19 @@ inline Int longest_cruise(const VehicleType& type) {
 // What is left after a leg, climb and descent included, with so much aboard.
 inline Int after_leg(const VehicleType& type, Int left, Int weight, Int duration) {
     const Int flight = duration - type.climb_duration - type.descent_duration;
-    left = spend(left, power_at(type, type.cruise, weight), std::max(Int{0}, flight));
+    left = discharge(left, power_at(type, type.cruise, weight), std::max(Int{0}, flight));
     if (type.climb_duration > 0) {
-        left = spend(left, power_at(type, type.climb, weight), type.climb_duration);
+        left = discharge(left, power_at(type, type.climb, weight), type.climb_duration);
     }
     if (type.descent_duration > 0) {
-        left = spend(left, power_at(type, type.descent, weight), type.descent_duration);
+        left = discharge(left, power_at(type, type.descent, weight), type.descent_duration);
     }
     return left;
 }
 
 // What is left after hovering with so much aboard.
 inline Int after_hovering(const VehicleType& type, Int left, Int weight, Int duration) {
-    return spend(left, power_at(type, type.hover, weight), duration);
+    return discharge(left, power_at(type, type.hover, weight), duration);
 }
 
 // How long a drone can hover with so much aboard; `far` if for ever.

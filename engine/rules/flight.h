@@ -122,7 +122,7 @@ inline bool can_wait(const VehicleType& type, NodeRows place, Int out, Int home,
 // is charged aboard since then, with what it has kept.
 inline Int charged_launch(const VehicleType& type, NodeRows place, Int kept, Int since, Int out,
                           Int home) {
-    return charged_by(type, kept, since, after_flight(type, place, out, home));
+    return time_charged(type, kept, since, after_flight(type, place, out, home));
 }
 
 // What a sortie to one customer, waiting included, leaves of a full battery; nothing where none

@@ -98,12 +98,12 @@ inline Amount capacity_of(const VehicleType& type) { return amount_of(type.capac
 
 // What a vehicle of a type holds.
 inline Amount capacity_in(const VehicleType& type, Int tier) {
-    return amount_of(type.capacity + tandem::tier * tier);
+    return amount_of(type.capacity + dimensions_per_tier * tier);
 }
 
 // What a type's drone lifts.
 inline Amount payload_in(const VehicleType& type, Int tier) {
-    return amount_of(type.payload + tandem::tier * tier);
+    return amount_of(type.payload + dimensions_per_tier * tier);
 }
 
 // The sum of two amounts.

@@ -6,7 +6,7 @@ namespace tandem {
 namespace {
 
 void write_part(const Amount& amount, Int* row, Int number) {
-    write_amount(amount, row + number * tier);
+    write_amount(amount, row + number * dimensions_per_tier);
 }
 
 // What drones in flight have picked up that are recovered at a place.

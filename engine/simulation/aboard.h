@@ -11,7 +11,9 @@
 namespace tandem {
 
 // An amount of one tier.
-inline Amount part_of(const Int* row, Int number) { return amount_of(row + number * tier); }
+inline Amount part_of(const Int* row, Int number) {
+    return amount_of(row + number * dimensions_per_tier);
+}
 
 // Let nothing be aboard of what a vehicle of a type holds.
 void empty(const VehicleType& type, Vehicle& vehicle);

@@ -45,11 +45,11 @@ TEST_CASE("quotients are rounded down on both sides of zero") {
 }
 
 TEST_CASE("a battery is empty once more is asked of it than it holds") {
-    CHECK(spend(100, 10, 10) == 0);
-    CHECK(spend(100, 10, 11) == empty_battery);
-    CHECK(spend(empty_battery, 0, 0) == empty_battery);
-    CHECK(spend(100, 10, far) == empty_battery);
-    CHECK(spend(100, 0, far) == 100);
+    CHECK(discharge(100, 10, 10) == 0);
+    CHECK(discharge(100, 10, 11) == empty_battery);
+    CHECK(discharge(empty_battery, 0, 0) == empty_battery);
+    CHECK(discharge(100, 10, far) == empty_battery);
+    CHECK(discharge(100, 0, far) == 100);
 }
 
 TEST_CASE("climbs and descents are part of a leg") {
@@ -69,10 +69,10 @@ TEST_CASE("a battery is charged aboard up to what it holds") {
     CHECK(charged(type, 100, 10, 30) == 700);
     CHECK(charged(type, 100, 10, 40) == 1000);
     CHECK(charged(type, 100, 10, far) == 1000);
-    CHECK(charged_by(type, 100, 10, 600) == 20);  // 400 are needed, 300 of them in 10
-    CHECK(charged_by(type, 100, 10, 950) == 10);  // it has them
-    CHECK(charged_by(type, 100, 10, -1) == 10);   // nobody can fly that
-    CHECK(charged_by(type, 100, 10, 599) == 21);
+    CHECK(time_charged(type, 100, 10, 600) == 20);  // 400 are needed, 300 of them in 10
+    CHECK(time_charged(type, 100, 10, 950) == 10);  // it has them
+    CHECK(time_charged(type, 100, 10, -1) == 10);   // nobody can fly that
+    CHECK(time_charged(type, 100, 10, 599) == 21);
 }
 
 TEST_CASE("a drone is held back until its window lets it be back in time") {

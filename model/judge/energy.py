@@ -30,7 +30,7 @@ def charge_after(energy: Energy, rest: Rest, time: int) -> int:
     return min(energy.available, rest.left + energy.charge * max(0, time - rest.since))
 
 
-def charged_by(energy: Energy, rest: Rest, needed: int) -> int:
+def time_charged(energy: Energy, rest: Rest, needed: int) -> int:
     """Return when a drone that rests aboard has so much; at once if it never has."""
     if not rest.left < needed <= energy.available:
         return rest.since

@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from model.judge.clock import opening
 from model.judge.energy import (
-    Rest, charge_after, charged_by, flight_energy, least_energy, longest_hold,
+    Rest, charge_after, flight_energy, least_energy, longest_hold, time_charged,
 )
 from model.problem import DroneType, Problem
 from model.solution import Visit
@@ -62,7 +62,7 @@ def charged_launch(problem: Problem, drones: DroneType, path: Path, rest: Rest |
     if energy is None or rest is None:
         return 0
     needed = least_energy(problem, energy, path[1:-1], *_legs(problem, drones, path))
-    return charged_by(energy, rest, needed)
+    return time_charged(energy, rest, needed)
 
 
 def rest_after(problem: Problem, drones: DroneType, rest: Rest | None, path: Path,

@@ -26,10 +26,10 @@ from model.problem import (
     IntArray, Problem, VehicleType,
 )
 
-TIER = 3
+DIMENSIONS_PER_TIER = 3
 """How many dimensions of load are looked at together."""
 
-MAX_TIERS = -(-MAX_DIMENSIONS // TIER)
+MAX_TIERS = -(-MAX_DIMENSIONS // DIMENSIONS_PER_TIER)
 
 MOST_DRONES = 256
 """How many drones of a truck may be charged aboard."""
@@ -45,7 +45,7 @@ ANY, LAST, BEGUN = range(3)
 NO_PROFILE = -1
 NO_DRONES = (0,) * 8
 
-AMOUNTS = 2 * TIER + 2
+AMOUNTS = 2 * DIMENSIONS_PER_TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
 
 
@@ -142,7 +142,7 @@ def _num_changes(vehicle_type: VehicleType) -> int:
 
 def _num_tiers(problems: Sequence[Problem]) -> int:
     """Return how many tiers loads have to be looked at in from stop to stop."""
-    tiers = max(-(-problem.num_dimensions // TIER) for problem in problems)
+    tiers = max(-(-problem.num_dimensions // DIMENSIONS_PER_TIER) for problem in problems)
     changes = any(any(customer.pickup) for problem in problems for customer in problem.customers)
     costs = any(kind.cost_per_load_km for problem in problems for kind in problem.vehicle_types)
     return tiers if tiers > 1 or changes or costs else 0
@@ -187,7 +187,7 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
         served[variant] = served[0]
         served[variant, :, 0]["service_duration"] = duration
         if weighs is not None:
-            served[variant, :, 0]["demand"] = weight_rows(problem, weighs, TIER)
+            served[variant, :, 0]["demand"] = weight_rows(problem, weighs, DIMENSIONS_PER_TIER)
     _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
     instance.price[row, depots:nodes] = [
         (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
@@ -210,12 +210,13 @@ def _pack_amounts(rows: IntArray, customers: Sequence[Customer]) -> None:
     tiers = rows.shape[1]
     if not tiers:
         return
-    shape = len(customers), tiers, TIER
+    size = DIMENSIONS_PER_TIER
+    shape = len(customers), tiers, size
     for first, amounts in ((0, [customer.demand for customer in customers]),
-                           (TIER, [customer.pickup for customer in customers])):
-        table = np.array([_padded(amount, tiers * TIER) for amount in amounts], np.int64)
-        rows[:, :, first:first + TIER] = table.reshape(shape)
-        rows[:, :, 2 * TIER + first // TIER] = table.sum(axis=1)[:, None]
+                           (size, [customer.pickup for customer in customers])):
+        table = np.array([_padded(amount, tiers * size) for amount in amounts], np.int64)
+        rows[:, :, first:first + size] = table.reshape(shape)
+        rows[:, :, 2 * size + first // size] = table.sum(axis=1)[:, None]
 
 
 def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
@@ -228,7 +229,7 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
 def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
-            customer.latest, _padded(customer.demand, TIER))
+            customer.latest, _padded(customer.demand, DIMENSIONS_PER_TIER))
 
 
 def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
@@ -242,6 +243,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
     load = kind.initial_load or (0,) * len(kind.capacity)
     free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
     energy = None if drones is None else drones.energy
+    room = MAX_TIERS * DIMENSIONS_PER_TIER
     travel = index_of(ways, kind.travel, kind.speed_profile is None)
     return (
         kind.count, travel, kind.depot, kind.begins_at, kind.ends_at,
@@ -251,8 +253,8 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         _most_sorties(kind), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
-        *battery_row(energy), _pickup_order(kind), load[0], _padded(free, MAX_TIERS * TIER),
-        _padded(() if drones is None else drones.capacity, MAX_TIERS * TIER), *powers_row(energy),
+        *battery_row(energy), _pickup_order(kind), load[0], _padded(free, room),
+        _padded(() if drones is None else drones.capacity, room), *powers_row(energy),
         full_row(energy, MOST_DRONES))
 
 

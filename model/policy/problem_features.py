@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.engine.library import dtype_of
-from model.kernel.instance import ANY, FAR, TIER, Instance
+from model.kernel.instance import ANY, DIMENSIONS_PER_TIER, FAR, Instance
 from model.kernel.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
@@ -148,8 +148,8 @@ def own_rows(instance: Instance) -> Records:
 def picked_up(instance: Instance) -> IntArray:
     """Return what is picked up, (problem, node, dimension), in the first dimensions."""
     if instance.amount.shape[2] == 0:
-        return np.zeros((*instance.amount.shape[:2], TIER), np.int64)
-    picked: IntArray = instance.amount[:, :, 0, TIER:2 * TIER]
+        return np.zeros((*instance.amount.shape[:2], DIMENSIONS_PER_TIER), np.int64)
+    picked: IntArray = instance.amount[:, :, 0, DIMENSIONS_PER_TIER:2 * DIMENSIONS_PER_TIER]
     return picked
 
 
@@ -205,7 +205,7 @@ def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -
     """Describe what few customers ask for. In place."""
     time, horizon = scale.time[:, None], scale.horizon[:, None]
     left_out = instance.unassigned_cost[:, None] + instance.unassigned_more
-    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :TIER]
+    capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :DIMENSIONS_PER_TIER]
     gap = instance.node[:, 0, :, 1:]
     between = np.where(gap["window_latest"] < FAR, gap["window_earliest"] - gap["window_latest"], 0)
     is_customer = seen["is_depot"] == 0

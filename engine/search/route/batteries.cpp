@@ -59,7 +59,7 @@ void note_charge(const VehicleType& type, View<Sortie, 1> sorties, Int index, In
         sortie.since = recovery_end(type, sorties[other].begin);
         sortie.follows = 1;
     }
-    sortie.charged = take_off(type, charged_by(type, sortie.kept, sortie.since, sortie.left), 1);
+    sortie.charged = take_off(type, time_charged(type, sortie.kept, sortie.since, sortie.left), 1);
 }
 
 Int await_charge(const VehicleType& type, Sortie& sortie, Int takeoff, Int time) {

@@ -261,7 +261,7 @@ inline void copy_lean(const Stop& stop, Stop& to) {
 // Let a trip be empty. In place.
 inline void clear_trip(Trip& trip) {
     trip.first = trip.last = trip.release = trip.distance = 0;
-    for (Int dimension = 0; dimension < tier; ++dimension) trip.load[dimension] = 0;
+    for (Int dimension = 0; dimension < dimensions_per_tier; ++dimension) trip.load[dimension] = 0;
 }
 
 }  // namespace tandem

@@ -7,7 +7,7 @@ import numpy as np
 
 from model.engine.library import call, dtype_of, packed
 from model.kernel.drone_types import most_drone_rows
-from model.kernel.instance import NONE, TIER
+from model.kernel.instance import DIMENSIONS_PER_TIER, NONE
 from model.kernel.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
 from model.search.route.engine import AT_ONE_STOP, INFEASIBLE
@@ -80,7 +80,8 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
         capacity = kind.capacity[:len(asked)] * min(int(kind.max_trips), number)
         if kind.drones:
             # Part of a trip is written anew before more than what it delivers is looked at.
-            most = max(most, _most_of(delivered[:, :TIER], capacity[:TIER]))
+            looked_at = slice(DIMENSIONS_PER_TIER)
+            most = max(most, _most_of(delivered[:, looked_at], capacity[looked_at]))
         else:
             most = max(most, min(_most_carried(delivered, picked, capacity), _most_served(kind)))
         needed = int(np.ceil(asked / np.maximum(capacity, 1)).max()) if number else 0

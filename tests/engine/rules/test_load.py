@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from model.engine.header import dtype_of
-from model.kernel.instance import TIER, pack
+from model.kernel.instance import DIMENSIONS_PER_TIER, pack
 from model.kernel.records import Record, Records
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
@@ -31,7 +31,7 @@ def drawn(seed: int) -> list[tuple[Problem, IntArray, list[int]]]:
     found = []
     for index in range(200):
         problem = draw_tiny(rng)
-        count = index % TIER + 1
+        count = index % DIMENSIONS_PER_TIER + 1
         drones = problem.vehicle_types[0].drones
         kind = replace(
             problem.vehicle_types[0], capacity=tuple(rng.integers(2, 9, count).tolist()),
