@@ -20,9 +20,13 @@ import numpy as np
 
 from model.engine.header import dtype_of, dtype_of_type, header, interface, is_row
 from model.engine.packing import Packed, address_of, number_of, packed
-from model.kernel.pausing import EndedError
 
-__all__ = ["call", "dtype_of", "packed", "path_of_library"]
+__all__ = ["EndedError", "call", "dtype_of", "packed", "path_of_library"]
+
+
+class EndedError(Exception):
+    """Work was told to end before there was anything to show for it."""
+
 
 Convert = Callable[[Any], Any]
 """Makes an argument what cffi takes. Raises a TypeError that names it."""

@@ -4,12 +4,12 @@ import math
 import time
 from collections.abc import Callable, Iterator
 
+from model.engine.library import EndedError
+
+__all__ = ["EndedError", "Pause", "go_on", "matrix_blocks", "never", "pausing", "row_blocks"]
+
 Pause = Callable[[], None]
 """Called between parts of work that take some milliseconds each; raises whatever ends the work."""
-
-
-class EndedError(Exception):
-    """Work was told to end before there was anything to show for it."""
 
 
 def go_on() -> None:
