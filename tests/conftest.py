@@ -33,7 +33,8 @@ Result = TypeVar("Result")
 
 
 SLOW = (
-    "tests/benchmarks/", "tests/console/", "tests/training/", "tests/test_end_to_end.py",
+    "tests/benchmarks/", "tests/console/", "tests/engine/rules/",
+    "tests/engine/test_engine_tests.py", "tests/training/", "tests/test_end_to_end.py",
     *(f"tests/app/{name}" for name in (
         "access/", "addresses/test_servers.py", "cli/test_plot.py", "dispatches/", "jobs/", "kept/",
         "load/", "observe/", "pictures/", "plans/test_task.py",
@@ -51,7 +52,7 @@ SLOW = (
         "simulation/test_simulator.py", "simulation/test_vehicle_log.py", "test_planner.py")),
 )
 """What `make test-quick` leaves out: it starts services or other processes, or plans and searches
-for seconds."""
+for seconds. Tests of the engine's rules are compiled first."""
 
 
 MOST_WORKERS = 8
