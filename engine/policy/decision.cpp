@@ -267,6 +267,7 @@ void Decider::point(Memory memory, const Seen& seen, View<float, 1> scores) {
     }
 }
 
+TANDEM_FOR_PROCESSORS
 void Decider::score(Memory memory, const Seen& seen, View<float, 1> scores) {
     ask(memory, seen);
     describe_actions(memory, seen);

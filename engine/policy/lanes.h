@@ -7,6 +7,14 @@
 #include <cstdint>
 #include <cstring>
 
+// Before a function whose loops are compiled for several families of processors, the best of which
+// is taken as the library is loaded. Results are the same: nothing is fused.
+#ifdef TANDEM_CLONES
+#define TANDEM_FOR_PROCESSORS [[gnu::flatten, gnu::target_clones("avx512f", "avx2", "default")]]
+#else
+#define TANDEM_FOR_PROCESSORS
+#endif
+
 namespace tandem {
 
 using Lanes = float __attribute__((vector_size(64)));
