@@ -34,7 +34,8 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
     call("tandem_apply", instance, state, r, action)
 
 
-def apply_route(instance: Instance, state: State, r: int, actions: IntArray, first: int) -> int:
+def apply_route(instance: Instance | Packed, state: State | Packed, r: int, actions: IntArray,
+                first: int) -> int:
     """Do legal actions of one rollout, the `first` and all before the next vehicle opens.
 
     In place; returns the index of the action that opens it, or how many there are.
@@ -51,7 +52,7 @@ def price_routes(instance: Instance | Packed, state: State | Packed, r: int, act
     call("tandem_price_routes", instance, state, r, actions, price)
 
 
-def close_vehicle(instance: Instance, state: State, r: int) -> None:
+def close_vehicle(instance: Instance | Packed, state: State | Packed, r: int) -> None:
     """Let each trip of the vehicle begin as late as costs nothing and add its cost. In place."""
     call("tandem_close_vehicle", instance, state, r)
 

@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from model.engine.library import packed
+from model.engine.packing import Packed
 from model.kernel.instance import Instance
 from model.kernel.records import read_rows
 from model.problem import IntArray, Problem
@@ -26,23 +28,27 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntAr
         Codes of all actions, from the first on.
     """
     state = reset(instance, np.zeros(1, np.int64))
+    given = packed(instance), packed(state)
     codes = np.array(actions, dtype=np.int64)
     routes = []
     done = 0
     while done < len(codes):
-        done = apply_route(instance, state, 0, codes, done)
-        routes += _close(problem, instance, state)
+        done = apply_route(*given, 0, codes, done)
+        routes += _close(problem, state, given)
     nodes = range(problem.num_depots, problem.num_nodes)
     unassigned = tuple(node for node in nodes if not state.served[0, node])
     return Solution(tuple(routes), unassigned)
 
 
-def _close(problem: Problem, instance: Instance, state: State) -> list[Route]:
-    """Close the open vehicle and return its route, if it has one."""
+def _close(problem: Problem, state: State, given: tuple[Packed, Packed]) -> list[Route]:
+    """Close the open vehicle and return its route, if it has one.
+
+    `given` is what the engine takes: the problem, and the state.
+    """
     vehicle, = read_rows(state.vehicle[:1])
     if vehicle.type == NO_VEHICLE or state.log.count["trips"][0] == 0:
         return []
-    close_vehicle(instance, state, 0)
+    close_vehicle(*given, 0)
     return [Route(vehicle.type, vehicle.index, _trips(problem, state.log))]
 
 
