@@ -158,7 +158,7 @@ def test_only_policies_and_training_use_torch() -> None:
 
 
 def test_serving_loads_no_torch() -> None:
-    script = "import sys, app.main, app.cli.commands; print('torch' in sys.modules)"
+    script = "import sys, app.cli.planning, app.cli.serving; print('torch' in sys.modules)"
     done = subprocess.run([sys.executable, "-c", script], cwd=ROOT, check=True, text=True,
                           stdout=subprocess.PIPE, env={**os.environ, "PYTHONPATH": str(ROOT)})
     assert done.stdout == "False\n"

@@ -8,7 +8,7 @@ from unittest.mock import Mock
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import commands
+from app.cli import commands, planning
 from app.cli.file_errors import EXIT_BAD_INPUT
 from app.schemas.request import PlanRequest
 from model.planner import Planner
@@ -18,7 +18,7 @@ Request = dict[str, Any]
 
 @pytest.fixture(autouse=True)
 def _planner(monkeypatch: pytest.MonkeyPatch, planner: Planner) -> None:
-    monkeypatch.setattr(commands, "load_planner", lambda weights_dir, names: planner)
+    monkeypatch.setattr(planning, "load_planner", lambda weights_dir, names: planner)
 
 
 def _write(file: Path, content: Any) -> str:
@@ -57,7 +57,7 @@ def test_infeasible_plan_is_told_with_its_violations(tmp_path: Path, smallest: R
     smallest["fleet"][0]["capacity"] = [14]
     checked = CliRunner().invoke(
         commands.cli, ["check", _write(tmp_path / "smaller.json", smallest), str(plan)])
-    assert checked.exit_code == commands.EXIT_INFEASIBLE
+    assert checked.exit_code == planning.EXIT_INFEASIBLE
     assert "routes[0].trips[0]" in checked.output
     assert checked.output.endswith("infeasible\n")
 

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import commands
+from app.cli import commands, planning
 from app.cli.file_errors import EXIT_BAD_INPUT
 from app.conversion.problem import to_problem
 from app.errors import RequestError
@@ -234,7 +234,7 @@ def test_request_that_breaks_a_limit_is_told_with_its_path(tmp_path: Path) -> No
 
 def test_command_writes_what_plan_takes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
                                         planner: Planner) -> None:
-    monkeypatch.setattr(commands, "load_planner", lambda weights_dir, names: planner)
+    monkeypatch.setattr(planning, "load_planner", lambda weights_dir, names: planner)
     instance, request = str(_write(tmp_path, SOLOMON)), tmp_path / "request.json"
     done = CliRunner().invoke(
         commands.cli, ["convert", instance, "--rounding", "dimacs", "--output", str(request)])

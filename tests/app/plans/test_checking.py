@@ -7,7 +7,7 @@ import httpx
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import commands
+from app.cli import commands, planning
 from tests.app.plans.asking import judged, planned, refused
 
 Request = dict[str, Any]
@@ -176,7 +176,7 @@ def test_the_command_holds_a_plan_against_the_past_too(
                                             str(tmp_path / f"{name}.json")])
 
     assert run("plan").exit_code == 0
-    assert run("changed").exit_code == commands.EXIT_INFEASIBLE
+    assert run("changed").exit_code == planning.EXIT_INFEASIBLE
     assert "FROZEN" in run("changed").output
 
 

@@ -8,7 +8,7 @@ import httpx
 import pytest
 from typer.testing import CliRunner
 
-from app.cli import commands
+from app.cli import commands, planning
 from app.schemas.check import CheckReply
 from app.schemas.explain import ExplainReply
 from app.schemas.response import PlanReply, WarningsReply
@@ -59,7 +59,7 @@ def test_an_invalid_request_has_errors_and_no_warnings(client: httpx.Client,
 
 def test_the_command_line_prints_warnings_beside_the_plan(
         tmp_path: Path, doubtful: Request, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(commands, "load_planner", lambda *_: FirstFitPlanner())
+    monkeypatch.setattr(planning, "load_planner", lambda *_: FirstFitPlanner())
     file = tmp_path / "problem.json"
     file.write_text(json.dumps(doubtful))
     planned = CliRunner().invoke(commands.cli, ["plan", str(file)])
