@@ -902,6 +902,7 @@ typedef struct tandem_linked {
     tandem_i64_1d best_behind;  /* (node,) */
     tandem_least *cheapest;  /* of all types */
     bool timed;  /* something limits when customers are served */
+    tandem_i64_1d reach;  /* (node,) how far it is to who is farther of both beside; see `layout.h` */
 } tandem_linked;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */

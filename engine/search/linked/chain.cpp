@@ -20,14 +20,18 @@ Int onward_of(const World& world, const Linked& linked, const Run& run, Int befo
 // Lets one customer, or the depot, come right behind another, so far away.
 void join(const World& world, Linked& linked, Run& run, Int before, Int behind, Int distance) {
     if (before >= world.num_depots) {
-        linked.link[before].behind = behind;
-        linked.link[before].onward = distance;
+        Link& here = linked.link[before];
+        here.behind = behind;
+        here.onward = distance;
+        linked.reach[before] = std::max(here.inward, distance);
     } else {
         run.first = behind;
     }
     if (behind >= world.num_depots) {
-        linked.link[behind].before = before;
-        linked.link[behind].inward = distance;
+        Link& here = linked.link[behind];
+        here.before = before;
+        here.inward = distance;
+        linked.reach[behind] = std::max(distance, here.onward);
     } else {
         run.last = before;
     }
@@ -62,6 +66,7 @@ void untie(const World& world, Searcher& searcher, Linked& linked) {
     if (here.behind >= world.num_depots) linked.link[here.behind].gap = entry.gap;
     take_load(world, run, entry.node);
     here.slot = nowhere;
+    linked.reach[entry.node] = out_of_reach;
     --run.count;
     run.distance -= here.inward + here.onward - entry.onward;
     if (run.count == 0) close_run(searcher, linked, slot);
@@ -76,7 +81,8 @@ void put_back(const World& world, Searcher& searcher, Linked& linked) {
     const Int begin = noted.removed - piece.count;
     for (Int index = begin; index < noted.removed; ++index) {
         const Int node = linked.removed_node[index];
-        linked.link[node] = linked.removed[index];
+        const Link& here = linked.link[node] = linked.removed[index];
+        linked.reach[node] = std::max(here.inward, here.onward);
         add_load(world, run, node);
     }
     const Int first = linked.removed_node[begin];
@@ -167,6 +173,7 @@ Int cut_out(const World& world, Linked& linked, Int slot, Int first, Int count) 
         saved += here.onward;
         take_load(world, run, node);
         here.slot = nowhere;
+        linked.reach[node] = out_of_reach;
         node = here.behind;
     }
     run.count -= count;

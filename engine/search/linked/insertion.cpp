@@ -52,8 +52,12 @@ void prefetch(const LegRow& row, Int node) {
 class Room {
 public:
     // `enlarge` tells that a route may be given a larger type.
-    Room(const World& world, Int node, bool enlarge)
-        : world_(world), node_(node), is_any_(enlarge || world.num_types > most_known) {
+    Room(const World& world, Int node, bool enlarge) : world_(world), node_(node) {
+        if (enlarge || world.num_types > most_known) {
+            same_for_all_ = most_known;
+        } else if (world.num_types == 1) {
+            same_for_all_ = 0;
+        }
         const Int count = std::min(world.num_types, most_known);
         for (Int k = 0; k < count; ++k) most_[std::size_t(k)] = most(k);
         most_[most_known] = {far, far, far};
@@ -67,7 +71,8 @@ public:
 
     // The same without branches; true as well where another type might.
     bool may_be_on(const Run& run) const {
-        const Amount& most = most_[std::size_t(is_any_ ? most_known : run.type)];
+        // A run's type isn't waited for where there is but one.
+        const Amount& most = most_[std::size_t(same_for_all_ < 0 ? run.type : same_for_all_)];
         return (run.load[0] <= most[0]) & (run.load[1] <= most[1]) & (run.load[2] <= most[2]);
     }
 
@@ -81,7 +86,7 @@ private:
 
     const World& world_;
     const Int node_;
-    const bool is_any_;
+    Int same_for_all_ = nowhere;  // what is the most for all types, by number
     std::array<Amount, most_known + 1> most_;
 };
 
@@ -123,16 +128,19 @@ public:
     // asked for at once, and into branches that can't be foreseen, so that there are none where
     // neighbours are passed over.
     void try_beside() {
-        const Int size = world_.fit.shape(1);
-        for (Int first = 0; first < size; first += at_once) {
-            std::array<std::int32_t, at_once> ranks;
-            const std::size_t count = choose(first, std::min(first + at_once, size), ranks);
+        const Int size = num_listed();
+        for (Int first = 0; first < size;) {
+            // Beside the nearest there mostly is a place that rules out most of the others.
+            const Int behind = std::min(first == 0 ? nearest_of_all : first + at_once, size);
+            std::array<Neighbour, at_once> neighbours;
+            const std::size_t count = choose(first, behind, neighbours);
             for (std::size_t index = 0; index < count; ++index) {
-                const Link& at = linked_.link[world_.fit(newcomer_.node, ranks[index])];
+                const Link& at = linked_.link[neighbours[index].node];
                 prefetch(newcomer_.onward, at.behind);
                 prefetch(newcomer_.inward, at.before);
             }
-            for (std::size_t index = 0; index < count; ++index) try_neighbour(ranks[index]);
+            for (std::size_t index = 0; index < count; ++index) try_neighbour(neighbours[index]);
+            first = behind;
         }
     }
 
@@ -172,46 +180,59 @@ public:
     }
 
 private:
-    static constexpr Int at_once = 8;
+    // Who may be the neighbour of a customer, and how near they are.
+    struct Neighbour {
+        std::int32_t node;
+        std::int32_t nearest;
+    };
+
+    static constexpr Int nearest_of_all = 8;
+    static constexpr Int at_once = 32;
+
+    // How many neighbours are listed.
+    Int num_listed() const {
+        Int size = world_.fit.shape(1);
+        while (size > 0 && world_.fit(newcomer_.node, size - 1) < 0) --size;
+        return size;
+    }
 
     // Whether a place beside a neighbour may be the best yet.
     //
     // Most may not by the triangle inequality: unless who comes before or behind a neighbour is
     // nearer, beside whom the same place is looked at, it costs as much as the way there and back,
     // less the longer of the neighbour's legs.
-    bool may_be_beside(const Link& at, Int nearest) const {
-        return (at.slot >= 0) & (2 * nearest - std::max(at.inward, at.onward) < longest_detour_);
+    bool may_be_beside(Int node, Int nearest) const {
+        return 2 * nearest - linked_.reach[node] < longest_detour_;
     }
 
-    // Lists the neighbours, by rank from `first` to `behind`, whose places may be the best yet, and
-    // whose routes may be joined; returns how many.
-    std::size_t choose(Int first, Int behind, std::array<std::int32_t, at_once>& ranks) const {
+    // Lists neighbours, of those by rank from `first` to `behind`, whose places may be the best
+    // yet, and whose routes may be joined; returns how many.
+    std::size_t choose(Int first, Int behind, std::array<Neighbour, at_once>& chosen) const {
         const std::int32_t* const others = &world_.fit(newcomer_.node, 0);
         const std::int32_t* const near = &linked_.near(newcomer_.node, 0);
         const Link* const link = linked_.link.data();
+        const Int* const reach = linked_.reach.data();
         const Int longest = longest_detour_;
         std::size_t count = 0;
-        for (Int rank = first; rank < behind && others[rank] >= 0; ++rank) {
-            const Link& at = link[others[rank]];
-            const Int least = 2 * Int{near[rank]} - std::max(at.inward, at.onward);
-            ranks[count] = static_cast<std::int32_t>(rank);
-            count += (at.slot >= 0) & (least < longest);
+        for (Int rank = first; rank < behind; ++rank) {
+            chosen[count] = {others[rank], near[rank]};
+            count += 2 * Int{near[rank]} - reach[others[rank]] < longest;
         }
-        std::size_t chosen = 0;
+        std::size_t left = 0;
         for (std::size_t index = 0; index < count; ++index) {
-            const Int rank = ranks[index];
-            ranks[chosen] = ranks[index];
-            chosen += room_.may_be_on(linked_.run[link[others[rank]].slot]);
+            const Neighbour neighbour = chosen[index];
+            chosen[left] = neighbour;
+            left += room_.may_be_on(linked_.run[link[neighbour.node].slot]);
         }
-        return chosen;
+        return left;
     }
 
-    void try_neighbour(Int rank) {
-        const Int node = world_.fit(newcomer_.node, rank);
-        const Int nearest = linked_.near(newcomer_.node, rank);
+    void try_neighbour(const Neighbour& neighbour) {
+        const Int node = neighbour.node;
+        const Int nearest = neighbour.nearest;
         const Link& at = linked_.link[node];
         Joining joins;
-        if (!may_be_beside(at, nearest) || !may_join(at.slot, joins)) return;
+        if (!may_be_beside(node, nearest) || !may_join(at.slot, joins)) return;
         Int inward = nearest;
         Int onward = nearest;
         if (!newcomer_.same_back || nearest == farthest) {

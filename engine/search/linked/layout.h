@@ -13,6 +13,9 @@ using Moment = tandem_moment;
 using Noted = tandem_noted;
 using Least = tandem_least;
 
+// Beside whom no place is near enough, however long a detour may be.
+constexpr Int out_of_reach = -far;
+
 struct Linked {
     View<Link, 1> link;                  // (node,)
     View<Run, 1> run;                    // (slot,)
@@ -33,13 +36,16 @@ struct Linked {
     View<std::int64_t, 1> best_behind;  // (node,)
     Least* cheapest;                    // of all types
     bool timed;                         // something limits when customers are served
+    // (node,) the longer of a customer's legs, `out_of_reach` of one on no route. That is all that
+    // tells of most neighbours that a place beside them is too far, and many fit a cache.
+    View<std::int64_t, 1> reach;
 };
 
 inline Linked linked_of(const tandem_linked& from) {
     return {from.link,     from.run,    from.piece,      from.removed,   from.removed_node,
             from.entry,    from.moment, from.retyped,    from.former,    from.noted,
             from.hit,      from.near,   from.best_first, from.best_type, from.best_behind,
-            from.cheapest, from.timed};
+            from.cheapest, from.timed,  from.reach};
 }
 
 }  // namespace tandem

@@ -123,6 +123,7 @@ void measure_near(const World& world, Linked& linked) {
 void tie(const World& world, Searcher& searcher, Linked& linked) {
     for (Int node = world.num_depots; node < world.num_nodes; ++node) {
         linked.link[node].slot = searcher.now.where[node].slot;
+        linked.reach[node] = out_of_reach;
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
         world.deadline.go_on();

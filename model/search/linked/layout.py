@@ -24,6 +24,10 @@ MOMENTS = 4096
 """How many times are noted at least in a turn."""
 
 
+CACHE_LINE = 64
+"""Bytes that come from memory at once."""
+
+
 class Linked(NamedTuple):
     """Routes as they are, those of the best plan, and what to take back."""
 
@@ -44,6 +48,7 @@ class Linked(NamedTuple):
     best_behind: IntArray  # (node,)
     cheapest: Record  # costs, of all types
     timed: bool  # something limits when customers are served
+    reach: IntArray  # (node,) mm of the longer of a customer's legs; `layout.h` says more
 
 
 def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
@@ -55,8 +60,8 @@ def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
     cheapest.distance, cheapest.stop = (world.rate[:world.num_types][field].min()
                                         for field in ("distance", "stop"))
     return Linked(
-        link=np.zeros(nodes, dtype_of("tandem_link")),
-        run=np.zeros(slots, dtype_of("tandem_run")),
+        link=_in_lines(nodes, dtype_of("tandem_link")),
+        run=_in_lines(slots, dtype_of("tandem_run")),
         piece=np.zeros(removed, dtype_of("tandem_piece")),
         removed=np.zeros(removed, dtype_of("tandem_link")),
         removed_node=np.zeros(removed, np.int64),
@@ -66,4 +71,12 @@ def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
         noted=one(dtype_of("tandem_noted")),
         hit=np.zeros(slots, np.int64), near=np.zeros(world.fit.shape, np.int32),
         best_first=np.full(slots, NOWHERE), best_type=np.zeros(slots, np.int64),
-        best_behind=np.zeros(nodes, np.int64), cheapest=cheapest, timed=timed)
+        best_behind=np.zeros(nodes, np.int64), cheapest=cheapest, timed=timed,
+        reach=np.zeros(nodes, np.int64))
+
+
+def _in_lines(size: int, kind: np.dtype[np.record]) -> Records:
+    """Return rows of zeros that begin where a cache line does."""
+    room = np.zeros(size * kind.itemsize + CACHE_LINE, np.int8)
+    begin = -room.ctypes.data % CACHE_LINE
+    return room[begin:begin + size * kind.itemsize].view(kind)
