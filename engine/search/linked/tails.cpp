@@ -1,9 +1,7 @@
 #include "search/linked/tails.h"
 
 #include <algorithm>
-#include <cmath>
 
-#include "randomness.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
@@ -267,9 +265,9 @@ bool swap_tails_linked(const World& world, Searcher& searcher, Linked& linked, I
 
 }  // namespace
 
-SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked) {
+SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked,
+                                   double limit) {
     constexpr SwappedTails not_swapped{nowhere, nowhere, 0.0};
-    const double limit = -searcher.value->temperature * std::log(1.0 - uniform(searcher.rng));
     const Int node = draw_customer(world, searcher.now, searcher.count->focus, searcher.rng);
     const Int a = linked.link[node].slot;
     if (a < 0) return not_swapped;

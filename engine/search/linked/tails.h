@@ -12,7 +12,8 @@ struct SwappedTails {
     double cost;
 };
 
-// Swaps the tail behind a random customer if that is accepted.
-SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked);
+// Swaps the tail behind a random customer if that costs less than `limit`.
+SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked,
+                                   double limit);
 
 }  // namespace tandem

@@ -138,15 +138,6 @@ double missing_cost(const World& world, const Searcher& searcher) {
     return left_out_cost(world, searcher.missing, searcher.count->missing);
 }
 
-double turn_cost(const World& world, const Searcher& searcher) {
-    const SearchCounts& count = *searcher.count;
-    const double fewer_or_more =
-        static_cast<double>(count.absent - count.missing) * world.unassigned_cost;
-    const double others = unassigned_more(world, searcher.absent, count.absent) -
-                          unassigned_more(world, searcher.missing, count.missing);
-    return served_cost(searcher) + (fewer_or_more + others);
-}
-
 void accept(const Searcher& searcher, double cost) {
     SearchCounts& count = *searcher.count;
     ++count.stamp;

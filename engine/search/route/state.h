@@ -64,9 +64,6 @@ double left_out_cost(const World& world, View<const Int, 1> nodes, Int count);
 // Return what the customers left out cost.
 double missing_cost(const World& world, const Searcher& searcher);
 
-// Return the cost of the routes as they are after this turn.
-double turn_cost(const World& world, const Searcher& searcher);
-
 // Go on from this turn's routes. In place.
 void accept(const Searcher& searcher, double cost);
 

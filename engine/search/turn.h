@@ -1,16 +1,11 @@
-// Simulated annealing by ruin and recreate.
-//
-// References: Christiaens and Vanden Berghe (2020), slack induction by string removals for vehicle
-// routing problems, Transportation Science 54:417-433.
+// What a turn of the annealing begins with and is judged by, whatever holds the routes.
 #pragma once
 
 #include "search/route/layout.h"
 
 namespace tandem {
 
-constexpr Int any_order = -1;     // no order of insertion in particular: one is drawn each turn
 constexpr Int most_missing = 12;  // how many of the customers left out are tried again each turn
-constexpr double retyped_share = 0.1;  // how often touched routes get the vehicles that cost least
 
 // List `most` of the customers left out as absent. In place; return how many are not tried.
 Int begin_turn(const World& world, Searcher& searcher, Int most);
@@ -21,6 +16,9 @@ Int begin_turn(const World& world, Searcher& searcher, Int most);
 // has to be served is tried by chance alone, everywhere as often.
 void try_near(const World& world, Searcher& searcher, Int seed, Int first, Int total);
 
+// Return by how much a turn may raise the cost, drawn by the temperature.
+double draw_rise(const Searcher& searcher);
+
 // Tell whether after this turn others are left out who must not be, and seldom were.
 //
 // They are as many as before, and all who are left out cost no more. Counts the absences. In place.
@@ -29,14 +27,11 @@ bool rarer_absences(const World& world, Searcher& searcher);
 // Tell whether what a turn has inserted so far costs no more than all that it will insert.
 bool counts_up(const World& world, const Searcher& searcher);
 
-// Ruin and recreate `turns` times. In place.
-//
-// Where no insertion saves anything, a turn is given up once those made cost more than would be
-// accepted.
-// Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
-// whatever it costs.
-// Once the search must end, a turn is given up as if it had not begun, and an insertion of all
-// leaves out whoever is not inserted yet.
-void anneal(const World& world, Searcher& searcher, Int turns, Int order);
+// Return what the routes cost before who is absent is inserted, from number `first` on, where they
+// and those left out before this turn cost `served`.
+double cost_to_insert(const World& world, const Searcher& searcher, double served, Int first);
+
+// Return the cost after this turn, where the routes and those left out before cost `served`.
+double turn_cost(const World& world, const Searcher& searcher, double served);
 
 }  // namespace tandem

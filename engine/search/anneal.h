@@ -1,0 +1,114 @@
+// Simulated annealing by ruin and recreate, over whatever holds the routes.
+//
+// References: Christiaens and Vanden Berghe (2020), slack induction by string removals for vehicle
+// routing problems, Transportation Science 54:417-433.
+#pragma once
+
+#include <concepts>
+#include <limits>
+
+#include "randomness.h"
+#include "search/moves/recreate.h"
+#include "search/turn.h"
+
+namespace tandem {
+
+constexpr double retyped_share = 0.1;  // how often changed routes get the vehicles that cost least
+
+// What holds the routes, and notes what a turn, or one part of it, has changed of them.
+template <typename T>
+concept Store = requires(T store, const T now, Int number, double cost) {
+    // Removes customers near each other, who are absent then; those before them, from a number on,
+    // are tried near the ruin.
+    { store.ruin(number) };
+    // Inserts who is absent, from a number on; false, with some inserted, once that costs more than
+    // is to spare.
+    { store.recreate(number, cost) } -> std::same_as<bool>;
+    // Gives changed routes the vehicles that cost least.
+    { store.retype() };
+    // How often a turn tries something else.
+    { now.parts() } -> std::same_as<Int>;
+    // Does that, if it seems to cost less than so much more.
+    { store.move_part(number, cost) } -> std::same_as<bool>;
+    // Gives the routes changed by that others' vehicles, or those left, where that costs less.
+    { store.trade() };
+    // Whether what has been done costs less than so much more.
+    { now.is_worth(cost) } -> std::same_as<bool>;
+    // What the routes, and those left out before, cost.
+    { now.served_cost() } -> std::same_as<double>;
+    // Goes on from the routes as they are.
+    { store.accept(cost) };
+    { store.keep_best() };
+    { store.take_back() };
+};
+
+// Goes on from this turn's routes, and keeps them if they are the best.
+template <Store Routes>
+void go_on(Searcher& searcher, Routes& routes, double cost) {
+    routes.accept(cost);
+    if (cost < searcher.value->best) routes.keep_best();
+}
+
+// Swaps tails of routes, or does what else a store can, if that is accepted.
+template <Store Routes>
+void move_part(const World& world, Searcher& searcher, Routes& routes, Int part) {
+    const double rise = draw_rise(searcher);
+    if (routes.move_part(part, rise)) {
+        if (world.traded && uniform(searcher.rng) < retyped_share) routes.trade();
+        if (routes.is_worth(rise)) {
+            go_on(searcher, routes, routes.served_cost());
+            return;
+        }
+    }
+    routes.take_back();
+}
+
+// Ruins and recreates once. False, with nothing changed, once the search must end.
+template <Store Routes>
+bool ruin_and_recreate(const World& world, Searcher& searcher, Routes& routes) {
+    SearchCounts& count = *searcher.count;
+    const Int first = begin_turn(world, searcher, most_missing);
+    routes.ruin(first);
+    sort_absent(world, searcher, first, draw_order(world, searcher.rng));
+    const double limit = searcher.value->cost + draw_rise(searcher);
+    const bool retyped = (world.traded || world.mixed) && uniform(searcher.rng) < retyped_share;
+    double spare = std::numeric_limits<double>::infinity();
+    if (!retyped && counts_up(world, searcher)) {
+        spare = limit - cost_to_insert(world, searcher, routes.served_cost(), first);
+    }
+    const bool done = routes.recreate(first, spare);
+    if (world.deadline.passed()) {
+        routes.take_back();
+        --count.turn;
+        return false;
+    }
+    if (done && retyped) routes.retype();
+    const double cost = turn_cost(world, searcher, routes.served_cost());
+    const bool scarce = !world.optional && count.absent > 0;
+    const bool forced = done && scarce && rarer_absences(world, searcher);
+    if (done && (cost < limit || forced)) {
+        go_on(searcher, routes, cost);
+    } else {
+        routes.take_back();
+    }
+    return true;
+}
+
+// Ruins and recreates `turns` times.
+//
+// Where no insertion saves anything, a turn is given up once those made cost more than would be
+// accepted; once the search must end, as if it had not begun.
+template <Store Routes>
+void anneal(const World& world, Searcher& searcher, Routes& routes, Int turns) {
+    for (Int turn = 0; turn < turns; ++turn) {
+        if (!ruin_and_recreate(world, searcher, routes)) return;
+        for (Int part = 0; part < routes.parts(); ++part) {
+            if ((part > 0 || world.tails) && !world.deadline.passed()) {
+                move_part(world, searcher, routes, part);
+            }
+        }
+        searcher.value->temperature *= searcher.value->cooling;
+    }
+}
+
+}  // namespace tandem

@@ -1,0 +1,144 @@
+#include "search/linked/store.h"
+
+#include <algorithm>
+
+#include "guard.h"
+#include "search/anneal.h"
+#include "search/linked/chain.h"
+#include "search/linked/insertion.h"
+#include "search/linked/retype.h"
+#include "search/linked/strings.h"
+#include "search/linked/tails.h"
+#include "search/route/state.h"
+
+namespace tandem {
+
+namespace {
+
+// Routes as linked stops, where a turn notes what it has changed.
+class LinkedStore {
+public:
+    LinkedStore(const World& world, Searcher& searcher, Linked& linked)
+        : world_(world), searcher_(searcher), linked_(linked) {}
+
+    void ruin(Int first) {
+        const Int before = searcher_.count->absent;
+        const auto [saved, seed] = ruin_linked(world_, searcher_, linked_);
+        if (first > 0) try_near(world_, searcher_, seed, first, before);
+        saved_ = saved;
+        added_ = 0.0;
+    }
+
+    bool recreate(Int first, double spare) {
+        const auto [done, added] = recreate_linked(world_, searcher_, linked_, first, spare);
+        added_ = added;
+        return done;
+    }
+
+    void retype() { added_ -= cheapen_runs(world_, searcher_, linked_); }
+
+    Int parts() const { return 1; }
+
+    // Swaps tails of routes, which is not taken back.
+    bool move_part(Int, double rise) {
+        swapped_ = exchange_tails_linked(world_, searcher_, linked_, rise);
+        if (swapped_.slot < 0) return false;
+        saved_ = 0.0;
+        added_ = swapped_.cost;
+        note_changed(searcher_, swapped_.slot);
+        note_changed(searcher_, swapped_.other);
+        SearchCounts& count = *searcher_.count;
+        count.absent = count.missing;
+        std::copy_n(searcher_.missing.begin(), count.missing, searcher_.absent.begin());
+        return true;
+    }
+
+    void trade() {
+        const double saved = cheapen_run(world_, searcher_, linked_, swapped_.slot);
+        added_ -= saved + cheapen_run(world_, searcher_, linked_, swapped_.other);
+    }
+
+    // Tails are swapped, and vehicles with others, where that is worth it alone.
+    bool is_worth(double) const { return true; }
+
+    double served_cost() const { return searcher_.value->cost - saved_ + added_; }
+
+    void accept(double cost) {
+        list_changes();
+        SearchCounts& count = *searcher_.count;
+        const auto missing = searcher_.missing.first(count.missing);
+        const auto absent = searcher_.absent.first(count.absent);
+        for (const Int node : missing) searcher_.now.where[node].slot = 0;
+        for (const Int node : absent) searcher_.now.where[node].slot = nowhere;
+        count.missing = count.absent;
+        std::copy(absent.begin(), absent.end(), searcher_.missing.begin());
+        searcher_.value->cost = cost;
+    }
+
+    void keep_best() {
+        const SearchCounts& count = *searcher_.count;
+        if (count.changed == all_slots) list_all_changed(searcher_);
+        for (const Int slot : searcher_.changed.first(count.changed)) {
+            searcher_.is_changed[slot] = false;
+            linked_.best_first[slot] = nowhere;
+            if (searcher_.rank[slot] < count.active) keep_run(slot);
+        }
+        keep_totals(searcher_);
+    }
+
+    void take_back() { tandem::take_back(world_, searcher_, linked_); }
+
+private:
+    // Lists the routes of this turn as changed since the best, and notes nothing more.
+    void list_changes() {
+        const Noted& noted = *linked_.noted;
+        for (const Piece& piece : linked_.piece.first(noted.pieces)) {
+            note_changed(searcher_, piece.slot);
+        }
+        for (const Entry& entry : linked_.entry.first(noted.entries)) {
+            note_changed(searcher_, linked_.link[entry.node].slot);
+        }
+        for (const Int slot : linked_.retyped.first(noted.retyped)) note_changed(searcher_, slot);
+        forget(linked_);
+    }
+
+    // Takes a route for that of the best plan.
+    void keep_run(Int slot) {
+        const Run& run = linked_.run[slot];
+        linked_.best_first[slot] = run.first;
+        linked_.best_type[slot] = run.type;
+        Int node = run.first;
+        for (Int number = 0; number < run.count; ++number) {
+            const Int behind = linked_.link[node].behind;
+            linked_.best_behind[node] = behind;
+            node = behind;
+        }
+    }
+
+    const World& world_;
+    Searcher& searcher_;
+    Linked& linked_;
+    double saved_ = 0.0;
+    double added_ = 0.0;
+    SwappedTails swapped_{nowhere, nowhere, 0.0};
+};
+
+}  // namespace
+
+void anneal_linked(const World& world, Searcher& searcher, Linked& linked, Int turns) {
+    LinkedStore routes(world, searcher, linked);
+    anneal(world, searcher, routes, turns);
+}
+
+}  // namespace tandem
+
+using namespace tandem;
+
+extern "C" int tandem_anneal_linked(const tandem_world* world, const tandem_searcher* searcher,
+                                    const tandem_linked* linked, int64_t turns) {
+    return guarded([&] {
+        Searcher searching = searcher_of(*searcher);
+        Linked routes = linked_of(*linked);
+        anneal_linked(world_of(*world), searching, routes, turns);
+    });
+}
