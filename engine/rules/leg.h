@@ -108,6 +108,17 @@ inline Int distance_from(const LegRow& inward, Int node) {
     return straight_distance(inward.point[node], *inward.here, *inward.law);
 }
 
+// Asks for a leg from memory, if it is there.
+inline void prefetch(const LegRow& row, Int node) {
+    if (row.stated != nullptr) __builtin_prefetch(row.stated + 2 * node);
+}
+
+// Whether two rows of one travel for the same node tell the same legs: they are as far there as
+// back.
+inline bool are_same(const LegRow& inward, const LegRow& onward) {
+    return inward.stated == onward.stated && inward.table == onward.table;
+}
+
 // The shorter distance to or from a node, by rows of one travel for the same node. What is computed
 // is as far back, to the last bit.
 inline Int nearness(const LegRow& inward, const LegRow& onward, Int node) {

@@ -38,13 +38,7 @@ struct Newcomer {
 Newcomer newcomer_at(const World& world, Int m, Int node, bool enlarge) {
     const LegRow inward = legs_to(world.back, m, node);
     const LegRow onward = legs_from(world.leg, m, node);
-    const bool same_back = inward.stated == onward.stated && inward.table == onward.table;
-    return {node, inward, onward, enlarge, same_back};
-}
-
-// Asks for a leg from memory, if it is there.
-void prefetch(const LegRow& row, Int node) {
-    if (row.stated != nullptr) __builtin_prefetch(row.stated + 2 * node);
+    return {node, inward, onward, enlarge, are_same(inward, onward)};
 }
 
 // What routes may carry at most, by type, so that they may serve a customer more; less than nothing
