@@ -263,7 +263,7 @@ double price_move(const World& world, const Fleet& fleet, const Move& move, Int 
     if ((world.mode[k] & mode_priced) || (is_apart(world, k) && kind >= new_trip)) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0);
-        if (!refresh(world, fleet, to, acc)) return infeasible;
+        if (!refresh_cost(world, fleet, to, acc)) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
     const Int there =

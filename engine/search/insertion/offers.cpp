@@ -82,6 +82,8 @@ Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int
         for (const Sortie& sortie : sorties) {
             if (sortie.drone != drone) continue;
             const Int first = sortie.launch, last = sortie.recovery;
+            // Sorties are in the order of their launches.
+            if (first > recovery && !charging) break;
             const bool same_trip = charging && stops[first].trip == stops[launch].trip;
             if (same_trip || (first <= recovery && launch <= last)) ++beside;
             if ((first < recovery && launch < last) ||
@@ -99,58 +101,90 @@ Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int
     return chosen;
 }
 
-// Lists sorties to a customer from stop `launch` by drones of a row.
-void offer_flights(const World& world, const Searcher& searcher, Int slot, Int launch, Int node,
-                   Int row) {
-    const Fleet& now = searcher.now;
-    const Route& route = now.route[slot];
-    const double best = searcher.bound->best;
-    const Int k = route.type;
-    const View<const Stop, 1> stops = now.stop[slot];
-    const VehicleType& type = world.type[row];
-    const Rate& rate = world.rate[row];
-    const Leg out = leg_from(legs_to(world.back, type.drone_travel, node), stops[launch].node);
-    const NodeRows place = places_by_air(world.place, type)[node];
-    Int begun = stops[launch].arrival;
-    if (launch > 0) begun = take_off(type, begun, 0);
-    double late = 0.0;
-    if (world.mode[k] & mode_priced) late = lateness_cost(world, node, begun + out.duration);
-    const double early = now.early[slot], air_rate = rate.drone_distance, time_rate = rate.time;
-    // Most stops are so far away that the flight home needn't be looked at.
-    if (double(out.distance) * air_rate + late - early >= best) return;
-    const LegRow onward = legs_from(world.leg, type.home_travel, node);
-    const Int left = gone_by(type, stops[launch].leave);
-    const Int service = service_duration(place);
-    const bool loaded = loads_cost(world, k);
-    begun = recovery_end(type, begun) - idle_time(route);
-    const Room room = room_on(world, now, slot, k, node);
-    Int last = launch;
-    if (world.crossings) {
-        last = std::min(launch + max_span, now.trip(slot, stops[launch].trip).last);
-    }
-    for (Int recovery = world.loops ? launch : launch + 1; recovery <= last; ++recovery) {
-        const Leg home = leg_to(onward, stops[recovery].node);
-        const double flown = double(out.distance + home.distance) * air_rate;
-        if (flown + late - early >= best) continue;
-        const Int met = stops[recovery].arrival;
-        const Int flight = out.duration + service + home.duration;
-        if (!within_endurance(type, left, left, met)) {
-            // Held back for the window, the truck leaves later and may wait less on its way.
-            if (earliest_back(place, left + out.duration, 0) <= left) break;
-            if (met > earliest_back(place, left + out.duration, home.duration)) continue;
+// Sorties to a customer by drones of a row on a route.
+class Flights {
+public:
+    Flights(const World& world, const Searcher& searcher, Int slot, Int row, Int node)
+        : world_(world),
+          searcher_(searcher),
+          slot_(slot),
+          row_(row),
+          node_(node),
+          stops_(searcher.now.stop[slot]),
+          type_(world.type[row]),
+          rate_(world.rate[row]),
+          place_(places_by_air(world.place, type_)[node]),
+          inward_(legs_to(world.back, type_.drone_travel, node)),
+          onward_(legs_from(world.leg, type_.home_travel, node)),
+          room_(room_on(world, searcher.now, slot, searcher.now.route[slot].type, node)),
+          best_(searcher.bound->best),
+          early_(searcher.now.early[slot]),
+          idle_(idle_time(searcher.now.route[slot])),
+          priced_((world.mode[searcher.now.route[slot].type] & mode_priced) != 0),
+          loaded_(loads_cost(world, searcher.now.route[slot].type)) {}
+
+    // Lists those from stop `launch`.
+    void offer_from(Int launch) const {
+        const Stop& from = stops_[launch];
+        const Leg out = leg_from(inward_, from.node);
+        // Most stops are so far away that nothing else needs to be looked at.
+        if (double(out.distance) * rate_.drone_distance - early_ >= best_) return;
+        const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
+        const double late = priced_ ? lateness_cost(world_, node_, ready + out.duration) : 0.0;
+        if (double(out.distance) * rate_.drone_distance + late - early_ >= best_) return;
+        const Int left = gone_by(type_, from.leave);
+        const Int begun = recovery_end(type_, ready) - idle_;
+        Int last = launch;
+        if (world_.crossings) {
+            last = std::min(launch + max_span, searcher_.now.trip(slot_, from.trip).last);
         }
-        // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
-        const Int longer = std::max(Int{0}, begun + flight - stops[recovery].leave);
-        double cost = flown + double(longer) * time_rate + late - early;
-        if (loaded) cost += load_more(world, now, slot, launch, recovery, node);
-        if (cost < best && can_serve(type, place, out.duration, home.duration) &&
-            room_between(room, launch, recovery)) {
-            Move& offer = add_offer(searcher, cost, by_sortie, slot, launch);
-            offer.last = recovery;
-            offer.type = row;
+        for (Int recovery = world_.loops ? launch : launch + 1; recovery <= last; ++recovery) {
+            const Stop& to = stops_[recovery];
+            const Leg home = leg_to(onward_, to.node);
+            const double flown = double(out.distance + home.distance) * rate_.drone_distance;
+            if (flown + late - early_ >= best_) continue;
+            const Int flight = out.duration + service_duration(place_) + home.duration;
+            if (!within_endurance(type_, left, left, to.arrival)) {
+                // Held back for the window, the truck leaves later and may wait less on its way.
+                if (earliest_back(place_, left + out.duration, 0) <= left) break;
+                if (to.arrival > earliest_back(place_, left + out.duration, home.duration)) {
+                    continue;
+                }
+            }
+            // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
+            const Int longer = std::max(Int{0}, begun + flight - to.leave);
+            double cost = flown + double(longer) * rate_.time + late - early_;
+            if (loaded_) {
+                cost += load_more(world_, searcher_.now, slot_, launch, recovery, node_);
+            }
+            if (cost < best_ && can_serve(type_, place_, out.duration, home.duration) &&
+                room_between(room_, launch, recovery)) {
+                Move& offer = add_offer(searcher_, cost, by_sortie, slot_, launch);
+                offer.last = recovery;
+                offer.type = row_;
+            }
         }
     }
-}
+
+private:
+    const World& world_;
+    const Searcher& searcher_;
+    Int slot_;
+    Int row_;
+    Int node_;
+    View<const Stop, 1> stops_;
+    const VehicleType& type_;
+    Rate rate_;
+    NodeRows place_;
+    LegRow inward_;
+    LegRow onward_;
+    Room room_;
+    double best_;
+    double early_;  // what the route's waiting costs, which may become less
+    Int idle_;      // how long the route could work longer at no cost
+    bool priced_;
+    bool loaded_;
+};
 
 // Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
 //
@@ -195,15 +229,25 @@ void offer_stops(const World& world, const Searcher& searcher, Int slot, Int fir
     }
 }
 
-void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int launch, Int node) {
+void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+                   Int node) {
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
-    const Trip& trip = now.trip(slot, now.stop(slot, launch).trip);
-    for (Int row = first_drone_row(world.type, route.type); row >= 0;
-         row = next_drone_row(world.type, row)) {
-        if (world.can(row, 1, node) &&
-            has_battery(world.type, route, now.sortie[slot], trip, row)) {
-            offer_flights(world, searcher, slot, launch, node, row);
+    const Trip& trip = now.trip(slot, now.stop(slot, first).trip);
+    const auto may_fly = [&](Int row) {
+        return world.can(row, 1, node) &&
+               has_battery(world.type, route, now.sortie[slot], trip, row);
+    };
+    const Int first_row = first_drone_row(world.type, route.type);
+    if (next_drone_row(world.type, first_row) == no_row) {
+        if (!may_fly(first_row)) return;
+        const Flights flights(world, searcher, slot, first_row, node);
+        for (Int launch = first; launch <= last; ++launch) flights.offer_from(launch);
+        return;
+    }
+    for (Int launch = first; launch <= last; ++launch) {
+        for (Int row = first_row; row >= 0; row = next_drone_row(world.type, row)) {
+            if (may_fly(row)) Flights(world, searcher, slot, row, node).offer_from(launch);
         }
     }
 }

@@ -18,8 +18,10 @@ constexpr Int at_one_stop = max_span + 2;
 void offer_stops(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
                  Int node);
 
-// Lists sorties to a customer from stop `launch`, by each type of drones.
-void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int launch, Int node);
+// Lists sorties to a customer from each stop of a trip from `first` to `last`, by each type of
+// drones.
+void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+                   Int node);
 
 // Lists a customer on each sortie of a route.
 void offer_joining(const World& world, const Searcher& searcher, Int slot, Int node);

@@ -42,11 +42,11 @@ void try_route(const World& world, const Searcher& searcher, Int slot, Int node,
             offer_stops(world, searcher, slot, first, last - 1, node);
         }
         if (!flies || !may_launch(type, route, now.sortie[slot], trip)) continue;
-        for (Int p = first; p < last; ++p) offer_sorties(world, searcher, slot, p, node);
+        offer_sorties(world, searcher, slot, first, last - 1, node);
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
         const Int soonest = held_until(opening(world.place[0][node], leave), endurance_of(type));
-        if (leave < soonest) offer_sorties(world, searcher, slot, last, node);
+        if (leave < soonest) offer_sorties(world, searcher, slot, last, last, node);
     }
     if (world.visits[k] > 1 && flies) offer_joining(world, searcher, slot, node);
     take_cheapest(world, searcher, node);
@@ -124,7 +124,7 @@ void offer_beside(const World& world, const Searcher& searcher, Int other, Int n
     // Nobody is served behind the depot.
     if (drives) offer_stops(world, searcher, slot, first, std::min(p, trip.last - 1), node);
     if (!flies) return;
-    for (Int q = first; q <= p; ++q) offer_sorties(world, searcher, slot, q, node);
+    offer_sorties(world, searcher, slot, first, p, node);
 }
 
 }  // namespace

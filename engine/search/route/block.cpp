@@ -5,7 +5,6 @@
 #include "rules/energy.h"
 #include "rules/flight.h"
 #include "search/route/batteries.h"
-#include "search/route/craft.h"
 
 namespace tandem {
 namespace {
@@ -47,7 +46,7 @@ void bound_arrival(BlockSums& acc, Interval within) {
 // Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
 //
 // In place; false if that is too late however soon the truck arrives.
-bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& acc) {
+inline bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& acc) {
     if (too_late(place, c)) return false;
     bound_arrival(acc, allowed_within(place, acc.time, d, c));
     acc.dep = std::min(acc.dep, in_same_window(place, arrival) - d);
@@ -136,34 +135,49 @@ bool is_aboard(View<const Sortie, 1> sorties, Int index, Int oldest) {
     return true;
 }
 
-// Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
+// Tell whether a sortie is to be launched or recovered at stop `p` next.
+bool is_due(View<const Sortie, 1> sorties, Int index, Int p, Int oldest) {
+    const Sortie& sortie = sorties[index];
+    if (sortie.state == sortie_flies) return sortie.recovery == p;
+    return sortie.state == sortie_waits && sortie.launch == p && is_aboard(sorties, index, oldest);
+}
+
+// Return when the launch or recovery of a sortie that is due can begin, doubled.
 //
 // A drone that is there is recovered before another is launched.
+Int twice_begin(const Truck& truck, const Sortie& sortie, Int node, const BlockSums& acc) {
+    const SortieCraft craft = truck.craft(sortie);
+    const Int free = std::max(acc.time + acc.free_d, acc.free_c);
+    if (sortie.state == sortie_flies) {
+        const Int flight = leg(craft.homeward, sortie.nodes[sortie.count - 1], node).duration;
+        const Int ready = std::max(acc.time + sortie.ready_d, sortie.ready_c);
+        return 2 * std::max(free, ready + flight);
+    }
+    const Int takeoff =
+        soonest_takeoff(craft, sortie, node, take_off(craft.type, free, acc.launched));
+    return 2 * launch_begin(craft.type, takeoff, acc.launched) + 1;
+}
+
+// Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
                    const BlockSums& acc) {
-    Int chosen = -1, earliest = far;
-    const Int free = std::max(acc.time + acc.free_d, acc.free_c);
+    Int chosen = -1, earliest = none;
     for (Int index = acc.oldest; index < count && sorties[index].launch <= p; ++index) {
-        const Sortie& sortie = sorties[index];
-        Int begin = far;
-        if (sortie.state == sortie_flies) {
-            if (sortie.recovery == p) {
-                const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
-                const Int last = sortie.nodes[sortie.count - 1];
-                const Int flight = leg(craft.homeward, last, node).duration;
-                const Int ready = std::max(acc.time + sortie.ready_d, sortie.ready_c);
-                begin = std::max(2 * free, 2 * (ready + flight));
-            }
-        } else if (sortie.state == sortie_waits && sortie.launch == p &&
-                   is_aboard(sorties, index, acc.oldest)) {
-            const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
+        Sortie& sortie = sorties[index];
+        if (!is_due(sorties, index, p, acc.oldest)) continue;
+        if (sortie.state == sortie_waits) {
+            const SortieCraft craft = truck.craft(sortie);
             if (charges_aboard(craft.type)) {
                 note_charge(craft.type, sorties, index, acc.first_sortie);
             }
-            const Int takeoff =
-                soonest_takeoff(craft, sortie, node, take_off(craft.type, free, acc.launched));
-            begin = 2 * launch_begin(craft.type, takeoff, acc.launched) + 1;
         }
+        if (chosen < 0) {
+            chosen = index;
+            continue;
+        }
+        // Mostly there is but one, whose time needn't be known.
+        if (earliest == none) earliest = twice_begin(truck, sorties[chosen], node, acc);
+        const Int begin = twice_begin(truck, sortie, node, acc);
         if (begin < earliest) {
             chosen = index;
             earliest = begin;
@@ -179,7 +193,7 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int 
         const Int index = next_operation(truck, sorties, count, p, node, acc);
         if (index < 0) break;
         Sortie& sortie = sorties[index];
-        const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
+        const SortieCraft craft = truck.craft(sortie);
         const bool allowed = sortie.state == sortie_flies ? bring_home(craft, sortie, node, acc)
                                                           : fly_out(craft, sortie, node, acc);
         if (!allowed) return false;
@@ -207,7 +221,7 @@ void note_idle(NodesRows places, View<Stop, 1> stops, Int first, Int last) {
 void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count) {
     const bool single = are_single(truck.own[0]);
     for (Sortie& sortie : sorties.first(count)) {
-        const SortieCraft craft = craft_of(truck.world, truck.k, sortie);
+        const SortieCraft craft = truck.craft(sortie);
         const Int node = sortie.home = stops[sortie.recovery].node;
         sortie.state = sortie_waits;
         sortie.held = none;

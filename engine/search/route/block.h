@@ -9,6 +9,7 @@
 #include "rules/leg.h"
 #include "rules/start.h"
 #include "rules/window.h"
+#include "search/route/craft.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -21,14 +22,23 @@ struct Truck {
           type(world_of_it.type[row]),
           places(places_of(world_of_it.place, type)),
           own(world_of_it.place[0]),
+          drones(craft_at(world_of_it, first_drone_row(world_of_it.type, row))),
+          alike(!are_several(type)),
           steady(is_steady(type)) {}
 
     const World& world;
     Int k;
     const VehicleType& type;
-    NodesRows places;  // as this type meets them
-    NodesRows own;     // by the service durations that are customers' own
+    NodesRows places;    // as this type meets them
+    NodesRows own;       // by the service durations that are customers' own
+    SortieCraft drones;  // what its first drones meet
+    bool alike;          // all of them
     bool steady;
+
+    // Return what the drone of a sortie meets.
+    SortieCraft craft(const Sortie& sortie) const {
+        return alike ? drones : craft_at(world, row_of_drone(world.type, k, sortie.drone));
+    }
 
     // Return the pair of an arrival at `time`, at the beginning of a block.
     Pair origin(Int time) const { return steady ? Pair{0, none} : Pair{none, time}; }

@@ -16,9 +16,9 @@ struct SortieCraft {
     TravelLegs homeward;
 };
 
-// Return what the drone of a sortie meets that a truck of type `k` launches.
-inline SortieCraft craft_of(const World& world, Int k, const Sortie& sortie) {
-    const VehicleType& type = world.type[row_of_drone(world.type, k, sortie.drone)];
+// Return what the drones of a row meet.
+inline SortieCraft craft_at(const World& world, Int row) {
+    const VehicleType& type = world.type[row];
     return {type, places_by_air(world.place, type), legs_of(world.leg, type.drone_travel),
             legs_of(world.leg, type.home_travel)};
 }

@@ -97,8 +97,11 @@ bool has_to_wait(const World& world, const Route& route, View<const Stop, 1> sto
     return route.end - soonest > world.type[route.type].max_working_duration;
 }
 
-// As `refresh`, of a route that isn't lean, with trips that end where they do.
-bool refresh_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+// Write times and cost of a route that isn't lean, with trips that end where they do. In place;
+// false if it breaks a rule.
+//
+// Where that costs less, its trips are held back; `settled` tells.
+bool price_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& acc, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
@@ -114,7 +117,7 @@ bool refresh_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& 
         return false;
     }
     Int departure = first_departure(world, route, stops, sorties);
-    const bool settled = (mode & mode_settled) != 0 || has_to_wait(world, route, stops, sorties);
+    settled = (mode & mode_settled) != 0 || has_to_wait(world, route, stops, sorties);
     if (settled) {
         if (!settle(world, route, stops, trips, sorties, acc)) return false;
         departure = settled_departure(world, route, stops, sorties);
@@ -125,11 +128,20 @@ bool refresh_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& 
     fleet.cost[slot] = cost;
     if (loads_cost(world, route.type)) fleet.cost[slot] += load_cost(world, fleet, slot);
     fleet.early[slot] = (mode & mode_settled) != 0 ? early : 0.0;
+    return true;
+}
+
+// As `refresh`, of a route that isn't lean, with trips that end where they do.
+bool refresh_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+    bool settled = false;
+    if (!price_as_is(world, fleet, slot, acc, settled)) return false;
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
     if (settled) {
-        clear_holds(route, stops, trips);
-        drive_forward(world, route, stops, sorties, acc);
+        clear_holds(route, stops, fleet.trip[slot]);
+        drive_forward(world, route, stops, fleet.sortie[slot], acc);
     }
-    if ((mode & mode_retimed) != 0) {
+    if ((world.mode[route.type] & mode_retimed) != 0) {
         open_up(route, stops);
     } else {
         look_back(world, route, stops);
@@ -195,6 +207,15 @@ bool refresh(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
     if (!refresh_as_is(world, fleet, slot, acc)) return false;
     if (is_apart(world, route.type) && route.trips > 1) choose_reloads(world, fleet, slot, acc);
     return true;
+}
+
+bool refresh_cost(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+    const Route& route = fleet.route[slot];
+    if (is_apart(world, route.type) || (world.mode[route.type] & mode_lean) != 0) {
+        return refresh(world, fleet, slot, acc);
+    }
+    bool settled = false;
+    return price_as_is(world, fleet, slot, acc, settled);
 }
 
 Int any_customer(const World& world, const Fleet& fleet, View<std::uint64_t, 1> rng) {

@@ -18,6 +18,9 @@ bool settle(const World& world, Route& route, View<Stop, 1> stops, View<const Tr
 // Where trips may end at several places, that which costs least is chosen between two.
 bool refresh(const World& world, const Fleet& fleet, Int slot, BlockSums& acc);
 
+// As `refresh`, of a route whose cost is all that is asked.
+bool refresh_cost(const World& world, const Fleet& fleet, Int slot, BlockSums& acc);
+
 // Return how much of the time that a route works is waiting, which a change may use up.
 //
 // For windows, or batteries.
