@@ -101,6 +101,25 @@ Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int
     return chosen;
 }
 
+// Returns until which stop some drone of a row is free that is aboard at stop `launch`: that stop
+// alone if all are launched there, the one before if none is aboard.
+Int free_until(const World& world, const Fleet& fleet, Int slot, Int launch, Int row) {
+    const Route& route = fleet.route[slot];
+    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
+    const Int number = first_drone(world.type, route.type, row);
+    Int until = launch - 1;
+    for (Int drone = number; drone < number + world.type[row].drones; ++drone) {
+        Int free = route.length;
+        for (const Sortie& sortie : sorties) {
+            if (sortie.drone != drone || sortie.recovery <= launch) continue;
+            free = sortie.launch < launch ? launch - 1 : sortie.launch;
+            break;
+        }
+        until = std::max(until, free);
+    }
+    return until;
+}
+
 // Sorties to a customer by drones of a row on a route.
 class Flights {
 public:
@@ -111,6 +130,7 @@ public:
           row_(row),
           node_(node),
           stops_(searcher.now.stop[slot]),
+          length_(searcher.now.route[slot].length),
           type_(world.type[row]),
           rate_(world.rate[row]),
           place_(places_by_air(world.place, type_)[node]),
@@ -132,17 +152,22 @@ public:
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
         const double late = priced_ ? lateness_cost(world_, node_, ready + out.duration) : 0.0;
         if (double(out.distance) * rate_.drone_distance + late - early_ >= best_) return;
+        if (too_late(place_, from.arrival + out.duration)) return;
+        const Int served = end_of_service(place_, from.arrival + out.duration);
         const Int left = gone_by(type_, from.leave);
         const Int begun = recovery_end(type_, ready) - idle_;
-        Int last = launch;
-        if (world_.crossings) {
-            last = std::min(launch + max_span, searcher_.now.trip(slot_, from.trip).last);
-        }
+        Int last = free_until(world_, searcher_.now, slot_, launch, row_);
+        const Int furthest = searcher_.now.trip(slot_, from.trip).last;
+        last = std::min({last, furthest, world_.crossings ? launch + max_span : launch});
         for (Int recovery = world_.loops ? launch : launch + 1; recovery <= last; ++recovery) {
             const Stop& to = stops_[recovery];
             const Leg home = leg_to(onward_, to.node);
             const double flown = double(out.distance + home.distance) * rate_.drone_distance;
             if (flown + late - early_ >= best_) continue;
+            if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
+                                              stops_[recovery + 1].latest) {
+                continue;
+            }
             const Int flight = out.duration + service_duration(place_) + home.duration;
             if (!within_endurance(type_, left, left, to.arrival)) {
                 // Held back for the window, the truck leaves later and may wait less on its way.
@@ -173,6 +198,7 @@ private:
     Int row_;
     Int node_;
     View<const Stop, 1> stops_;
+    Int length_;
     const VehicleType& type_;
     Rate rate_;
     NodeRows place_;
