@@ -66,7 +66,7 @@ void add_products(const float* const (&rows)[abreast], const float* matrix,
 // Where what describes an action lies.
 float* row_of(std::vector<float>& rows, Int index) { return rows.data() + index * action_width; }
 
-void raise_to_zero(Lanes& x) { x = x > 0.0F ? x : Lanes{}; }
+void raise_to_zero(Lanes& x) { x = larger(x, Lanes{}); }
 
 }  // namespace
 
@@ -87,9 +87,9 @@ void Decider::ask(Memory memory, const Seen& seen) {
     for (Int k = 0; k < blocks; ++k) {
         Lanes x;
         load(hidden + k * num_lanes, x);
-        Lanes fallen = -x;
+        Lanes fallen = Lanes{} - x;
         exponentiate(fallen);
-        store(x / (1.0F + fallen), hidden + k * num_lanes);
+        store(x / (Lanes::all(1.0F) + fallen), hidden + k * num_lanes);
     }
     for (Int j = 0; j < width; ++j) query_[j] = weights_.globe_output_bias[j] + place[j];
     add_product<blocks>(hidden, weights_.globe_output, query_);
@@ -178,26 +178,29 @@ void Decider::normalise(Int count) {
     for (Int i = num_lanes; i < behind * num_heads; i += num_lanes) {
         Lanes some;
         load(weight + i, some);
-        top = some > top ? some : top;
+        top = larger(some, top);
     }
     // Lanes hold four candidates, each by its heads.
-    float most[num_heads];
-    for (Int head = 0; head < num_heads; ++head) {
-        most[head] =
-            std::max(std::max(top[head], top[head + 4]), std::max(top[head + 8], top[head + 12]));
+    float most[num_lanes];
+    store(top, most);
+    for (Int lane = num_heads; lane < num_lanes; ++lane) {
+        most[lane % num_heads] = std::max(most[lane % num_heads], most[lane]);
     }
-    for (Int lane = 0; lane < num_lanes; ++lane) top[lane] = most[lane % num_heads];
+    for (Int lane = num_heads; lane < num_lanes; ++lane) most[lane] = most[lane % num_heads];
+    load(most, top);
     Lanes total{};
     for (Int i = 0; i < behind * num_heads; i += num_lanes) {
         Lanes some;
         load(weight + i, some);
-        some -= top;
+        some = some - top;
         exponentiate(some);
         store(some, weight + i);
         total += some;
     }
     const Quad sum = folded(total);
-    for (Int lane = 0; lane < num_lanes; ++lane) total[lane] = sum[lane % num_heads];
+    float sums[num_lanes];
+    for (Int lane = 0; lane < num_lanes; ++lane) sums[lane] = sum[lane % num_heads];
+    load(sums, total);
     for (Int i = 0; i < behind * num_heads; i += num_lanes) {
         Lanes some;
         load(weight + i, some);

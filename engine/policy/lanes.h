@@ -17,12 +17,87 @@
 
 namespace tandem {
 
-using Lanes = float __attribute__((vector_size(64)));
-using HalfLanes = float __attribute__((vector_size(32)));
-using Quad = float __attribute__((vector_size(16)));
+#if defined(__AVX512F__)
+constexpr int register_bytes = 64;
+#elif defined(__AVX__)
+constexpr int register_bytes = 32;
+#else
+constexpr int register_bytes = 16;
+#endif
+
+// So many bytes of floats in one register.
+template <int bytes>
+struct Register;
+
+template <>
+struct Register<16> {
+    using Floats = float __attribute__((vector_size(16)));
+    using Integers = std::int32_t __attribute__((vector_size(16)));
+};
+
+template <>
+struct Register<32> {
+    using Floats = float __attribute__((vector_size(32)));
+    using Integers = std::int32_t __attribute__((vector_size(32)));
+};
+
+template <>
+struct Register<64> {
+    using Floats = float __attribute__((vector_size(64)));
+    using Integers = std::int32_t __attribute__((vector_size(64)));
+};
+
+using Quad = Register<16>::Floats;
+
+// So many floats, register by register.
+template <int length>
+struct Floats {
+    static constexpr int bytes = length * int{sizeof(float)};
+    static constexpr int piece_bytes = bytes < register_bytes ? bytes : register_bytes;
+    static constexpr int num_pieces = bytes / piece_bytes;
+    using Piece = Register<piece_bytes>::Floats;
+    Piece piece[num_pieces];
+
+    // What a function makes of each register, and of those of others.
+    template <class Function, class... Other>
+    static Floats each(Function make, const Other&... other) {
+        Floats made;
+        for (int k = 0; k < num_pieces; ++k) made.piece[k] = make(other.piece[k]...);
+        return made;
+    }
+
+    static Floats all(float value) {
+        return each([value] { return Piece{} + value; });
+    }
+
+    friend Floats operator+(const Floats& a, const Floats& b) {
+        return each([](const Piece& x, const Piece& y) { return x + y; }, a, b);
+    }
+    friend Floats operator-(const Floats& a, const Floats& b) {
+        return each([](const Piece& x, const Piece& y) { return x - y; }, a, b);
+    }
+    friend Floats operator*(const Floats& a, const Floats& b) {
+        return each([](const Piece& x, const Piece& y) { return x * y; }, a, b);
+    }
+    friend Floats operator/(const Floats& a, const Floats& b) {
+        return each([](const Piece& x, const Piece& y) { return x / y; }, a, b);
+    }
+    friend Floats operator*(float a, const Floats& b) {
+        return each([a](const Piece& y) { return a * y; }, b);
+    }
+    Floats& operator+=(const Floats& other) { return *this = *this + other; }
+};
+
+using Lanes = Floats<16>;
+using HalfLanes = Floats<8>;
 
 constexpr std::int64_t num_lanes = 16;
 constexpr std::int64_t num_half_lanes = 8;
+
+// The larger of each two, the second where they are equal.
+inline Lanes larger(const Lanes& a, const Lanes& b) {
+    return Lanes::each([](const auto& x, const auto& y) { return x > y ? x : y; }, a, b);
+}
 
 // Read lanes from where floats lie in a row.
 template <class Vector>
@@ -47,14 +122,17 @@ inline Quad sums_of(const Quad& a, const Quad& b, const Quad& c, const Quad& d) 
            __builtin_shufflevector(left, right, 2, 3, 6, 7);
 }
 
+// Sum halves, and these likewise, to four.
 inline Quad folded(const HalfLanes& x) {
-    return __builtin_shufflevector(x, x, 0, 1, 2, 3) + __builtin_shufflevector(x, x, 4, 5, 6, 7);
+    Quad part[2];
+    std::memcpy(part, &x, sizeof x);
+    return part[0] + part[1];
 }
 
 inline Quad folded(const Lanes& x) {
-    const HalfLanes half = __builtin_shufflevector(x, x, 0, 1, 2, 3, 4, 5, 6, 7) +
-                           __builtin_shufflevector(x, x, 8, 9, 10, 11, 12, 13, 14, 15);
-    return folded(half);
+    Quad part[4];
+    std::memcpy(part, &x, sizeof x);
+    return (part[0] + part[2]) + (part[1] + part[3]);
 }
 
 template <class Vector>
@@ -65,26 +143,29 @@ Quad sums_of(const Vector (&x)[4]) {
 // Replace numbers by their exponentials, to within a few units in the last place.
 //
 // Cephes' `expf`: a power of two, times a polynomial within half a power of it.
-inline void exponentiate(Lanes& x) {
-    using Integers = std::int32_t __attribute__((vector_size(64)));
+inline void exponentiate(Lanes& lanes) {
+    using Piece = Lanes::Piece;
+    using Integers = Register<Lanes::piece_bytes>::Integers;
     constexpr float least = -87.0F, most = 88.0F;
     constexpr float to_integer = 12582912.0F;  // 1.5 * 2^23, whose last digit is worth one
     constexpr float per_log2 = 1.44269504088896341F;
     constexpr float log2_high = 0.693359375F, log2_low = -2.12194440e-4F;
-    x = x < least ? Lanes{} + least : x;
-    x = x > most ? Lanes{} + most : x;
-    const Lanes power = (x * per_log2 + to_integer) - to_integer;
-    const Lanes rest = (x - power * log2_high) - power * log2_low;
-    Lanes value = rest * 1.9875691500e-4F + 1.3981999507e-3F;
-    value = value * rest + 8.3334519073e-3F;
-    value = value * rest + 4.1665795894e-2F;
-    value = value * rest + 1.6666665459e-1F;
-    value = value * rest + 5.0000001201e-1F;
-    value = value * rest * rest + rest + 1.0F;
-    const Integers exponent = (__builtin_convertvector(power, Integers) + 127) << 23;
-    Lanes scale;
-    std::memcpy(&scale, &exponent, sizeof scale);
-    x = value * scale;
+    for (Piece& x : lanes.piece) {
+        x = x < least ? Piece{} + least : x;
+        x = x > most ? Piece{} + most : x;
+        const Piece power = (x * per_log2 + to_integer) - to_integer;
+        const Piece rest = (x - power * log2_high) - power * log2_low;
+        Piece value = rest * 1.9875691500e-4F + 1.3981999507e-3F;
+        value = value * rest + 8.3334519073e-3F;
+        value = value * rest + 4.1665795894e-2F;
+        value = value * rest + 1.6666665459e-1F;
+        value = value * rest + 5.0000001201e-1F;
+        value = value * rest * rest + rest + 1.0F;
+        const Integers exponent = (__builtin_convertvector(power, Integers) + 127) << 23;
+        Piece scale;
+        std::memcpy(&scale, &exponent, sizeof scale);
+        x = value * scale;
+    }
 }
 
 }  // namespace tandem

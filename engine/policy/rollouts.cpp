@@ -33,15 +33,16 @@ void weigh(std::vector<float>& scores, Int best, float temperature) {
         Lanes x;
         load(&scores[i], x);
         // clip * tanh(2 * x / clip)
-        Lanes power = x * (-4 / clip);
+        Lanes power = (-4 / clip) * x;
         exponentiate(power);
-        store((1 - power) / (1 + power) * scale, &scores[i]);
+        const Lanes one = Lanes::all(1.0F);
+        store(scale * ((one - power) / (one + power)), &scores[i]);
     }
     const float top = scores[static_cast<std::size_t>(best)];
     for (std::size_t i = 0; i < scores.size(); i += num_lanes) {
         Lanes x;
         load(&scores[i], x);
-        x -= top;
+        x = x - Lanes::all(top);
         exponentiate(x);
         store(x, &scores[i]);
     }
