@@ -9,6 +9,7 @@
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/evaluate.h"
 #include "search/insertion/least.h"
+#include "search/insertion/listing.h"
 #include "search/insertion/new_trips.h"
 #include "search/insertion/newcomer.h"
 #include "search/route/edit.h"
@@ -21,17 +22,6 @@
 
 namespace tandem {
 namespace {
-
-// Lists an insertion that costs at least `cost`; returns it, to complete it.
-Move& add_offer(const Searcher& searcher, double cost, Int kind, Int slot, Int first) {
-    const Int index = searcher.count->offers++;
-    searcher.least[index] = cost;
-    Move& offer = searcher.offer[index];
-    offer.kind = kind;
-    offer.slot = slot;
-    offer.first = first;
-    return offer;
-}
 
 // What a change of a route costs less, or lasts without costing anything.
 struct Slack {
@@ -101,117 +91,6 @@ Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int
     return chosen;
 }
 
-// Returns until which stop some drone of a row is free that is aboard at stop `launch`: that stop
-// alone if all are launched there, the one before if none is aboard.
-Int free_until(const World& world, const Fleet& fleet, Int slot, Int launch, Int row) {
-    const Route& route = fleet.route[slot];
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
-    const Int number = first_drone(world.type, route.type, row);
-    Int until = launch - 1;
-    for (Int drone = number; drone < number + world.type[row].drones; ++drone) {
-        Int free = route.length;
-        for (const Sortie& sortie : sorties) {
-            if (sortie.drone != drone || sortie.recovery <= launch) continue;
-            free = sortie.launch < launch ? launch - 1 : sortie.launch;
-            break;
-        }
-        until = std::max(until, free);
-    }
-    return until;
-}
-
-// Sorties to a customer by drones of a row on a route.
-class Flights {
-public:
-    Flights(const World& world, const Searcher& searcher, Int slot, Int row, Int node)
-        : world_(world),
-          searcher_(searcher),
-          slot_(slot),
-          row_(row),
-          node_(node),
-          stops_(searcher.now.stop[slot]),
-          length_(searcher.now.route[slot].length),
-          type_(world.type[row]),
-          rate_(world.rate[row]),
-          place_(places_by_air(world.place, type_)[node]),
-          inward_(legs_to(world.back, type_.drone_travel, node)),
-          onward_(legs_from(world.leg, type_.home_travel, node)),
-          room_(room_on(world, searcher.now, slot, searcher.now.route[slot].type, node)),
-          best_(searcher.bound->best),
-          early_(searcher.now.early[slot]),
-          idle_(idle_time(searcher.now.route[slot])),
-          priced_((world.mode[searcher.now.route[slot].type] & mode_priced) != 0),
-          loaded_(loads_cost(world, searcher.now.route[slot].type)) {}
-
-    // Lists those from stop `launch`.
-    void offer_from(Int launch) const {
-        const Stop& from = stops_[launch];
-        const Leg out = leg_from(inward_, from.node);
-        // Most stops are so far away that nothing else needs to be looked at.
-        if (double(out.distance) * rate_.drone_distance - early_ >= best_) return;
-        const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
-        const double late = priced_ ? lateness_cost(world_, node_, ready + out.duration) : 0.0;
-        if (double(out.distance) * rate_.drone_distance + late - early_ >= best_) return;
-        if (too_late(place_, from.arrival + out.duration)) return;
-        const Int served = end_of_service(place_, from.arrival + out.duration);
-        const Int left = gone_by(type_, from.leave);
-        const Int begun = recovery_end(type_, ready) - idle_;
-        Int last = free_until(world_, searcher_.now, slot_, launch, row_);
-        const Int furthest = searcher_.now.trip(slot_, from.trip).last;
-        last = std::min({last, furthest, world_.crossings ? launch + max_span : launch});
-        for (Int recovery = world_.loops ? launch : launch + 1; recovery <= last; ++recovery) {
-            const Stop& to = stops_[recovery];
-            const Leg home = leg_to(onward_, to.node);
-            const double flown = double(out.distance + home.distance) * rate_.drone_distance;
-            if (flown + late - early_ >= best_) continue;
-            if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
-                                              stops_[recovery + 1].latest) {
-                continue;
-            }
-            const Int flight = out.duration + service_duration(place_) + home.duration;
-            if (!within_endurance(type_, left, left, to.arrival)) {
-                // Held back for the window, the truck leaves later and may wait less on its way.
-                if (earliest_back(place_, left + out.duration, 0) <= left) break;
-                if (to.arrival > earliest_back(place_, left + out.duration, home.duration)) {
-                    continue;
-                }
-            }
-            // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
-            const Int longer = std::max(Int{0}, begun + flight - to.leave);
-            double cost = flown + double(longer) * rate_.time + late - early_;
-            if (loaded_) {
-                cost += load_more(world_, searcher_.now, slot_, launch, recovery, node_);
-            }
-            if (cost < best_ && can_serve(type_, place_, out.duration, home.duration) &&
-                room_between(room_, launch, recovery)) {
-                Move& offer = add_offer(searcher_, cost, by_sortie, slot_, launch);
-                offer.last = recovery;
-                offer.type = row_;
-            }
-        }
-    }
-
-private:
-    const World& world_;
-    const Searcher& searcher_;
-    Int slot_;
-    Int row_;
-    Int node_;
-    View<const Stop, 1> stops_;
-    Int length_;
-    const VehicleType& type_;
-    Rate rate_;
-    NodeRows place_;
-    LegRow inward_;
-    LegRow onward_;
-    Room room_;
-    double best_;
-    double early_;  // what the route's waiting costs, which may become less
-    Int idle_;      // how long the route could work longer at no cost
-    bool priced_;
-    bool loaded_;
-};
-
 // Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
 //
 // In place: a sortie's drone.
@@ -251,29 +130,6 @@ void offer_stops(const World& world, const Searcher& searcher, Int slot, Int fir
         }
         if (cost < best && detour.distance <= most && room_behind(newcomer.room, p)) {
             add_offer(searcher, cost, at_stop, slot, p);
-        }
-    }
-}
-
-void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
-                   Int node) {
-    const Fleet& now = searcher.now;
-    const Route& route = now.route[slot];
-    const Trip& trip = now.trip(slot, now.stop(slot, first).trip);
-    const auto may_fly = [&](Int row) {
-        return world.can(row, 1, node) &&
-               has_battery(world.type, route, now.sortie[slot], trip, row);
-    };
-    const Int first_row = first_drone_row(world.type, route.type);
-    if (next_drone_row(world.type, first_row) == no_row) {
-        if (!may_fly(first_row)) return;
-        const Flights flights(world, searcher, slot, first_row, node);
-        for (Int launch = first; launch <= last; ++launch) flights.offer_from(launch);
-        return;
-    }
-    for (Int launch = first; launch <= last; ++launch) {
-        for (Int row = first_row; row >= 0; row = next_drone_row(world.type, row)) {
-            if (may_fly(row)) Flights(world, searcher, slot, row, node).offer_from(launch);
         }
     }
 }
