@@ -1,6 +1,7 @@
 // Where exceptions end: functions of the C interface return codes.
 #pragma once
 
+#include <exception>
 #include <new>
 
 namespace tandem {
@@ -8,7 +9,7 @@ namespace tandem {
 enum Code : int { done = 0, out_of_memory = -1, failed = -2, ended = -3 };
 
 // Thrown by what was told to end before there was anything to show for it.
-struct Ended {};
+class Ended : public std::exception {};
 
 // Run what may throw; return 0, or what it threw as a code.
 template <class F>

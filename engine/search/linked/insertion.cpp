@@ -67,7 +67,8 @@ public:
     bool may_be_on(const Run& run) const {
         // A run's type isn't waited for where there is but one.
         const Amount& most = most_[std::size_t(same_for_all_ < 0 ? run.type : same_for_all_)];
-        return (run.load[0] <= most[0]) & (run.load[1] <= most[1]) & (run.load[2] <= most[2]);
+        const Int fits[] = {run.load[0] <= most[0], run.load[1] <= most[1], run.load[2] <= most[2]};
+        return fits[0] + fits[1] + fits[2] == 3;
     }
 
 private:
