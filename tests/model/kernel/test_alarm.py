@@ -150,7 +150,8 @@ def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
         call("tandem_disband", searcher)
         insert_missing(world, searcher, BY_FAR)
 
-    assert late_after_cancelling(setting, 0.2, insert) < MOST_LATE
+    # Quick machines have inserted all after a tenth of a second.
+    assert late_after_cancelling(setting, 0.04, insert) < MOST_LATE
     assert searcher.count.missing > 0
 
 
