@@ -23,7 +23,7 @@ from model.planner import PlanCheckError, Start
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
-from model.search.world import ALL_MOVES
+from model.search.problem_data import ALL_MOVES
 from model.simulation.extract import extract
 from model.solution import Solution
 from training.instances import COMPARED, generate

@@ -36,7 +36,7 @@ from model.problem import (
 )
 from model.problem.distances import ROUND
 from model.search import improve as search
-from model.search.ground.lay import lay_ground
+from model.search.neighbourhood.neighbourhood import make_neighbourhood
 from model.solution import Solution
 
 AREA = 10_000
@@ -157,12 +157,12 @@ def runs(folder: Path, name: str, budgets: list[float], seeds: int,
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     began = time.perf_counter()
     instance = pack([problem], legs=False)
-    ground = lay_ground(problem, instance, along=True)
+    neighbourhood = make_neighbourhood(problem, instance, along=True)
     legs = time.perf_counter() - began
     for budget in budgets:
         for seed in range(1, seeds + 1):
             began = time.perf_counter()
-            with patch.object(search, "lay_ground", lambda *_, **__: ground):
+            with patch.object(search, "make_neighbourhood", lambda *_, **__: neighbourhood):
                 found = search.improve(problem, instance, nobody, search.SearchConfig(seed),
                                        began + budget)
             wall = time.perf_counter() - began

@@ -17,7 +17,7 @@ from model.search.beginning.translate import make_searcher
 from model.search.route.engine import ANY, anneal, leg_cost
 from model.search.route.layout import CUSTOMER
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.simulation.actions import (
     DRIVE, NUM_KINDS, OPEN, RETURN, apply_route, encode_action, finish, reset,
 )
@@ -185,14 +185,14 @@ def complete(rest: Rest, routes: Routes, turns: int, seed: int) -> Routes:
         The same gives the same routes.
     """
     problem = rest.problem
-    world = make_world(problem, pack([problem], legs=False))
-    searcher = make_searcher(problem, world, _written(rest, routes), np.random.SeedSequence(seed))
-    begin_anew(world, searcher, not routes)
+    data = make_data(problem, pack([problem], legs=False))
+    searcher = make_searcher(problem, data, _written(rest, routes), np.random.SeedSequence(seed))
+    begin_anew(data, searcher, not routes)
     value = searcher.value
-    leg = leg_cost(world, searcher)
+    leg = leg_cost(data, searcher)
     value.temperature = HOT * leg
     value.cooling = (COLD / HOT) ** (1 / max(1, turns))
-    anneal(world, searcher, turns, ANY)
+    anneal(data, searcher, turns, ANY)
     return _read(rest, searcher)
 
 

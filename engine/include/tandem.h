@@ -22,11 +22,11 @@ typedef struct tandem_size {
    that is allowed, far where lateness only costs; service duration; release; the last arrival that
    is not late; demand in the first dimensions.
    There are as many tables of nodes, variants, as there are ways to be served: they differ in the
-   service duration, in the first it is the customers' own. In those of drones that a battery limits,
-   `demand` tells what weighs: of what is delivered, and of what is picked up.
-   Where somebody has several windows, each node has more rows, one for each gap between two: its
-   `window_latest` closes the window before, far behind the last, and its `window_earliest` opens the
-   next. */
+   service duration, in the first it is the customers' own. In those of drones that a battery
+   limits, `demand` tells what weighs: of what is delivered, and of what is picked up. Where
+   somebody has several windows, each node has more rows, one for each gap between two: its
+   `window_latest` closes the window before, far behind the last, and its `window_earliest` opens
+   the next. */
 typedef struct tandem_node {
     int64_t window_earliest;
     int64_t arrival_limit;
@@ -57,15 +57,15 @@ typedef struct tandem_goods {
     int64_t barred_on_vehicle;
 } tandem_goods;
 
-/* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries beside
-   its customers' is taken from its capacity; what it has worked when it may begin (`begun`) is taken
-   from its working duration, and costs as if it were fixed. The end of the shift and the longest
-   working duration are with overtime; what is `usual` is without. Each launch of a trip but the first
-   takes the `relaunch_duration`; no more sorties are flown than there are batteries. Its drones'
-   powers are known at so many `points`, by weight; none if no battery limits them; aboard they gain a
-   `charge`, from what each has at first. It picks up in any order, or after all that a trip delivers,
-   which is something, or was before the trip begins here; what else it carries in the first
-   dimension. `rules/drone_types.h` says which rows tell of which drones. */
+/* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
+   beside its customers' is taken from its capacity; what it has worked when it may begin (`begun`)
+   is taken from its working duration, and costs as if it were fixed. The end of the shift and the
+   longest working duration are with overtime; what is `usual` is without. Each launch of a trip but
+   the first takes the `relaunch_duration`; no more sorties are flown than there are batteries. Its
+   drones' powers are known at so many `points`, by weight; none if no battery limits them; aboard
+   they gain a `charge`, from what each has at first. It picks up in any order, or after all that a
+   trip delivers, which is something, or was before the trip begins here; what else it carries in
+   the first dimension. `rules/drone_types.h` says which rows tell of which drones. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -148,19 +148,19 @@ typedef struct tandem_point {
 } tandem_point;
 
 /* What is aboard around a stop of a trip, of one tier; sums are over all dimensions. */
-typedef struct tandem_halt {
-    int64_t leaves;  /* sum of the parcels that leave the truck there */
+typedef struct tandem_stop_load {
+    int64_t leaves; /* sum of the parcels that leave the truck there */
     int64_t comes;  /* sum of what comes aboard there */
-    int64_t picked;  /* sum of what was picked up before */
-    int64_t due;  /* sum of what is delivered behind */
+    int64_t picked; /* sum of what was picked up before */
+    int64_t due;    /* sum of what is delivered behind */
     int64_t given;  /* sum of what is delivered on the whole trip */
-    int64_t load;  /* on leaving, in the first dimension */
-    int64_t driven;  /* how far the trip has come */
+    int64_t load;   /* on leaving, in the first dimension */
+    int64_t driven; /* how far the trip has come */
     int64_t leaving[3];
     int64_t coming[3];
-    int64_t before[3];  /* the most that is aboard before the stop */
-    int64_t behind[3];  /* likewise, from leaving it on */
-} tandem_halt;
+    int64_t before[3]; /* the most that is aboard before the stop */
+    int64_t behind[3]; /* likewise, from leaving it on */
+} tandem_stop_load;
 
 typedef struct tandem_logged_stop {
     int64_t node;
@@ -184,21 +184,21 @@ typedef struct tandem_operation {
 
 typedef struct tandem_logged_sortie {
     int64_t drone;
-    int64_t row;  /* of its drone's type */
+    int64_t row; /* of its drone's type */
     int64_t node;
     int64_t launch_stop;
-    int64_t recovery_stop;  /* -1 until it is recovered */
+    int64_t recovery_stop; /* -1 until it is recovered */
     int64_t takeoff;
     int64_t arrival;
     int64_t start;
     int64_t ready;
     int64_t recovery_start;
     int64_t recovery_end;
-    int64_t left;  /* of the battery, of drones that are charged aboard */
-    int64_t trial_takeoff;  /* as it would be if a trip began later */
-    int64_t trial_ready;  /* likewise */
-    int64_t trial_end;  /* likewise, of the recovery */
-    int64_t trial_left;  /* likewise, as it is launched and then recovered */
+    int64_t left;          /* of the battery, of drones that are charged aboard */
+    int64_t trial_takeoff; /* as it would be if a trip began later */
+    int64_t trial_ready;   /* likewise */
+    int64_t trial_end;     /* likewise, of the recovery */
+    int64_t trial_left;    /* likewise, as it is launched and then recovered */
 } tandem_logged_sortie;
 
 /* How many of each there are in a log. */
@@ -212,41 +212,41 @@ typedef struct tandem_log_lengths {
 /* The open vehicle of a rollout. */
 typedef struct tandem_vehicle {
     int64_t type;  /* -1 before the first opens */
-    int64_t index;  /* within the type */
+    int64_t index; /* within the type */
     int64_t node;
-    int64_t idle;  /* at the depot, no trip begun */
-    int64_t service_end;  /* here */
-    int64_t crew;  /* end of the recoveries here */
-    int64_t free;  /* end of the launches after them as if none was held back */
-    int64_t distance;  /* of the trip */
-    int64_t start_best;  /* latest known start of the first trip that costs nothing */
-    int64_t departure_best;  /* the departure that follows from it */
-    int64_t next_start;  /* earliest start of the next trip */
-    int64_t launched;  /* on the trip before this stop */
-    int64_t flying;  /* drones */
-    int64_t given;  /* on the trip, over all dimensions */
-    int64_t picked;  /* likewise, before the stop here */
-    int64_t taken;  /* likewise, by now */
-    int64_t barred_on_trip;  /* goods that may not be added */
-    int64_t barred_on_vehicle;  /* likewise */
-    int64_t load[9];  /* left, by dimension */
-    int64_t aboard[9];  /* of pickups, by dimension */
+    int64_t idle;              /* at the depot, no trip begun */
+    int64_t service_end;       /* here */
+    int64_t crew;              /* end of the recoveries here */
+    int64_t free;              /* end of the launches after them as if none was held back */
+    int64_t distance;          /* of the trip */
+    int64_t start_best;        /* latest known start of the first trip that costs nothing */
+    int64_t departure_best;    /* the departure that follows from it */
+    int64_t next_start;        /* earliest start of the next trip */
+    int64_t launched;          /* on the trip before this stop */
+    int64_t flying;            /* drones */
+    int64_t given;             /* on the trip, over all dimensions */
+    int64_t picked;            /* likewise, before the stop here */
+    int64_t taken;             /* likewise, by now */
+    int64_t barred_on_trip;    /* goods that may not be added */
+    int64_t barred_on_vehicle; /* likewise */
+    int64_t load[9];           /* left, by dimension */
+    int64_t aboard[9];         /* of pickups, by dimension */
 } tandem_vehicle;
 
 /* A drone of the open vehicle. Those in flight were launched at the truck's stop. */
 typedef struct tandem_drone {
-    int64_t row;  /* of its type */
-    int64_t sortie;  /* -1 where it is aboard */
+    int64_t row;    /* of its type */
+    int64_t sortie; /* -1 where it is aboard */
     int64_t place;  /* to be recovered at: aboard already, the next stop, this stop */
-    int64_t node;  /* customer */
+    int64_t node;   /* customer */
     int64_t takeoff;
-    int64_t ready;  /* end of service */
-    int64_t back;  /* arrival at the recovery stop */
-    int64_t recovery;  /* its beginning */
-    int64_t kept;  /* of the battery as it last came aboard on the trip, if charged there */
-    int64_t since;  /* when that was */
+    int64_t ready;    /* end of service */
+    int64_t back;     /* arrival at the recovery stop */
+    int64_t recovery; /* its beginning */
+    int64_t kept;     /* of the battery as it last came aboard on the trip, if charged there */
+    int64_t since;    /* when that was */
     int64_t lacking;  /* of a full battery as it is launched */
-    int64_t left;  /* on recovery */
+    int64_t left;     /* on recovery */
 } tandem_drone;
 
 typedef struct tandem_cost {
@@ -262,9 +262,9 @@ typedef struct tandem_cost {
 
 /* What an action on a customer leads to. */
 typedef struct tandem_outlook {
-    int64_t arrival;  /* at the customer */
-    int64_t start;  /* of service */
-    int64_t end;  /* of the trip if the vehicle went home afterwards */
+    int64_t arrival; /* at the customer */
+    int64_t start;   /* of service */
+    int64_t end;     /* of the trip if the vehicle went home afterwards */
 } tandem_outlook;
 
 typedef struct tandem_node_features {
@@ -382,12 +382,12 @@ typedef struct tandem_vehicle_features {
 /* A stop of a truck: what is chosen, what a lean route needs, and all else that follows. */
 typedef struct tandem_stop {
     int64_t node;
-    int64_t kind;  /* a customer, or where a trip starts or ends */
-    int64_t release;  /* of the trip that starts here */
-    int64_t leave;  /* when the truck leaves */
+    int64_t kind;    /* a customer, or where a trip starts or ends */
+    int64_t release; /* of the trip that starts here */
+    int64_t leave;   /* when the truck leaves */
     int64_t latest;  /* the last arrival that keeps all rules behind */
-    int64_t leg;  /* how far it is to the next stop */
-    int64_t gap;  /* how long that takes */
+    int64_t leg;     /* how far it is to the next stop */
+    int64_t gap;     /* how long that takes */
     int64_t flying;  /* drones in the air then */
     int64_t trip;
     int64_t early;
@@ -411,11 +411,11 @@ typedef struct tandem_stop {
 
 /* A drone's way from a stop to its customers, and back at another or the same. */
 typedef struct tandem_sortie {
-    int64_t launch;  /* the position of the stop where it begins */
-    int64_t recovery;  /* likewise, where it ends */
-    int64_t drone;  /* its number on the truck */
-    int64_t count;  /* of customers */
-    int64_t state;  /* whether it waits, flies or is done, while its block is timed */
+    int64_t launch;   /* the position of the stop where it begins */
+    int64_t recovery; /* likewise, where it ends */
+    int64_t drone;    /* its number on the truck */
+    int64_t count;    /* of customers */
+    int64_t state;    /* whether it waits, flies or is done, while its block is timed */
     int64_t takeoff_d;
     int64_t takeoff_c;
     int64_t ready_d;
@@ -432,7 +432,7 @@ typedef struct tandem_sortie {
     int64_t since;
     int64_t follows;
     int64_t nodes[8];
-    int64_t arrivals[8];  /* at the customers */
+    int64_t arrivals[8]; /* at the customers */
 } tandem_sortie;
 
 typedef struct tandem_trip {
@@ -447,7 +447,7 @@ typedef struct tandem_trip {
 /* A vehicle's route, in a slot. */
 typedef struct tandem_route {
     int64_t type;
-    int64_t length;  /* of stops; 0 in an empty slot */
+    int64_t length; /* of stops; 0 in an empty slot */
     int64_t trips;
     int64_t sorties;
     int64_t end;
@@ -455,28 +455,28 @@ typedef struct tandem_route {
     int64_t working;
     int64_t offset;
     int64_t awaited;
-    int64_t stamp;  /* stands for what the route is; 0 while a turn changes it */
+    int64_t stamp; /* stands for what the route is; 0 while a turn changes it */
     int64_t barred;
 } tandem_route;
 
 /* A customer's best place on a lean route as it is. */
 typedef struct tandem_kept {
     int64_t stamp;  /* of the route */
-    int64_t detour;  /* the shortest */
-    int64_t stop;  /* before it; -1 if no detour is that short */
+    int64_t detour; /* the shortest */
+    int64_t stop;   /* before it; -1 if no detour is that short */
 } tandem_kept;
 
 /* What insertions are looked for. */
 typedef struct tandem_bound {
     double best;  /* cost below which */
-    double blink;  /* how often one is overlooked */
+    double blink; /* how often one is overlooked */
 } tandem_bound;
 
 /* Where a customer is served. */
 typedef struct tandem_place {
-    int64_t slot;  /* of the route; -1 if left out, -2 if another thread's */
-    int64_t position;  /* of the stop; else -1 */
-    int64_t sortie;  /* its number; else -1 */
+    int64_t slot;     /* of the route; -1 if left out, -2 if another thread's */
+    int64_t position; /* of the stop; else -1 */
+    int64_t sortie;   /* its number; else -1 */
 } tandem_place;
 
 /* Where a customer is inserted; which fields tell, `kind` says. */
@@ -500,10 +500,10 @@ typedef struct tandem_block_sums {
     int64_t dep;
     int64_t oldest;
     int64_t flying;
-    int64_t launched;  /* on the trip so far */
-    int64_t first_sortie;  /* of the trip */
-    int64_t awaited;  /* on the route so far: how long launches wait for batteries to be charged */
-    int64_t end;  /* of a part, as what follows it: this and the next three */
+    int64_t launched;     /* on the trip so far */
+    int64_t first_sortie; /* of the trip */
+    int64_t awaited; /* on the route so far: how long launches wait for batteries to be charged */
+    int64_t end;     /* of a part, as what follows it: this and the next three */
     int64_t cum;
     int64_t depart;
     int64_t driven;
@@ -519,11 +519,11 @@ typedef struct tandem_search_counts {
     int64_t stamp;
     int64_t best_missing;
     int64_t customers;
-    int64_t lean;  /* whether all routes are */
+    int64_t lean; /* whether all routes are */
     int64_t offers;
-    int64_t changed;  /* slots, since the best; -1 where any may have */
-    int64_t stay;  /* turns near one customer; 0: everywhere */
-    int64_t focus;  /* that customer */
+    int64_t changed; /* slots, since the best; -1 where any may have */
+    int64_t stay;    /* turns near one customer; 0: everywhere */
+    int64_t focus;   /* that customer */
 } tandem_search_counts;
 
 /* Costs of the routes as they are and at their best, and what the annealing goes by. */
@@ -531,20 +531,20 @@ typedef struct tandem_search_values {
     double cost;
     double best;
     double temperature;
-    double cooling;  /* factor of the temperature each turn */
-    double longest;  /* how long strings are at most where routes are long */
+    double cooling; /* factor of the temperature each turn */
+    double longest; /* how long strings are at most where routes are long */
 } tandem_search_values;
 
 /* A place in an order of customers that truck and drone serve. */
 typedef struct tandem_line {
     int64_t node;
-    int64_t drive;  /* driving and serving up to the arrival there */
-    int64_t distance;  /* likewise */
-    int64_t grounded;  /* how many so far no truck may serve */
-    int64_t before;  /* where the operation begins that ends here */
-    int64_t flight;  /* the place flown to meanwhile; 0: none */
-    int64_t spared_drive;  /* by a truck that passes by */
-    int64_t spared_distance;  /* likewise */
+    int64_t drive;           /* driving and serving up to the arrival there */
+    int64_t distance;        /* likewise */
+    int64_t grounded;        /* how many so far no truck may serve */
+    int64_t before;          /* where the operation begins that ends here */
+    int64_t flight;          /* the place flown to meanwhile; 0: none */
+    int64_t spared_drive;    /* by a truck that passes by */
+    int64_t spared_distance; /* likewise */
 } tandem_line;
 
 /* A customer in a chain of some that a route serves. */
@@ -553,57 +553,57 @@ typedef struct tandem_chain {
     int64_t behind;
     int64_t route;  /* of its last customer, the first */
     int64_t leave;  /* the departure */
-    int64_t latest;  /* the latest arrival */
-    int64_t last;  /* of its first customer, the last */
-    int64_t length;  /* likewise, how many there are */
-    int64_t busy;  /* likewise, how long to serve them and to drive from one to the next takes */
+    int64_t latest; /* the latest arrival */
+    int64_t last;   /* of its first customer, the last */
+    int64_t length; /* likewise, how many there are */
+    int64_t busy;   /* likewise, how long to serve them and to drive from one to the next takes */
 } tandem_chain;
 
 /* What a chain carries, by its first customer. */
 typedef struct tandem_chain_cargo {
-    int64_t delivers;  /* sum over all dimensions */
-    int64_t picks;  /* likewise */
+    int64_t delivers; /* sum over all dimensions */
+    int64_t picks;    /* likewise */
     int64_t delivered[3];
     int64_t picked[3];
-    int64_t most[3];  /* that is aboard of both */
+    int64_t most[3]; /* that is aboard of both */
 } tandem_chain_cargo;
 
 /* A customer on linked stops. Times are kept only where something limits them. A cache line. */
 typedef struct tandem_link {
-    int64_t slot;  /* of the route */
-    int64_t before;  /* who comes before, or the depot there */
-    int64_t behind;  /* likewise */
-    int64_t inward;  /* how far it is from there */
-    int64_t onward;  /* and to who comes behind */
-    int64_t gap;  /* how long that takes */
+    int64_t slot;   /* of the route */
+    int64_t before; /* who comes before, or the depot there */
+    int64_t behind; /* likewise */
+    int64_t inward; /* how far it is from there */
+    int64_t onward; /* and to who comes behind */
+    int64_t gap;    /* how long that takes */
     int64_t leave;  /* when the vehicle does */
-    int64_t latest;  /* when it has to come */
+    int64_t latest; /* when it has to come */
 } tandem_link;
 
 /* A linked route. Where there is nobody, its end comes first and its beginning last. */
 typedef struct tandem_run {
     int64_t type;
-    int64_t first;  /* customer */
+    int64_t first; /* customer */
     int64_t last;  /* customer */
-    int64_t count;  /* of customers */
+    int64_t count; /* of customers */
     int64_t distance;
     int64_t load[3];
 } tandem_run;
 
 /* Customers in a row that were taken out this turn. */
 typedef struct tandem_piece {
-    int64_t slot;  /* of their route */
-    int64_t type;  /* that drove it then */
+    int64_t slot; /* of their route */
+    int64_t type; /* that drove it then */
     int64_t count;
-    int64_t gap;  /* of the leg to who came behind */
-    int64_t saved;  /* how much shorter the route is without them */
+    int64_t gap;   /* of the leg to who came behind */
+    int64_t saved; /* how much shorter the route is without them */
 } tandem_piece;
 
 /* A customer inserted this turn. */
 typedef struct tandem_entry {
     int64_t node;
-    int64_t onward;  /* how far the leg was that it came between */
-    int64_t gap;  /* how long that took */
+    int64_t onward; /* how far the leg was that it came between */
+    int64_t gap;    /* how long that took */
 } tandem_entry;
 
 /* Times of a customer before they changed this turn. */
@@ -620,164 +620,358 @@ typedef struct tandem_noted {
     int64_t entries;
     int64_t moments;
     int64_t retyped;
-    int64_t over;  /* whether there were more moments than there is room */
+    int64_t over; /* whether there were more moments than there is room */
 } tandem_noted;
 
 /* What the vehicle costs that is cheapest. */
 typedef struct tandem_least {
-    double distance;  /* a mm more */
-    double stop;  /* a customer more */
+    double distance; /* a mm more */
+    double stop;     /* a customer more */
 } tandem_least;
 
 /* Arrays of others, row by row. */
 
-typedef struct tandem_bool_1d { bool *data; int64_t shape[1]; } tandem_bool_1d;
-typedef struct tandem_bool_2d { bool *data; int64_t shape[2]; } tandem_bool_2d;
-typedef struct tandem_bool_3d { bool *data; int64_t shape[3]; } tandem_bool_3d;
-typedef struct tandem_chain_1d { tandem_chain *data; int64_t shape[1]; } tandem_chain_1d;
-typedef struct tandem_chain_cargo_2d { tandem_chain_cargo *data; int64_t shape[2]; } tandem_chain_cargo_2d;
-typedef struct tandem_cost_1d { tandem_cost *data; int64_t shape[1]; } tandem_cost_1d;
-typedef struct tandem_drone_2d { tandem_drone *data; int64_t shape[2]; } tandem_drone_2d;
-typedef struct tandem_entry_1d { tandem_entry *data; int64_t shape[1]; } tandem_entry_1d;
-typedef struct tandem_f32_1d { float *data; int64_t shape[1]; } tandem_f32_1d;
-typedef struct tandem_f32_2d { float *data; int64_t shape[2]; } tandem_f32_2d;
-typedef struct tandem_f32_3d { float *data; int64_t shape[3]; } tandem_f32_3d;
-typedef struct tandem_f32_4d { float *data; int64_t shape[4]; } tandem_f32_4d;
-typedef struct tandem_f64_1d { double *data; int64_t shape[1]; } tandem_f64_1d;
-typedef struct tandem_f64_2d { double *data; int64_t shape[2]; } tandem_f64_2d;
-typedef struct tandem_f64_3d { double *data; int64_t shape[3]; } tandem_f64_3d;
-typedef struct tandem_goods_1d { tandem_goods *data; int64_t shape[1]; } tandem_goods_1d;
-typedef struct tandem_goods_2d { tandem_goods *data; int64_t shape[2]; } tandem_goods_2d;
-typedef struct tandem_halt_3d { tandem_halt *data; int64_t shape[3]; } tandem_halt_3d;
-typedef struct tandem_i32_1d { int32_t *data; int64_t shape[1]; } tandem_i32_1d;
-typedef struct tandem_i32_2d { int32_t *data; int64_t shape[2]; } tandem_i32_2d;
-typedef struct tandem_i32_3d { int32_t *data; int64_t shape[3]; } tandem_i32_3d;
-typedef struct tandem_i32_4d { int32_t *data; int64_t shape[4]; } tandem_i32_4d;
-typedef struct tandem_i64_1d { int64_t *data; int64_t shape[1]; } tandem_i64_1d;
-typedef struct tandem_i64_2d { int64_t *data; int64_t shape[2]; } tandem_i64_2d;
-typedef struct tandem_i64_3d { int64_t *data; int64_t shape[3]; } tandem_i64_3d;
-typedef struct tandem_i64_4d { int64_t *data; int64_t shape[4]; } tandem_i64_4d;
-typedef struct tandem_i64_5d { int64_t *data; int64_t shape[5]; } tandem_i64_5d;
-typedef struct tandem_kept_2d { tandem_kept *data; int64_t shape[2]; } tandem_kept_2d;
-typedef struct tandem_leg_law_1d { tandem_leg_law *data; int64_t shape[1]; } tandem_leg_law_1d;
-typedef struct tandem_line_1d { tandem_line *data; int64_t shape[1]; } tandem_line_1d;
-typedef struct tandem_link_1d { tandem_link *data; int64_t shape[1]; } tandem_link_1d;
-typedef struct tandem_log_lengths_1d { tandem_log_lengths *data; int64_t shape[1]; } tandem_log_lengths_1d;
-typedef struct tandem_logged_sortie_2d { tandem_logged_sortie *data; int64_t shape[2]; } tandem_logged_sortie_2d;
-typedef struct tandem_logged_stop_2d { tandem_logged_stop *data; int64_t shape[2]; } tandem_logged_stop_2d;
-typedef struct tandem_logged_trip_2d { tandem_logged_trip *data; int64_t shape[2]; } tandem_logged_trip_2d;
-typedef struct tandem_moment_1d { tandem_moment *data; int64_t shape[1]; } tandem_moment_1d;
-typedef struct tandem_move_1d { tandem_move *data; int64_t shape[1]; } tandem_move_1d;
-typedef struct tandem_move_2d { tandem_move *data; int64_t shape[2]; } tandem_move_2d;
-typedef struct tandem_node_2d { tandem_node *data; int64_t shape[2]; } tandem_node_2d;
-typedef struct tandem_node_3d { tandem_node *data; int64_t shape[3]; } tandem_node_3d;
-typedef struct tandem_node_4d { tandem_node *data; int64_t shape[4]; } tandem_node_4d;
-typedef struct tandem_operation_2d { tandem_operation *data; int64_t shape[2]; } tandem_operation_2d;
-typedef struct tandem_outlook_1d { tandem_outlook *data; int64_t shape[1]; } tandem_outlook_1d;
-typedef struct tandem_outlook_2d { tandem_outlook *data; int64_t shape[2]; } tandem_outlook_2d;
-typedef struct tandem_piece_1d { tandem_piece *data; int64_t shape[1]; } tandem_piece_1d;
-typedef struct tandem_place_1d { tandem_place *data; int64_t shape[1]; } tandem_place_1d;
-typedef struct tandem_point_1d { tandem_point *data; int64_t shape[1]; } tandem_point_1d;
-typedef struct tandem_price_1d { tandem_price *data; int64_t shape[1]; } tandem_price_1d;
-typedef struct tandem_price_2d { tandem_price *data; int64_t shape[2]; } tandem_price_2d;
-typedef struct tandem_rate_1d { tandem_rate *data; int64_t shape[1]; } tandem_rate_1d;
-typedef struct tandem_rate_2d { tandem_rate *data; int64_t shape[2]; } tandem_rate_2d;
-typedef struct tandem_route_1d { tandem_route *data; int64_t shape[1]; } tandem_route_1d;
-typedef struct tandem_run_1d { tandem_run *data; int64_t shape[1]; } tandem_run_1d;
-typedef struct tandem_setup_1d { tandem_setup *data; int64_t shape[1]; } tandem_setup_1d;
-typedef struct tandem_setup_2d { tandem_setup *data; int64_t shape[2]; } tandem_setup_2d;
-typedef struct tandem_size_1d { tandem_size *data; int64_t shape[1]; } tandem_size_1d;
-typedef struct tandem_sortie_2d { tandem_sortie *data; int64_t shape[2]; } tandem_sortie_2d;
-typedef struct tandem_stop_2d { tandem_stop *data; int64_t shape[2]; } tandem_stop_2d;
-typedef struct tandem_trip_2d { tandem_trip *data; int64_t shape[2]; } tandem_trip_2d;
-typedef struct tandem_u64_1d { uint64_t *data; int64_t shape[1]; } tandem_u64_1d;
-typedef struct tandem_vehicle_1d { tandem_vehicle *data; int64_t shape[1]; } tandem_vehicle_1d;
-typedef struct tandem_vehicle_type_1d { tandem_vehicle_type *data; int64_t shape[1]; } tandem_vehicle_type_1d;
-typedef struct tandem_vehicle_type_2d { tandem_vehicle_type *data; int64_t shape[2]; } tandem_vehicle_type_2d;
+typedef struct tandem_bool_1d {
+    bool* data;
+    int64_t shape[1];
+} tandem_bool_1d;
+typedef struct tandem_bool_2d {
+    bool* data;
+    int64_t shape[2];
+} tandem_bool_2d;
+typedef struct tandem_bool_3d {
+    bool* data;
+    int64_t shape[3];
+} tandem_bool_3d;
+typedef struct tandem_chain_1d {
+    tandem_chain* data;
+    int64_t shape[1];
+} tandem_chain_1d;
+typedef struct tandem_chain_cargo_2d {
+    tandem_chain_cargo* data;
+    int64_t shape[2];
+} tandem_chain_cargo_2d;
+typedef struct tandem_cost_1d {
+    tandem_cost* data;
+    int64_t shape[1];
+} tandem_cost_1d;
+typedef struct tandem_drone_2d {
+    tandem_drone* data;
+    int64_t shape[2];
+} tandem_drone_2d;
+typedef struct tandem_entry_1d {
+    tandem_entry* data;
+    int64_t shape[1];
+} tandem_entry_1d;
+typedef struct tandem_f32_1d {
+    float* data;
+    int64_t shape[1];
+} tandem_f32_1d;
+typedef struct tandem_f32_2d {
+    float* data;
+    int64_t shape[2];
+} tandem_f32_2d;
+typedef struct tandem_f32_3d {
+    float* data;
+    int64_t shape[3];
+} tandem_f32_3d;
+typedef struct tandem_f32_4d {
+    float* data;
+    int64_t shape[4];
+} tandem_f32_4d;
+typedef struct tandem_f64_1d {
+    double* data;
+    int64_t shape[1];
+} tandem_f64_1d;
+typedef struct tandem_f64_2d {
+    double* data;
+    int64_t shape[2];
+} tandem_f64_2d;
+typedef struct tandem_f64_3d {
+    double* data;
+    int64_t shape[3];
+} tandem_f64_3d;
+typedef struct tandem_goods_1d {
+    tandem_goods* data;
+    int64_t shape[1];
+} tandem_goods_1d;
+typedef struct tandem_goods_2d {
+    tandem_goods* data;
+    int64_t shape[2];
+} tandem_goods_2d;
+typedef struct tandem_stop_load_3d {
+    tandem_stop_load* data;
+    int64_t shape[3];
+} tandem_stop_load_3d;
+typedef struct tandem_i32_1d {
+    int32_t* data;
+    int64_t shape[1];
+} tandem_i32_1d;
+typedef struct tandem_i32_2d {
+    int32_t* data;
+    int64_t shape[2];
+} tandem_i32_2d;
+typedef struct tandem_i32_3d {
+    int32_t* data;
+    int64_t shape[3];
+} tandem_i32_3d;
+typedef struct tandem_i32_4d {
+    int32_t* data;
+    int64_t shape[4];
+} tandem_i32_4d;
+typedef struct tandem_i64_1d {
+    int64_t* data;
+    int64_t shape[1];
+} tandem_i64_1d;
+typedef struct tandem_i64_2d {
+    int64_t* data;
+    int64_t shape[2];
+} tandem_i64_2d;
+typedef struct tandem_i64_3d {
+    int64_t* data;
+    int64_t shape[3];
+} tandem_i64_3d;
+typedef struct tandem_i64_4d {
+    int64_t* data;
+    int64_t shape[4];
+} tandem_i64_4d;
+typedef struct tandem_i64_5d {
+    int64_t* data;
+    int64_t shape[5];
+} tandem_i64_5d;
+typedef struct tandem_kept_2d {
+    tandem_kept* data;
+    int64_t shape[2];
+} tandem_kept_2d;
+typedef struct tandem_leg_law_1d {
+    tandem_leg_law* data;
+    int64_t shape[1];
+} tandem_leg_law_1d;
+typedef struct tandem_line_1d {
+    tandem_line* data;
+    int64_t shape[1];
+} tandem_line_1d;
+typedef struct tandem_link_1d {
+    tandem_link* data;
+    int64_t shape[1];
+} tandem_link_1d;
+typedef struct tandem_log_lengths_1d {
+    tandem_log_lengths* data;
+    int64_t shape[1];
+} tandem_log_lengths_1d;
+typedef struct tandem_logged_sortie_2d {
+    tandem_logged_sortie* data;
+    int64_t shape[2];
+} tandem_logged_sortie_2d;
+typedef struct tandem_logged_stop_2d {
+    tandem_logged_stop* data;
+    int64_t shape[2];
+} tandem_logged_stop_2d;
+typedef struct tandem_logged_trip_2d {
+    tandem_logged_trip* data;
+    int64_t shape[2];
+} tandem_logged_trip_2d;
+typedef struct tandem_moment_1d {
+    tandem_moment* data;
+    int64_t shape[1];
+} tandem_moment_1d;
+typedef struct tandem_move_1d {
+    tandem_move* data;
+    int64_t shape[1];
+} tandem_move_1d;
+typedef struct tandem_move_2d {
+    tandem_move* data;
+    int64_t shape[2];
+} tandem_move_2d;
+typedef struct tandem_node_2d {
+    tandem_node* data;
+    int64_t shape[2];
+} tandem_node_2d;
+typedef struct tandem_node_3d {
+    tandem_node* data;
+    int64_t shape[3];
+} tandem_node_3d;
+typedef struct tandem_node_4d {
+    tandem_node* data;
+    int64_t shape[4];
+} tandem_node_4d;
+typedef struct tandem_operation_2d {
+    tandem_operation* data;
+    int64_t shape[2];
+} tandem_operation_2d;
+typedef struct tandem_outlook_1d {
+    tandem_outlook* data;
+    int64_t shape[1];
+} tandem_outlook_1d;
+typedef struct tandem_outlook_2d {
+    tandem_outlook* data;
+    int64_t shape[2];
+} tandem_outlook_2d;
+typedef struct tandem_piece_1d {
+    tandem_piece* data;
+    int64_t shape[1];
+} tandem_piece_1d;
+typedef struct tandem_place_1d {
+    tandem_place* data;
+    int64_t shape[1];
+} tandem_place_1d;
+typedef struct tandem_point_1d {
+    tandem_point* data;
+    int64_t shape[1];
+} tandem_point_1d;
+typedef struct tandem_price_1d {
+    tandem_price* data;
+    int64_t shape[1];
+} tandem_price_1d;
+typedef struct tandem_price_2d {
+    tandem_price* data;
+    int64_t shape[2];
+} tandem_price_2d;
+typedef struct tandem_rate_1d {
+    tandem_rate* data;
+    int64_t shape[1];
+} tandem_rate_1d;
+typedef struct tandem_rate_2d {
+    tandem_rate* data;
+    int64_t shape[2];
+} tandem_rate_2d;
+typedef struct tandem_route_1d {
+    tandem_route* data;
+    int64_t shape[1];
+} tandem_route_1d;
+typedef struct tandem_run_1d {
+    tandem_run* data;
+    int64_t shape[1];
+} tandem_run_1d;
+typedef struct tandem_setup_1d {
+    tandem_setup* data;
+    int64_t shape[1];
+} tandem_setup_1d;
+typedef struct tandem_setup_2d {
+    tandem_setup* data;
+    int64_t shape[2];
+} tandem_setup_2d;
+typedef struct tandem_size_1d {
+    tandem_size* data;
+    int64_t shape[1];
+} tandem_size_1d;
+typedef struct tandem_sortie_2d {
+    tandem_sortie* data;
+    int64_t shape[2];
+} tandem_sortie_2d;
+typedef struct tandem_stop_2d {
+    tandem_stop* data;
+    int64_t shape[2];
+} tandem_stop_2d;
+typedef struct tandem_trip_2d {
+    tandem_trip* data;
+    int64_t shape[2];
+} tandem_trip_2d;
+typedef struct tandem_u64_1d {
+    uint64_t* data;
+    int64_t shape[1];
+} tandem_u64_1d;
+typedef struct tandem_vehicle_1d {
+    tandem_vehicle* data;
+    int64_t shape[1];
+} tandem_vehicle_1d;
+typedef struct tandem_vehicle_type_1d {
+    tandem_vehicle_type* data;
+    int64_t shape[1];
+} tandem_vehicle_type_1d;
+typedef struct tandem_vehicle_type_2d {
+    tandem_vehicle_type* data;
+    int64_t shape[2];
+} tandem_vehicle_type_2d;
 
 typedef struct tandem_cells {
-    tandem_f64_2d low;  /* (cell, axis) */
-    tandem_f64_2d high;  /* (cell, axis) */
+    tandem_f64_2d low;    /* (cell, axis) */
+    tandem_f64_2d high;   /* (cell, axis) */
     tandem_i64_1d first;  /* (cell,) its points, by their place in `point` */
-    tandem_i64_1d last;  /* (cell,) */
-    tandem_i64_2d half;  /* (cell, 2) the cells that it is halved into; -1 if it is not */
+    tandem_i64_1d last;   /* (cell,) */
+    tandem_i64_2d half;   /* (cell, 2) the cells that it is halved into; -1 if it is not */
     tandem_f64_2d point;  /* (place, axis) */
-    tandem_i32_1d number;  /* (place,) of the point */
+    tandem_i32_1d number; /* (place,) of the point */
 } tandem_cells;
 
 typedef struct tandem_sights {
-    tandem_i64_1d begin;  /* (row + 1,) */
-    tandem_i64_1d place;  /* (entry,) */
-    tandem_f64_1d distance;  /* (entry,) metres */
-    tandem_f64_1d duration;  /* (entry,) seconds, infinite where the wind is too strong */
+    tandem_i64_1d begin;    /* (row + 1,) */
+    tandem_i64_1d place;    /* (entry,) */
+    tandem_f64_1d distance; /* (entry,) metres */
+    tandem_f64_1d duration; /* (entry,) seconds, infinite where the wind is too strong */
 } tandem_sights;
 
 typedef struct tandem_legs {
-    tandem_i32_4d stated;  /* (travel, origin, to, 2); null where some are computed */
-    tandem_i64_5d table;  /* (direction, table, node, node, 2); one direction if they are the same back */
-    tandem_point_1d point;  /* (node,) */
-    tandem_leg_law_1d law;  /* (travel,) */
+    tandem_i32_4d stated; /* (travel, origin, to, 2); null where some are computed */
+    tandem_i64_5d
+        table; /* (direction, table, node, node, 2); one direction if they are the same back */
+    tandem_point_1d point; /* (node,) */
+    tandem_leg_law_1d law; /* (travel,) */
 } tandem_legs;
 
 typedef struct tandem_instance {
-    tandem_size_1d size;  /* (problem,) */
-    tandem_node_4d node;  /* (problem, variant, node, 1 + gaps) */
-    tandem_i64_4d amount;  /* (problem, node, tier, entry); no tiers where the demand of nodes tells all */
-    tandem_price_2d price;  /* (problem, node) */
-    tandem_goods_2d goods;  /* (problem, node), or (problem, 0) */
-    tandem_setup_2d setup;  /* (problem, node), or (problem, 0) */
-    tandem_i64_2d fresh_for;  /* (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one */
-    tandem_vehicle_type_2d type;  /* (problem, row); trucks first, as many as `size` says */
-    tandem_rate_2d rate;  /* (problem, row) */
-    tandem_bool_3d reload;  /* (problem, type, node) where a trip may end and the next begin */
-    tandem_bool_3d can_drive;  /* (problem, type, node) table, kind, skills and capacity allow a truck */
-    tandem_bool_3d can_fly;  /* (problem, type, node) likewise for its drones */
-    tandem_i64_3d profile_time;  /* (problem, type, change) */
+    tandem_size_1d size; /* (problem,) */
+    tandem_node_4d node; /* (problem, variant, node, 1 + gaps) */
+    tandem_i64_4d
+        amount; /* (problem, node, tier, entry); no tiers where the demand of nodes tells all */
+    tandem_price_2d price;         /* (problem, node) */
+    tandem_goods_2d goods;         /* (problem, node), or (problem, 0) */
+    tandem_setup_2d setup;         /* (problem, node), or (problem, 0) */
+    tandem_i64_2d max_time_aboard; /* (problem, node) ms, FAR without limit, or (problem, 0) if
+                                      nobody has one */
+    tandem_vehicle_type_2d type;   /* (problem, row); trucks first, as many as `size` says */
+    tandem_rate_2d rate;           /* (problem, row) */
+    tandem_bool_3d reload; /* (problem, type, node) where a trip may end and the next begin */
+    tandem_bool_3d
+        can_drive; /* (problem, type, node) table, kind, skills and capacity allow a truck */
+    tandem_bool_3d can_fly;        /* (problem, type, node) likewise for its drones */
+    tandem_i64_3d profile_time;    /* (problem, type, change) */
     tandem_i64_3d profile_factor;  /* (problem, type, change + 1) */
-    tandem_i64_4d duration;  /* (problem, travel, node, node) */
-    tandem_i64_4d distance;  /* (problem, travel, node, node) */
-    tandem_f64_1d unassigned_cost;  /* (problem,) of whoever it costs least to leave out */
-    tandem_f64_2d unassigned_more;  /* (problem, node) what leaving out another costs above that */
-    tandem_i64_3d neighbour;  /* (problem, node, rank) nearest customers first, -1 behind the last */
+    tandem_i64_4d duration;        /* (problem, travel, node, node) */
+    tandem_i64_4d distance;        /* (problem, travel, node, node) */
+    tandem_f64_1d unassigned_cost; /* (problem,) of whoever it costs least to leave out */
+    tandem_f64_2d unassigned_more; /* (problem, node) what leaving out another costs above that */
+    tandem_i64_3d neighbour; /* (problem, node, rank) nearest customers first, -1 behind the last */
 } tandem_instance;
 
 typedef struct tandem_vehicle_logs {
-    tandem_log_lengths_1d count;  /* (rollout,) */
-    tandem_logged_trip_2d trip;  /* (rollout, trip) */
-    tandem_logged_stop_2d stop;  /* (rollout, stop) */
-    tandem_operation_2d op;  /* (rollout, op) */
-    tandem_logged_sortie_2d sortie;  /* (rollout, sortie) */
+    tandem_log_lengths_1d count;    /* (rollout,) */
+    tandem_logged_trip_2d trip;     /* (rollout, trip) */
+    tandem_logged_stop_2d stop;     /* (rollout, stop) */
+    tandem_operation_2d op;         /* (rollout, op) */
+    tandem_logged_sortie_2d sortie; /* (rollout, sortie) */
 } tandem_vehicle_logs;
 
 typedef struct tandem_state {
-    tandem_i64_1d problem;  /* (rollout,) row in the Instance */
-    tandem_bool_2d served;  /* (rollout, node) */
-    tandem_i64_1d num_unserved;  /* (rollout,) */
-    tandem_i64_2d used;  /* (rollout, type) vehicles opened */
-    tandem_bool_1d done;  /* (rollout,) */
+    tandem_i64_1d problem;      /* (rollout,) row in the Instance */
+    tandem_bool_2d served;      /* (rollout, node) */
+    tandem_i64_1d num_unserved; /* (rollout,) */
+    tandem_i64_2d used;         /* (rollout, type) vehicles opened */
+    tandem_bool_1d done;        /* (rollout,) */
     tandem_vehicle_1d vehicle;  /* (rollout,) the open one */
-    tandem_drone_2d drone;  /* (rollout, drone) its drones */
+    tandem_drone_2d drone;      /* (rollout, drone) its drones */
     tandem_vehicle_logs log;
     tandem_cost_1d cost;  /* (rollout,) of the vehicles closed so far */
-    tandem_bool_3d fresh;  /* (problem, type, node) servable alone by a fresh vehicle */
+    tandem_bool_3d fresh; /* (problem, type, node) servable alone by a fresh vehicle */
 } tandem_state;
 
 typedef struct tandem_scales {
-    tandem_f64_1d time;  /* (problem,) ms from a depot to a customer, mean */
-    tandem_f64_1d near;  /* (problem,) ms from a customer to its nearest neighbour, mean */
-    tandem_f64_1d horizon;  /* (problem,) ms, the last limit stated, or a guess */
-    tandem_f64_1d cost;  /* (problem,) cost of driving from a depot to a customer, mean */
-    tandem_f64_1d amount;  /* (problem,) total demand in the first dimension, or of pickups if more */
+    tandem_f64_1d time;    /* (problem,) ms from a depot to a customer, mean */
+    tandem_f64_1d near;    /* (problem,) ms from a customer to its nearest neighbour, mean */
+    tandem_f64_1d horizon; /* (problem,) ms, the last limit stated, or a guess */
+    tandem_f64_1d cost;    /* (problem,) cost of driving from a depot to a customer, mean */
+    tandem_f64_1d
+        amount; /* (problem,) total demand in the first dimension, or of pickups if more */
 } tandem_scales;
 
 typedef struct tandem_observation {
-    tandem_i64_1d count;  /* (rollout,) */
-    tandem_i64_2d action;  /* (rollout, candidate) codes */
-    tandem_i64_2d token;  /* (rollout, candidate) node, or number of nodes + type */
-    tandem_outlook_2d outlook;  /* (rollout, candidate) */
-    tandem_f32_3d feature;  /* (rollout, candidate, number) */
-    tandem_f32_2d glob;  /* (rollout, number) */
-    tandem_i64_1d here;  /* (rollout,) token of the vehicle's place */
+    tandem_i64_1d count;       /* (rollout,) */
+    tandem_i64_2d action;      /* (rollout, candidate) codes */
+    tandem_i64_2d token;       /* (rollout, candidate) node, or number of nodes + type */
+    tandem_outlook_2d outlook; /* (rollout, candidate) */
+    tandem_f32_3d feature;     /* (rollout, candidate, number) */
+    tandem_f32_2d glob;        /* (rollout, number) */
+    tandem_i64_1d here;        /* (rollout,) token of the vehicle's place */
 } tandem_observation;
 
 typedef struct tandem_step_weights {
@@ -795,167 +989,174 @@ typedef struct tandem_step_weights {
     tandem_f32_1d action_score;
 } tandem_step_weights;
 
-typedef struct tandem_world {
+typedef struct tandem_problem_data {
     int64_t num_depots;
     int64_t num_nodes;
     int64_t num_types;
-    int64_t max_visits;  /* customers on a sortie */
-    bool tails;  /* routes may swap their tails */
-    bool single_drones;  /* some type has one drone, and trips may be split anew */
-    bool loops;  /* sorties may end where they began */
-    bool crossings;  /* sorties may end elsewhere */
-    bool general;  /* insertions may cost more than their detour; else all routes are lean */
-    bool traded;  /* vehicles may drive each other's routes */
-    bool mixed;  /* types of vehicles, some of whose routes are not lean, may drive each other's */
-    bool scan_all;  /* else insertion looks beside neighbours only */
-    bool optional;  /* nobody has to be served */
-    bool adds_up;  /* to insert a customer never saves anything, if no detour does */
-    bool keeps;  /* customers' best places on routes are kept from turn to turn */
-    double blink;  /* how often a better place for a customer is overlooked */
-    double unassigned_cost;  /* of whoever it costs least to leave out */
-    tandem_f64_1d unassigned_more;  /* (node,) what leaving out another costs above that */
-    bool unequal;  /* leaving out some costs more than others */
-    tandem_bool_1d must_serve;  /* (node,) leaving it out costs more than any route for one */
-    tandem_node_3d place;  /* (variant, node, row) */
+    int64_t max_visits; /* customers on a sortie */
+    bool tails;         /* routes may swap their tails */
+    bool single_drones; /* some type has one drone, and trips may be split anew */
+    bool loops;         /* sorties may end where they began */
+    bool crossings;     /* sorties may end elsewhere */
+    bool general;       /* insertions may cost more than their detour; else all routes are lean */
+    bool traded;        /* vehicles may drive each other's routes */
+    bool mixed; /* types of vehicles, some of whose routes are not lean, may drive each other's */
+    bool scan_all;          /* else insertion looks beside neighbours only */
+    bool optional;          /* nobody has to be served */
+    bool adds_up;           /* to insert a customer never saves anything, if no detour does */
+    bool keeps;             /* customers' best places on routes are kept from turn to turn */
+    double blink;           /* how often a better place for a customer is overlooked */
+    double unassigned_cost; /* of whoever it costs least to leave out */
+    tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */
+    bool unequal;                  /* leaving out some costs more than others */
+    tandem_bool_1d must_serve;     /* (node,) leaving it out costs more than any route for one */
+    tandem_node_3d place;          /* (variant, node, row) */
     tandem_i64_3d amount;  /* (node, tier, entry); no tiers where the demand of nodes tells all */
-    tandem_price_1d price;  /* (node,) per ms */
-    tandem_goods_1d goods;  /* (node,) none where all go together */
-    tandem_setup_1d setup;  /* (node,) none where nobody sets up */
-    tandem_i64_1d fresh_for;  /* (node,) ms, none where nothing is limited */
-    tandem_vehicle_type_1d type;  /* (row,) */
-    tandem_rate_1d rate;  /* (row,) per mm and per ms */
-    tandem_i64_1d mode;  /* (row,) `mode_` flags */
-    tandem_bool_2d reload;  /* (type, node) where a trip may end and the next begin */
-    tandem_i64_1d visits;  /* (row,) customers on a sortie */
-    tandem_bool_3d can;  /* (row, 2, node) by truck, by drone */
-    tandem_bool_2d splice;  /* (type, type) vehicles may end each other's routes */
-    tandem_bool_2d swap;  /* (type, type) may drive each other's routes at a cost by distance alone */
+    tandem_price_1d price; /* (node,) per ms */
+    tandem_goods_1d goods; /* (node,) none where all go together */
+    tandem_setup_1d setup; /* (node,) none where nobody sets up */
+    tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
+    tandem_vehicle_type_1d type;   /* (row,) */
+    tandem_rate_1d rate;           /* (row,) per mm and per ms */
+    tandem_i64_1d mode;            /* (row,) `mode_` flags */
+    tandem_bool_2d reload;         /* (type, node) where a trip may end and the next begin */
+    tandem_i64_1d visits;          /* (row,) customers on a sortie */
+    tandem_bool_3d can;            /* (row, 2, node) by truck, by drone */
+    tandem_bool_2d splice;         /* (type, type) vehicles may end each other's routes */
+    tandem_bool_2d
+        swap;         /* (type, type) may drive each other's routes at a cost by distance alone */
     tandem_legs leg;  /* duration, distance */
-    tandem_legs back;  /* the same, for those to a node */
-    tandem_i64_2d profile_time;  /* (type, change) */
-    tandem_i64_2d profile_factor;  /* (type, change + 1) */
-    tandem_i32_2d near;  /* (node, rank) customers, nearest first, -1 behind the last */
-    tandem_i32_2d fit;  /* (node, rank) customers whom a truck would visit before or after */
-    tandem_i64_1d deadline;  /* (2,) when the search must end, as `model.kernel.alarm` says */
-} tandem_world;
+    tandem_legs back; /* the same, for those to a node */
+    tandem_i64_2d profile_time;   /* (type, change) */
+    tandem_i64_2d profile_factor; /* (type, change + 1) */
+    tandem_i32_2d near;           /* (node, rank) customers, nearest first, -1 behind the last */
+    tandem_i32_2d fit;      /* (node, rank) customers whom a truck would visit before or after */
+    tandem_i64_1d deadline; /* (2,) when the search must end, as `model.kernel.alarm` says */
+} tandem_problem_data;
 
 typedef struct tandem_fleet {
-    tandem_route_1d route;  /* (slot,) */
-    tandem_f64_1d cost;  /* (slot,) */
-    tandem_f64_1d early;  /* (slot,) of it, what waiting costs where trips are held back */
-    tandem_stop_2d stop;  /* (slot, position) */
-    tandem_halt_3d halt;  /* (slot, tier, position); no tiers where loads of trips tell all */
-    tandem_trip_2d trip;  /* (slot, trip) */
-    tandem_sortie_2d sortie;  /* (slot, sortie) */
-    tandem_place_1d where;  /* (node,) */
-    tandem_i64_1d used;  /* (type,) routes */
+    tandem_route_1d route; /* (slot,) */
+    tandem_f64_1d cost;    /* (slot,) */
+    tandem_f64_1d early;   /* (slot,) of it, what waiting costs where trips are held back */
+    tandem_stop_2d stop;   /* (slot, position) */
+    tandem_stop_load_3d
+        stop_load;           /* (slot, tier, position); no tiers where loads of trips tell all */
+    tandem_trip_2d trip;     /* (slot, trip) */
+    tandem_sortie_2d sortie; /* (slot, sortie) */
+    tandem_place_1d where;   /* (node,) */
+    tandem_i64_1d used;      /* (type,) routes */
 } tandem_fleet;
 
 typedef struct tandem_searcher {
     tandem_fleet now;
-    tandem_fleet before;  /* those touched this turn, as they are listed there; who is where is not noted */
-    tandem_fleet best;  /* likewise not */
-    tandem_search_counts *count;
-    tandem_search_values *value;
-    tandem_u64_1d rng;  /* (1,) */
-    tandem_i64_1d active;  /* slots in use, and behind them those that are free */
-    tandem_i64_1d rank;  /* (slot,) where it stands in `active` */
-    tandem_i64_1d changed;  /* slots changed since the best */
-    tandem_bool_1d is_changed;  /* (slot,) it is among those */
-    tandem_i64_1d missing;  /* customers left out */
+    tandem_fleet
+        before; /* those touched this turn, as they are listed there; who is where is not noted */
+    tandem_fleet best; /* likewise not */
+    tandem_search_counts* count;
+    tandem_search_values* value;
+    tandem_u64_1d rng;         /* (1,) */
+    tandem_i64_1d active;      /* slots in use, and behind them those that are free */
+    tandem_i64_1d rank;        /* (slot,) where it stands in `active` */
+    tandem_i64_1d changed;     /* slots changed since the best */
+    tandem_bool_1d is_changed; /* (slot,) it is among those */
+    tandem_i64_1d missing;     /* customers left out */
     tandem_i64_1d best_missing;
-    tandem_i64_1d absent;  /* to be inserted this turn, behind those left alone */
-    tandem_i64_1d touched;  /* slots changed this turn */
-    tandem_bool_1d marked;  /* (node,) removed this turn */
-    tandem_i64_1d absences;  /* (node,) turns after which a customer was left out */
-    tandem_i64_2d hit;  /* (slot, trip) turn of the last string */
-    tandem_line_1d line;  /* (node + 3,) scratch, places of a trip or two in order */
+    tandem_i64_1d absent;     /* to be inserted this turn, behind those left alone */
+    tandem_i64_1d touched;    /* slots changed this turn */
+    tandem_bool_1d marked;    /* (node,) removed this turn */
+    tandem_i64_1d absences;   /* (node,) turns after which a customer was left out */
+    tandem_i64_2d hit;        /* (slot, trip) turn of the last string */
+    tandem_line_1d line;      /* (node + 3,) scratch, places of a trip or two in order */
     tandem_f64_1d line_cost;  /* (node + 3,) scratch */
-    tandem_f64_1d key;  /* (node,) order of insertion */
-    tandem_i64_1d moved;  /* scratch */
-    tandem_move *move;  /* scratch, best insertion */
-    tandem_move_1d offer;  /* (offer,) scratch, insertions that may be best */
-    tandem_f64_1d least;  /* (offer,) scratch, what each costs at least */
-    tandem_block_sums *acc;  /* of a block, scratch */
-    tandem_bound *bound;  /* scratch */
-    tandem_f64_3d alone;  /* (type, 2, node) cost of a route that serves one customer */
-    tandem_kept_2d kept;  /* (node, slot) the best places on lean routes as they are */
-    tandem_move_2d kept_move;  /* (node, slot) the best insertions where not all routes are lean */
+    tandem_f64_1d key;        /* (node,) order of insertion */
+    tandem_i64_1d moved;      /* scratch */
+    tandem_move* move;        /* scratch, best insertion */
+    tandem_move_1d offer;     /* (offer,) scratch, insertions that may be best */
+    tandem_f64_1d least;      /* (offer,) scratch, what each costs at least */
+    tandem_block_sums* acc;   /* of a block, scratch */
+    tandem_bound* bound;      /* scratch */
+    tandem_f64_3d alone;      /* (type, 2, node) cost of a route that serves one customer */
+    tandem_kept_2d kept;      /* (node, slot) the best places on lean routes as they are */
+    tandem_move_2d kept_move; /* (node, slot) the best insertions where not all routes are lean */
     tandem_f64_2d kept_cost;  /* (node, slot) where not all routes are lean, what these cost */
 } tandem_searcher;
 
 typedef struct tandem_linked {
-    tandem_link_1d link;  /* (node,) */
-    tandem_run_1d run;  /* (slot,) */
-    tandem_piece_1d piece;  /* (piece,) */
-    tandem_link_1d removed;  /* (customer,) of the pieces one after another */
-    tandem_i64_1d removed_node;  /* (customer,) who that is */
-    tandem_entry_1d entry;  /* (customer,) */
-    tandem_moment_1d moment;  /* (moment,) */
-    tandem_i64_1d retyped;  /* (slot,) routes that another type drives since this turn */
-    tandem_i64_1d former;  /* (slot,) the type that did before, else `nowhere` */
-    tandem_noted *noted;
-    tandem_i64_1d hit;  /* (slot,) turn of the last string */
-    tandem_i32_2d near;  /* (node, rank) mm to or from those that `World.fit` lists, or what fits */
+    tandem_link_1d link;        /* (node,) */
+    tandem_run_1d run;          /* (slot,) */
+    tandem_piece_1d piece;      /* (piece,) */
+    tandem_link_1d removed;     /* (customer,) of the pieces one after another */
+    tandem_i64_1d removed_node; /* (customer,) who that is */
+    tandem_entry_1d entry;      /* (customer,) */
+    tandem_moment_1d moment;    /* (moment,) */
+    tandem_i64_1d retyped;      /* (slot,) routes that another type drives since this turn */
+    tandem_i64_1d former;       /* (slot,) the type that did before, else `nowhere` */
+    tandem_noted* noted;
+    tandem_i64_1d hit; /* (slot,) turn of the last string */
+    tandem_i32_2d
+        near; /* (node, rank) mm to or from those that `ProblemData.fit` lists, or what fits */
     tandem_i64_1d best_first;  /* (slot,) first customer of the best plan's route, else `nowhere` */
-    tandem_i64_1d best_type;  /* (slot,) */
-    tandem_i64_1d best_behind;  /* (node,) */
-    tandem_least *cheapest;  /* of all types */
-    bool timed;  /* something limits when customers are served */
-    tandem_i64_1d reach;  /* (node,) how far it is to who is farther of both beside; see `layout.h` */
+    tandem_i64_1d best_type;   /* (slot,) */
+    tandem_i64_1d best_behind; /* (node,) */
+    tandem_least* cheapest;    /* of all types */
+    bool timed;                /* something limits when customers are served */
+    tandem_i64_1d
+        reach; /* (node,) how far it is to who is farther of both beside; see `layout.h` */
 } tandem_linked;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */
 
 /* Build. */
 
-int tandem_header(uint64_t *digest); /* of this file, the first 64 bits of its SHA-256 */
+int tandem_header(uint64_t* digest); /* of this file, the first 64 bits of its SHA-256 */
 
 /* Travel. */
 
 /* Write the numbers of the points nearest to those of some places, nearest first. */
-int tandem_write_nearest_in(const tandem_cells *cells, int64_t begin, int64_t end,
-                            const tandem_i32_2d *nearest);
+int tandem_write_nearest_in(const tandem_cells* cells, int64_t begin, int64_t end,
+                            const tandem_i32_2d* nearest);
 
 /* Mark the ends that each of some starts doesn't see past edges. */
-int tandem_mark_hidden(const tandem_f64_2d *starts, const tandem_f64_2d *ends,
-                       const tandem_f64_2d *edges, const tandem_bool_2d *hidden, int64_t first,
+int tandem_mark_hidden(const tandem_f64_2d* starts, const tandem_f64_2d* ends,
+                       const tandem_f64_2d* edges, const tandem_bool_2d* hidden, int64_t first,
                        int64_t last, bool mutual);
 
 /* Mark the corners that no shortest way from each of some starts bends at. */
-int tandem_mark_dead_ends(const tandem_f64_2d *starts, const tandem_f64_2d *corners,
-                          const tandem_f64_2d *before, const tandem_f64_2d *after, double slack,
-                          const tandem_bool_2d *hidden, int64_t first, int64_t last);
+int tandem_mark_dead_ends(const tandem_f64_2d* starts, const tandem_f64_2d* corners,
+                          const tandem_f64_2d* before, const tandem_f64_2d* after, double slack,
+                          const tandem_bool_2d* hidden, int64_t first, int64_t last);
 
 /* Write the quickest flights that bend at least once. */
-int tandem_fly_around(const tandem_sights *outward, const tandem_sights *between,
-                      const tandem_sights *inward, const tandem_bool_2d *wanted, bool mutual,
-                      int64_t first, int64_t last, const tandem_f64_2d *distance,
-                      const tandem_f64_2d *duration);
+int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between,
+                      const tandem_sights* inward, const tandem_bool_2d* wanted, bool mutual,
+                      int64_t first, int64_t last, const tandem_f64_2d* distance,
+                      const tandem_f64_2d* duration);
 
 /* Rules. */
 
 /* Simulation. */
 
-/* Mark who could be served alone by a fresh vehicle of each type; rows behind rollouts are scratch. */
-int tandem_mark_fresh(const tandem_instance *instance, const tandem_state *state, int64_t scratch);
-/* Write the codes of the legal actions and what each on a customer leads to; `found` is how many. */
-int tandem_legal_actions(const tandem_instance *instance, const tandem_state *state, int64_t r,
-                         int64_t scratch, const tandem_i64_1d *actions,
-                         const tandem_outlook_1d *outlooks, int64_t *found);
+/* Mark who could be served alone by a fresh vehicle of each type; rows behind rollouts are scratch.
+ */
+int tandem_mark_fresh(const tandem_instance* instance, const tandem_state* state, int64_t scratch);
+/* Write the codes of the legal actions and what each on a customer leads to; `found` is how many.
+ */
+int tandem_legal_actions(const tandem_instance* instance, const tandem_state* state, int64_t r,
+                         int64_t scratch, const tandem_i64_1d* actions,
+                         const tandem_outlook_1d* outlooks, int64_t* found);
 /* Do one legal action. */
-int tandem_apply(const tandem_instance *instance, const tandem_state *state, int64_t r,
+int tandem_apply(const tandem_instance* instance, const tandem_state* state, int64_t r,
                  int64_t action);
 /* Do legal actions from the `first` on up to the one that opens the next vehicle, at `behind`. */
-int tandem_apply_route(const tandem_instance *instance, const tandem_state *state, int64_t r,
-                       const tandem_i64_1d *actions, int64_t first, int64_t *behind);
+int tandem_apply_route(const tandem_instance* instance, const tandem_state* state, int64_t r,
+                       const tandem_i64_1d* actions, int64_t first, int64_t* behind);
 /* Write what each vehicle of legal actions costs as if there were no other. */
-int tandem_price_routes(const tandem_instance *instance, const tandem_state *state, int64_t r,
-                        const tandem_i64_1d *actions, const tandem_cost_1d *price);
+int tandem_price_routes(const tandem_instance* instance, const tandem_state* state, int64_t r,
+                        const tandem_i64_1d* actions, const tandem_cost_1d* price);
 /* Let each trip of the open vehicle begin as late as costs nothing, and add its cost. */
-int tandem_close_vehicle(const tandem_instance *instance, const tandem_state *state, int64_t r);
+int tandem_close_vehicle(const tandem_instance* instance, const tandem_state* state, int64_t r);
 /* End a rollout that has no legal action left. */
-int tandem_finish(const tandem_instance *instance, const tandem_state *state, int64_t r);
+int tandem_finish(const tandem_instance* instance, const tandem_state* state, int64_t r);
 
 /* Policy. */
 
@@ -963,149 +1164,152 @@ int tandem_finish(const tandem_instance *instance, const tandem_state *state, in
 typedef struct tandem_scene {
     tandem_instance instance;
     tandem_scales scale;
-    tandem_f32_3d type_token;  /* (problem, type, number) */
+    tandem_f32_3d type_token; /* (problem, type, number) */
 } tandem_scene;
 
 /* Rollouts of one problem, each begun by actions that are given. */
 typedef struct tandem_courses {
-    tandem_i64_1d row;  /* (rollout,) of the state */
-    tandem_i64_1d view;  /* (rollout,) of the memory */
-    tandem_f64_1d temperature;  /* (rollout,) 0 for the likeliest action at each step */
-    tandem_u64_1d random;  /* (rollout,) states of random numbers, which are moved on */
-    tandem_i64_1d kept;  /* (rollout,) actions that are given */
-    tandem_i64_2d actions;  /* (rollout, action) codes */
-    tandem_i64_1d count;  /* (rollout,) actions in the end, -1 of one that was given up */
+    tandem_i64_1d row;         /* (rollout,) of the state */
+    tandem_i64_1d view;        /* (rollout,) of the memory */
+    tandem_f64_1d temperature; /* (rollout,) 0 for the likeliest action at each step */
+    tandem_u64_1d random;      /* (rollout,) states of random numbers, which are moved on */
+    tandem_i64_1d kept;        /* (rollout,) actions that are given */
+    tandem_i64_2d actions;     /* (rollout, action) codes */
+    tandem_i64_1d count;       /* (rollout,) actions in the end, -1 of one that was given up */
 } tandem_courses;
 
-/* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them. */
-int tandem_observe(const tandem_scene *scene, const tandem_state *state, int64_t first,
-                   int64_t behind, int64_t scratch, const tandem_observation *seen, int64_t *most);
+/* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them.
+ */
+int tandem_observe(const tandem_scene* scene, const tandem_state* state, int64_t first,
+                   int64_t behind, int64_t scratch, const tandem_observation* seen, int64_t* most);
 /* Do what was chosen of what was seen, then observe. */
-int tandem_step(const tandem_scene *scene, const tandem_state *state, int64_t first,
-                int64_t behind, int64_t scratch, const tandem_i64_1d *choice,
-                const tandem_observation *seen, int64_t *most);
+int tandem_step(const tandem_scene* scene, const tandem_state* state, int64_t first, int64_t behind,
+                int64_t scratch, const tandem_i64_1d* choice, const tandem_observation* seen,
+                int64_t* most);
 /* Score the candidates of one rollout, before they are clipped. */
-int tandem_candidate_scores(const tandem_step_weights *weights, const tandem_f32_2d *memory,
-                            const tandem_observation *seen, int64_t r, const tandem_f32_1d *scores);
+int tandem_candidate_scores(const tandem_step_weights* weights, const tandem_f32_2d* memory,
+                            const tandem_observation* seen, int64_t r, const tandem_f32_1d* scores);
 /* Choose the likeliest candidate, or one drawn by probability if the temperature isn't 0. */
-int tandem_choose(const tandem_f32_1d *scores, double temperature,
-                  const tandem_u64_1d *random, int64_t *choice);
+int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_u64_1d* random,
+                  int64_t* choice);
 /* Plan by the policy, on so many threads, each with a row of the state behind all others' to try
    actions on, until an alarm tells to give up. */
-int tandem_roll_out(const tandem_step_weights *weights, const tandem_f32_3d *memory,
-                    const tandem_scene *scene, const tandem_state *state,
-                    const tandem_courses *courses, const tandem_i64_1d *alarm, int64_t threads);
+int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_3d* memory,
+                    const tandem_scene* scene, const tandem_state* state,
+                    const tandem_courses* courses, const tandem_i64_1d* alarm, int64_t threads);
 
 /* Search: neighbourhood. */
 
 /* Write all customers in the order of a walk to the nearest who wasn't met yet. */
-int tandem_walk(const tandem_i32_2d *near, int64_t num_depots, const tandem_i64_1d *node);
+int tandem_walk(const tandem_i32_2d* near, int64_t num_depots, const tandem_i64_1d* node);
 
 /* Write the legs from nodes, the search's number `first` and behind. */
-int tandem_write_legs(const tandem_i64_2d *duration, const tandem_i64_2d *distance,
-                      const tandem_i64_1d *node, int64_t first, const tandem_i64_3d *legs);
+int tandem_write_legs(const tandem_i64_2d* duration, const tandem_i64_2d* distance,
+                      const tandem_i64_1d* node, int64_t first, const tandem_i64_3d* legs);
 
 /* The same in 32 bits. */
-int tandem_write_narrow_legs(const tandem_i32_2d *duration, const tandem_i32_2d *distance,
-                             const tandem_i64_1d *node, int64_t first,
-                             const tandem_i32_3d *legs);
+int tandem_write_narrow_legs(const tandem_i32_2d* duration, const tandem_i32_2d* distance,
+                             const tandem_i64_1d* node, int64_t first, const tandem_i32_3d* legs);
 
 /* Write how badly neighbours follow or precede customers. */
-int tandem_write_misfit(const tandem_i64_2d *there, const tandem_i64_2d *back,
-                        const tandem_i64_2d *other, int64_t first, const tandem_f64_1d *earliest,
-                        const tandem_f64_1d *service, const tandem_f64_1d *latest,
-                        const tandem_f64_2d *weight);
+int tandem_write_misfit(const tandem_i64_2d* there, const tandem_i64_2d* back,
+                        const tandem_i64_2d* other, int64_t first, const tandem_f64_1d* earliest,
+                        const tandem_f64_1d* service, const tandem_f64_1d* latest,
+                        const tandem_f64_2d* weight);
 
 /* Search: route. */
 
 /* Tell what the customers left out cost. */
-int tandem_missing_cost(const tandem_world *world, const tandem_searcher *searcher, double *cost);
+int tandem_missing_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
+                        double* cost);
 /* Go on from the best routes. */
-int tandem_go_back(const tandem_searcher *searcher);
+int tandem_go_back(const tandem_searcher* searcher);
 
 /* Search: insertion. */
 
 /* Tell what it costs to insert a customer as a move says. */
-int tandem_price_move(const tandem_world *world, const tandem_fleet *fleet, const tandem_move *move,
-                      int64_t node, tandem_block_sums *acc, double *cost);
+int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
+                      const tandem_move* move, int64_t node, tandem_block_sums* acc, double* cost);
 /* Tell what the cheapest stop beside neighbours costs a customer, where all routes are lean and it
    is cheaper than `best`. */
-int tandem_scan_beside_lean(const tandem_world *world, const tandem_searcher *searcher,
-                            int64_t node, double best, bool enlarge, double *cost);
+int tandem_scan_beside_lean(const tandem_problem_data* data, const tandem_searcher* searcher,
+                            int64_t node, double best, bool enlarge, double* cost);
 
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */
-int tandem_anneal(const tandem_world *world, const tandem_searcher *searcher, int64_t turns,
+int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t turns,
                   int64_t order);
 
 /* Search: linked. */
 
 /* Write how near neighbours are. */
-int tandem_measure_near(const tandem_world *world, const tandem_linked *linked);
+int tandem_measure_near(const tandem_problem_data* data, const tandem_linked* linked);
 /* Link the routes of a search as they are, and of its best plan. */
-int tandem_tie(const tandem_world *world, const tandem_searcher *searcher,
-               const tandem_linked *linked);
+int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
+               const tandem_linked* linked);
 /* Ruin and recreate so many times among linked stops. */
-int tandem_anneal_linked(const tandem_world *world, const tandem_searcher *searcher,
-                         const tandem_linked *linked, int64_t turns);
+int tandem_anneal_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
+                         const tandem_linked* linked, int64_t turns);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
-int tandem_write_back(const tandem_world *world, const tandem_searcher *searcher,
-                      const tandem_linked *linked);
+int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
+                      const tandem_linked* linked);
 
 /* Search: beginning. */
 
 /* Take all routes apart. */
-int tandem_disband(const tandem_searcher *searcher);
+int tandem_disband(const tandem_searcher* searcher);
 /* Write which type's trucks drive least for each customer alone. */
-int tandem_write_nearest_types(const tandem_world *world, const tandem_i64_1d *nearest);
+int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */
-int tandem_write_excess(const tandem_world *world, int64_t k, int64_t ranks,
-                        const tandem_i64_1d *excess);
+int tandem_write_excess(const tandem_problem_data* data, int64_t k, int64_t ranks,
+                        const tandem_i64_1d* excess);
 /* Make keys of what pairs cost, but for its last bits, and of their numbers. */
-int tandem_number_pairs(const tandem_i64_1d *excess, int64_t coarse);
+int tandem_number_pairs(const tandem_i64_1d* excess, int64_t coarse);
 /* Join routes end to end, pair after pair. */
-int tandem_join(const tandem_world *world, int64_t k, int64_t ranks, const tandem_i64_1d *keys,
-                const tandem_chain_1d *chain, const tandem_chain_cargo_2d *cargo);
+int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
+                const tandem_i64_1d* keys, const tandem_chain_1d* chain,
+                const tandem_chain_cargo_2d* cargo);
 /* Join routes at either end, pair after pair. */
-int tandem_join_either_way(const tandem_world *world, int64_t k, int64_t ranks,
-                           const tandem_i64_1d *keys, const tandem_chain_1d *chain,
-                           const tandem_chain_cargo_2d *cargo);
+int tandem_join_either_way(const tandem_problem_data* data, int64_t k, int64_t ranks,
+                           const tandem_i64_1d* keys, const tandem_chain_1d* chain,
+                           const tandem_chain_cargo_2d* cargo);
 /* Tell how far the routes of all are whom a type may serve. */
-int tandem_length_of(const tandem_world *world, int64_t k, const tandem_chain_1d *chain,
-                     int64_t *length);
+int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_chain_1d* chain,
+                     int64_t* length);
 /* Write the cost of a route that serves one customer alone, (type, 2, node). */
-int tandem_alone_costs(const tandem_world *world, const tandem_fleet *fleet, tandem_block_sums *acc,
-                       const tandem_f64_3d *alone);
+int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
+                       tandem_block_sums* acc, const tandem_f64_3d* alone);
 /* Time the routes written; those that break a rule are left to be planned anew. */
-int tandem_begin(const tandem_world *world, const tandem_searcher *searcher, int64_t num_routes);
+int tandem_begin(const tandem_problem_data* data, const tandem_searcher* searcher,
+                 int64_t num_routes);
 /* Tell what the truck's legs between customers cost on average. */
-int tandem_leg_cost(const tandem_world *world, const tandem_searcher *searcher, double *cost);
+int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* searcher, double* cost);
 /* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
    it. */
-int tandem_finish_route(const tandem_world *world, const tandem_fleet *fleet, int64_t slot,
-                        tandem_block_sums *acc);
+int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot,
+                        tandem_block_sums* acc);
 /* Write when service begins at customers, by the rows of all nodes. */
-int tandem_service_starts(const tandem_node_2d *place, const tandem_i64_1d *nodes,
-                          const tandem_i64_1d *arrivals, const tandem_i64_1d *starts);
+int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
+                          const tandem_i64_1d* arrivals, const tandem_i64_1d* starts);
 /* Write when a truck's drone has served its customers, and tell when it is aboard, whose recovery
    begins at `begin`. */
-int tandem_sortie_ends(const tandem_node_3d *places, const tandem_vehicle_type_1d *types, int64_t k,
-                       int64_t drone, const tandem_i64_1d *nodes, const tandem_i64_1d *arrivals,
-                       int64_t begin, const tandem_i64_1d *ends, int64_t *aboard);
+int tandem_sortie_ends(const tandem_node_3d* places, const tandem_vehicle_type_1d* types, int64_t k,
+                       int64_t drone, const tandem_i64_1d* nodes, const tandem_i64_1d* arrivals,
+                       int64_t begin, const tandem_i64_1d* ends, int64_t* aboard);
 
 /* Search: sharing. */
 
 /* Go on from the routes that a thread owns, and the customers missing. */
-int tandem_take_part(const tandem_world *world, const tandem_searcher *whole,
-                     const tandem_searcher *part, const tandem_i64_1d *owner, int64_t number,
-                     const tandem_i64_1d *missing, const tandem_i64_1d *spare);
+int tandem_take_part(const tandem_problem_data* data, const tandem_searcher* whole,
+                     const tandem_searcher* part, const tandem_i64_1d* owner, int64_t number,
+                     const tandem_i64_1d* missing, const tandem_i64_1d* spare);
 /* Copy a part's routes behind the slots filled, and who is missing; tell how many are filled. */
-int tandem_add_routes(const tandem_searcher *whole, const tandem_searcher *part, int64_t filled,
-                      int64_t *slots);
+int tandem_add_routes(const tandem_searcher* whole, const tandem_searcher* part, int64_t filled,
+                      int64_t* slots);
 /* Likewise its best routes. */
-int tandem_add_best(const tandem_searcher *whole, const tandem_searcher *part, int64_t filled,
-                    int64_t *slots);
+int tandem_add_best(const tandem_searcher* whole, const tandem_searcher* part, int64_t filled,
+                    int64_t* slots);
 
 /* End of sections. */
 

@@ -115,8 +115,8 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
     feature.waiting = to_float(ratio(wait, unit.time));
     double left = slack(closing(place), outlook.arrival, unit.time);
     feature.window_slack = to_float(left);
-    if (some_limited(setting.fresh_for)) {
-        const Int excess = excess_aboard(setting.fresh_for, node, since, outlook.start);
+    if (some_limited(setting.max_time_aboard)) {
+        const Int excess = excess_aboard(setting.max_time_aboard, node, since, outlook.start);
         left = std::min(static_cast<double>(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }

@@ -55,11 +55,11 @@ struct Instance {
     View<const Node, 4> node;  // (problem, variant, node, 1 + gaps)
     View<const std::int64_t, 4>
         amount;  // (problem, node, tier, entry); no tiers where the demand of nodes tells all
-    View<const Price, 2> price;  // (problem, node)
-    View<const Goods, 2> goods;  // (problem, node), or (problem, 0)
-    View<const Setup, 2> setup;  // (problem, node), or (problem, 0)
-    View<const std::int64_t, 2>
-        fresh_for;  // (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
+    View<const Price, 2> price;                   // (problem, node)
+    View<const Goods, 2> goods;                   // (problem, node), or (problem, 0)
+    View<const Setup, 2> setup;                   // (problem, node), or (problem, 0)
+    View<const std::int64_t, 2> max_time_aboard;  // (problem, node) ms, FAR without limit, or
+                                                  // (problem, 0) if nobody has one
     View<const VehicleType, 2> type;  // (problem, row); trucks first, as many as `size` says
     View<const Rate, 2> rate;         // (problem, row)
     View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
@@ -84,7 +84,7 @@ inline Instance instance_of(const tandem_instance& from) {
             from.price,
             from.goods,
             from.setup,
-            from.fresh_for,
+            from.max_time_aboard,
             from.type,
             from.rate,
             from.reload,

@@ -4,7 +4,7 @@
 // what is aboard where a trip begins is the most that ever is: then nothing but `Node` is asked.
 // Where somebody has something to be picked up, or there are more dimensions, what each stop asks
 // for is a row for each tier (`Instance.amount`), and what is aboard around each stop of a trip a
-// `Halt`.
+// `StopLoad`.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 
 namespace tandem {
 
-using Halt = tandem_halt;
+using StopLoad = tandem_stop_load;
 
 using Amount = std::array<Int, 3>;  // by dimension of one tier
 
@@ -55,12 +55,12 @@ inline Int barred_on_trip(const Goods& goods) { return goods.barred_on_trip; }
 inline Int barred_on_vehicle(const Goods& goods) { return goods.barred_on_vehicle; }
 
 // Whether some parcels may be aboard for so long and no longer, by the limits of all.
-inline bool some_limited(View<const Int, 1> fresh_for) { return !fresh_for.empty(); }
+inline bool some_limited(View<const Int, 1> max_time_aboard) { return !max_time_aboard.empty(); }
 
 // By how much a parcel is too long aboard whose service starts at `start`, and whose trip has left
 // the depot at `departure`.
-inline Int excess_aboard(View<const Int, 1> fresh_for, Int node, Int departure, Int start) {
-    return start - departure - fresh_for[node];
+inline Int excess_aboard(View<const Int, 1> max_time_aboard, Int node, Int departure, Int start) {
+    return start - departure - max_time_aboard[node];
 }
 
 // What a customer's parcel takes, in the first tier.
@@ -163,9 +163,9 @@ inline Cargo cargo_for(const View<const Int, 3>& amounts, Int node, Int tier) {
 }
 
 // The cargo of a stop.
-inline Cargo cargo_at(const Halt& halt) {
-    const Amount leaving = amount_of(halt.leaving), coming = amount_of(halt.coming);
-    return {leaving, coming, larger(leaving, coming), halt.leaves, halt.comes};
+inline Cargo cargo_at(const StopLoad& stop_load) {
+    const Amount leaving = amount_of(stop_load.leaving), coming = amount_of(stop_load.coming);
+    return {leaving, coming, larger(leaving, coming), stop_load.leaves, stop_load.comes};
 }
 
 // The cargo of a part that is followed by another.
@@ -197,29 +197,30 @@ inline bool may_be_all(const VehicleType& type, const Cargo& cargo, Int tier) {
 }
 
 // Lets parcels leave the truck at a stop.
-inline void add_left(Halt& halt, const Amount& amount, Int sum_of_all) {
-    write_amount(plus(amount_of(halt.leaving), amount), halt.leaving);
-    halt.leaves += sum_of_all;
+inline void add_left(StopLoad& stop_load, const Amount& amount, Int sum_of_all) {
+    write_amount(plus(amount_of(stop_load.leaving), amount), stop_load.leaving);
+    stop_load.leaves += sum_of_all;
 }
 
 // Lets what was picked up come aboard at a stop.
-inline void add_come(Halt& halt, const Amount& amount, Int sum_of_all) {
-    write_amount(plus(amount_of(halt.coming), amount), halt.coming);
-    halt.comes += sum_of_all;
+inline void add_come(StopLoad& stop_load, const Amount& amount, Int sum_of_all) {
+    write_amount(plus(amount_of(stop_load.coming), amount), stop_load.coming);
+    stop_load.comes += sum_of_all;
 }
 
 // Writes what is aboard at the stops of a trip, by what leaves and comes aboard at each. False if
 // it is too much, or picked up too early.
-bool weigh_trip(const VehicleType& type, View<Halt, 1> halts, Int first, Int last, Int tier);
+bool weigh_trip(const VehicleType& type, View<StopLoad, 1> stop_loads, Int first, Int last,
+                Int tier);
 
 // Whether a customer may be served on a trip on top of all others. The parcel leaves the truck at
 // stop `left`, or just before it, and what is picked up comes aboard at stop `came`, or just behind
-// it, by `halts` (tier, stop) as they are.
-inline bool has_room(const VehicleType& type, const View<const Halt, 2>& halts, Int left, Int came,
-                     const View<const Int, 3>& amounts, Int node) {
-    for (Int tier = 0; tier < halts.size(); ++tier) {
-        const Amount before = amount_of(halts(tier, left).before);
-        const Amount behind = amount_of(halts(tier, came).behind);
+// it, by `stop_loads` (tier, stop) as they are.
+inline bool has_room(const VehicleType& type, const View<const StopLoad, 2>& stop_loads, Int left,
+                     Int came, const View<const Int, 3>& amounts, Int node) {
+    for (Int tier = 0; tier < stop_loads.size(); ++tier) {
+        const Amount before = amount_of(stop_loads(tier, left).before);
+        const Amount behind = amount_of(stop_loads(tier, came).behind);
         if (!holds_in(type, plus(before, delivered_of(amounts, node, tier)), tier) ||
             !holds_in(type, plus(behind, picked_of(amounts, node, tier)), tier)) {
             return false;
@@ -227,13 +228,13 @@ inline bool has_room(const VehicleType& type, const View<const Halt, 2>& halts, 
     }
     if (type.pickup_order == pickups_any) return true;
     const Int delivered = total_delivered(amounts, node), picked = total_picked(amounts, node);
-    return !out_of_order(type, halts(0, left).picked, delivered) &&
-           !out_of_order(type, picked, halts(0, came).due) &&
-           !comes_first(type, picked, halts(0, left).given + delivered);
+    return !out_of_order(type, stop_loads(0, left).picked, delivered) &&
+           !out_of_order(type, picked, stop_loads(0, came).due) &&
+           !comes_first(type, picked, stop_loads(0, left).given + delivered);
 }
 
 // The most that is aboard at any point of a trip, by its first stop.
-inline Amount most_of(const Halt& first) {
+inline Amount most_of(const StopLoad& first) {
     return larger(amount_of(first.before), amount_of(first.behind));
 }
 

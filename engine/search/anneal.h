@@ -51,10 +51,10 @@ void go_on(Searcher& searcher, Routes& routes, double cost) {
 
 // Swaps tails of routes, or does what else a store can, if that is accepted.
 template <Store Routes>
-void move_part(const World& world, Searcher& searcher, Routes& routes, Int part) {
+void move_part(const ProblemData& data, Searcher& searcher, Routes& routes, Int part) {
     const double rise = draw_rise(searcher);
     if (routes.move_part(part, rise)) {
-        if (world.traded && uniform(searcher.rng) < retyped_share) routes.trade();
+        if (data.traded && uniform(searcher.rng) < retyped_share) routes.trade();
         if (routes.is_worth(rise)) {
             go_on(searcher, routes, routes.served_cost());
             return;
@@ -65,27 +65,27 @@ void move_part(const World& world, Searcher& searcher, Routes& routes, Int part)
 
 // Ruins and recreates once. False, with nothing changed, once the search must end.
 template <Store Routes>
-bool ruin_and_recreate(const World& world, Searcher& searcher, Routes& routes) {
+bool ruin_and_recreate(const ProblemData& data, Searcher& searcher, Routes& routes) {
     SearchCounts& count = *searcher.count;
-    const Int first = begin_turn(world, searcher, most_missing);
+    const Int first = begin_turn(data, searcher, most_missing);
     routes.ruin(first);
-    sort_absent(world, searcher, first, draw_order(world, searcher.rng));
+    sort_absent(data, searcher, first, draw_order(data, searcher.rng));
     const double limit = searcher.value->cost + draw_rise(searcher);
-    const bool retyped = (world.traded || world.mixed) && uniform(searcher.rng) < retyped_share;
+    const bool retyped = (data.traded || data.mixed) && uniform(searcher.rng) < retyped_share;
     double spare = std::numeric_limits<double>::infinity();
-    if (!retyped && counts_up(world, searcher)) {
-        spare = limit - cost_to_insert(world, searcher, routes.served_cost(), first);
+    if (!retyped && counts_up(data, searcher)) {
+        spare = limit - cost_to_insert(data, searcher, routes.served_cost(), first);
     }
     const bool done = routes.recreate(first, spare);
-    if (world.deadline.passed()) {
+    if (data.deadline.passed()) {
         routes.take_back();
         --count.turn;
         return false;
     }
     if (done && retyped) routes.retype();
-    const double cost = turn_cost(world, searcher, routes.served_cost());
-    const bool scarce = !world.optional && count.absent > 0;
-    const bool forced = done && scarce && rarer_absences(world, searcher);
+    const double cost = turn_cost(data, searcher, routes.served_cost());
+    const bool scarce = !data.optional && count.absent > 0;
+    const bool forced = done && scarce && rarer_absences(data, searcher);
     if (done && (cost < limit || forced)) {
         go_on(searcher, routes, cost);
     } else {
@@ -99,12 +99,12 @@ bool ruin_and_recreate(const World& world, Searcher& searcher, Routes& routes) {
 // Where no insertion saves anything, a turn is given up once those made cost more than would be
 // accepted; once the search must end, as if it had not begun.
 template <Store Routes>
-void anneal(const World& world, Searcher& searcher, Routes& routes, Int turns) {
+void anneal(const ProblemData& data, Searcher& searcher, Routes& routes, Int turns) {
     for (Int turn = 0; turn < turns; ++turn) {
-        if (!ruin_and_recreate(world, searcher, routes)) return;
+        if (!ruin_and_recreate(data, searcher, routes)) return;
         for (Int part = 0; part < routes.parts(); ++part) {
-            if ((part > 0 || world.tails) && !world.deadline.passed()) {
-                move_part(world, searcher, routes, part);
+            if ((part > 0 || data.tails) && !data.deadline.passed()) {
+                move_part(data, searcher, routes, part);
             }
         }
         searcher.value->temperature *= searcher.value->cooling;

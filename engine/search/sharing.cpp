@@ -12,7 +12,7 @@ namespace {
 
 // Copies the routes of the whole that a thread owns to the first slots of its part, empties all
 // others, and returns what the routes cost.
-double take_routes(const World& world, const Searcher& whole, Searcher& part,
+double take_routes(const ProblemData& data, const Searcher& whole, Searcher& part,
                    View<const Int, 1> owner, Int number) {
     const Fleet& now = part.now;
     const SearchCounts& count = *part.count;
@@ -20,7 +20,7 @@ double take_routes(const World& world, const Searcher& whole, Searcher& part,
     Int filled = 0;
     for (const Int slot : whole.active.first(whole.count->active)) {
         if (owner[slot] != number) continue;
-        world.deadline.go_on();
+        data.deadline.go_on();
         copy_route(whole.now, slot, now, filled, count.lean != 0);
         locate(now, filled);
         cost += now.cost[filled];
@@ -39,24 +39,25 @@ double take_routes(const World& world, const Searcher& whole, Searcher& part,
 
 }  // namespace
 
-void take_part(const World& world, const Searcher& whole, Searcher& part, View<const Int, 1> owner,
-               Int number, View<const Int, 1> missing, View<const Int, 1> spare) {
+void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
+               View<const Int, 1> owner, Int number, View<const Int, 1> missing,
+               View<const Int, 1> spare) {
     const Fleet& now = part.now;
     SearchCounts& count = *part.count;
     ++count.stamp;
     for (Place& place : now.where) place.slot = elsewhere;
-    const double cost = take_routes(world, whole, part, owner, number);
-    for (Int k = 0; k < world.num_types; ++k) now.used[k] = world.type[k].count - spare[k];
+    const double cost = take_routes(data, whole, part, owner, number);
+    for (Int k = 0; k < data.num_types; ++k) now.used[k] = data.type[k].count - spare[k];
     list_active(part);
     count.changed = all_slots;
     for (const Int node : missing) now.where[node].slot = nowhere;
     count.missing = missing.size();
     std::copy(missing.begin(), missing.end(), part.missing.begin());
     count.customers = 0;
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         if (now.where[node].slot != elsewhere) ++count.customers;
     }
-    part.value->cost = cost + left_out_cost(world, missing, missing.size());
+    part.value->cost = cost + left_out_cost(data, missing, missing.size());
     keep_best(part);
 }
 
@@ -93,13 +94,13 @@ Int add_best(Searcher& whole, const Searcher& part, Int filled) {
 
 using namespace tandem;
 
-extern "C" int tandem_take_part(const tandem_world* world, const tandem_searcher* whole,
+extern "C" int tandem_take_part(const tandem_problem_data* data, const tandem_searcher* whole,
                                 const tandem_searcher* part, const tandem_i64_1d* owner,
                                 int64_t number, const tandem_i64_1d* missing,
                                 const tandem_i64_1d* spare) {
     return guarded([&] {
         Searcher taking = searcher_of(*part);
-        take_part(world_of(*world), searcher_of(*whole), taking, View<Int, 1>(*owner), number,
+        take_part(data_of(*data), searcher_of(*whole), taking, View<Int, 1>(*owner), number,
                   View<Int, 1>(*missing), View<Int, 1>(*spare));
     });
 }

@@ -7,8 +7,9 @@ namespace tandem {
 
 // Goes on from the routes that thread `number` owns, and the customers missing; `spare` (type,)
 // vehicles may be used besides.
-void take_part(const World& world, const Searcher& whole, Searcher& part, View<const Int, 1> owner,
-               Int number, View<const Int, 1> missing, View<const Int, 1> spare);
+void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
+               View<const Int, 1> owner, Int number, View<const Int, 1> missing,
+               View<const Int, 1> spare);
 
 // Copies a part's routes behind the `filled` first slots, and who is missing; returns how many
 // slots are filled then.

@@ -16,13 +16,13 @@ constexpr double tried_near_share = 0.5;
 
 }  // namespace
 
-Int begin_turn(const World& world, Searcher& searcher, Int most) {
+Int begin_turn(const ProblemData& data, Searcher& searcher, Int most) {
     SearchCounts& count = *searcher.count;
     const View<Int, 1> absent = searcher.absent;
     ++count.turn;
     count.touched = 0;
     if (count.stay > 0 && count.turn % count.stay == 0) {
-        count.focus = any_customer(world, searcher.now, searcher.rng);
+        count.focus = any_customer(data, searcher.now, searcher.rng);
     }
     const Int total = count.missing;
     std::copy_n(searcher.missing.begin(), total, absent.begin());
@@ -34,15 +34,15 @@ Int begin_turn(const World& world, Searcher& searcher, Int most) {
     return alone;
 }
 
-void try_near(const World& world, Searcher& searcher, Int seed, Int first, Int total) {
+void try_near(const ProblemData& data, Searcher& searcher, Int seed, Int first, Int total) {
     const View<Int, 1> absent = searcher.absent;
     const View<bool, 1> marked = searcher.marked;
-    const View<const std::int32_t, 1> near = world.near[seed];
+    const View<const std::int32_t, 1> near = data.near[seed];
     Int chosen = 0;
     for (Int rank = -1; rank < near.size(); ++rank) {
         const Int node = rank < 0 ? seed : near[rank];
         if (node < 0 || chosen == total - first) break;
-        if (searcher.now.where[node].slot == nowhere && !world.must_serve[node] &&
+        if (searcher.now.where[node].slot == nowhere && !data.must_serve[node] &&
             (rank < 0 || uniform(searcher.rng) < tried_near_share)) {
             marked[node] = true;
             ++chosen;
@@ -61,7 +61,7 @@ double draw_rise(const Searcher& searcher) {
     return -searcher.value->temperature * std::log(1.0 - uniform(searcher.rng));
 }
 
-bool rarer_absences(const World& world, Searcher& searcher) {
+bool rarer_absences(const ProblemData& data, Searcher& searcher) {
     const View<Int, 1> absences = searcher.absences;
     const View<const Int, 1> missing = searcher.missing;
     const View<const Int, 1> absent = searcher.absent;
@@ -71,37 +71,37 @@ bool rarer_absences(const World& world, Searcher& searcher) {
     Int after = 0;
     Int more = 0;
     for (Int node : missing.first(num_missing)) {
-        if (!world.must_serve[node]) continue;
+        if (!data.must_serve[node]) continue;
         before += absences[node];
         --more;
     }
     for (Int node : absent.first(num_absent)) {
-        if (!world.must_serve[node]) continue;
+        if (!data.must_serve[node]) continue;
         after += absences[node]++;
         ++more;
     }
     const bool dearer =
-        left_out_cost(world, absent, num_absent) > left_out_cost(world, missing, num_missing);
+        left_out_cost(data, absent, num_absent) > left_out_cost(data, missing, num_missing);
     return more == 0 && after < before && !dearer;
 }
 
-bool counts_up(const World& world, const Searcher& searcher) {
-    return world.adds_up && (searcher.count->missing == 0 || world.optional);
+bool counts_up(const ProblemData& data, const Searcher& searcher) {
+    return data.adds_up && (searcher.count->missing == 0 || data.optional);
 }
 
-double cost_to_insert(const World& world, const Searcher& searcher, double served, Int first) {
+double cost_to_insert(const ProblemData& data, const Searcher& searcher, double served, Int first) {
     const Int missing = searcher.count->missing;
     if (missing == 0) return served;
-    return served + (left_out_cost(world, searcher.absent, first) -
-                     left_out_cost(world, searcher.missing, missing));
+    return served + (left_out_cost(data, searcher.absent, first) -
+                     left_out_cost(data, searcher.missing, missing));
 }
 
-double turn_cost(const World& world, const Searcher& searcher, double served) {
+double turn_cost(const ProblemData& data, const Searcher& searcher, double served) {
     const SearchCounts& count = *searcher.count;
     const double fewer_or_more =
-        static_cast<double>(count.absent - count.missing) * world.unassigned_cost;
-    const double others = unassigned_more(world, searcher.absent, count.absent) -
-                          unassigned_more(world, searcher.missing, count.missing);
+        static_cast<double>(count.absent - count.missing) * data.unassigned_cost;
+    const double others = unassigned_more(data, searcher.absent, count.absent) -
+                          unassigned_more(data, searcher.missing, count.missing);
     return served + (fewer_or_more + others);
 }
 

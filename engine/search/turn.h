@@ -8,13 +8,13 @@ namespace tandem {
 constexpr Int most_missing = 12;  // how many of the customers left out are tried again each turn
 
 // List `most` of the customers left out as absent. In place; return how many are not tried.
-Int begin_turn(const World& world, Searcher& searcher, Int most);
+Int begin_turn(const ProblemData& data, Searcher& searcher, Int most);
 
 // Let those left out near a customer, who may be one of them, be tried before others. In place.
 //
 // They come last of the first `total` absent, of whom those from number `first` on are tried. Who
 // has to be served is tried by chance alone, everywhere as often.
-void try_near(const World& world, Searcher& searcher, Int seed, Int first, Int total);
+void try_near(const ProblemData& data, Searcher& searcher, Int seed, Int first, Int total);
 
 // Return by how much a turn may raise the cost, drawn by the temperature.
 double draw_rise(const Searcher& searcher);
@@ -22,16 +22,16 @@ double draw_rise(const Searcher& searcher);
 // Tell whether after this turn others are left out who must not be, and seldom were.
 //
 // They are as many as before, and all who are left out cost no more. Counts the absences. In place.
-bool rarer_absences(const World& world, Searcher& searcher);
+bool rarer_absences(const ProblemData& data, Searcher& searcher);
 
 // Tell whether what a turn has inserted so far costs no more than all that it will insert.
-bool counts_up(const World& world, const Searcher& searcher);
+bool counts_up(const ProblemData& data, const Searcher& searcher);
 
 // Return what the routes cost before who is absent is inserted, from number `first` on, where they
 // and those left out before this turn cost `served`.
-double cost_to_insert(const World& world, const Searcher& searcher, double served, Int first);
+double cost_to_insert(const ProblemData& data, const Searcher& searcher, double served, Int first);
 
 // Return the cost after this turn, where the routes and those left out before cost `served`.
-double turn_cost(const World& world, const Searcher& searcher, double served);
+double turn_cost(const ProblemData& data, const Searcher& searcher, double served);
 
 }  // namespace tandem

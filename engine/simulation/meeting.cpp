@@ -17,9 +17,10 @@ constexpr Int not_yet = -1;  // take-off and recovery that have no time yet
 void mark_place(const Setting& setting, Drone& drone, Int here, Int to) {
     Recovery place = Recovery::aboard;
     if (drone.sortie != in_flight) {
-        const Craft craft = craft_of(setting, drone.row);
-        const bool meets = can_serve(craft.type, craft.node[drone.node],
-                                     craft.out(here, drone.node), craft.home(drone.node, to));
+        const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+        const bool meets =
+            can_serve(drone_kind.type, drone_kind.node[drone.node],
+                      drone_kind.out(here, drone.node), drone_kind.home(drone.node, to));
         place = meets ? Recovery::meet : Recovery::loop;
     }
     drone.place = static_cast<Int>(place);
@@ -48,17 +49,18 @@ NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int 
     for (Int d = 0; d < drones.size(); ++d) {
         const Drone& drone = drones[d];
         if (is_aboard(drone) || drone.takeoff != not_yet) continue;
-        const Craft craft = craft_of(setting, drone.row);
-        const NodeRows place = craft.node[drone.node];
-        const Int out = craft.out(here, drone.node);
-        const Int home = craft.home(drone.node, is_recovered(drone, Recovery::meet) ? to : here);
+        const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+        const NodeRows place = drone_kind.node[drone.node];
+        const Int out = drone_kind.out(here, drone.node);
+        const Int home =
+            drone_kind.home(drone.node, is_recovered(drone, Recovery::meet) ? to : here);
         Int begin = free;
-        if (charges_aboard(craft.type)) {
-            begin = std::max(free,
-                             charged_launch(craft.type, place, drone.kept, drone.since, out, home));
+        if (charges_aboard(drone_kind.type)) {
+            begin = std::max(
+                free, charged_launch(drone_kind.type, place, drone.kept, drone.since, out, home));
         }
-        const Int soonest =
-            held_takeoff(craft.type, place, take_off(craft.type, begin, launched), out, home);
+        const Int soonest = held_takeoff(drone_kind.type, place,
+                                         take_off(drone_kind.type, begin, launched), out, home);
         if (next.drone < 0 || soonest < next.takeoff) next = {d, soonest};
     }
     return next;
@@ -66,16 +68,17 @@ NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int 
 
 // Time the flight of a drone that takes off at `here`.
 void fly(const Setting& setting, Drone& drone, Int here, Int to, Int takeoff) {
-    const Craft craft = craft_of(setting, drone.row);
-    const Int arrival = takeoff + craft.out(here, drone.node);
+    const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+    const Int arrival = takeoff + drone_kind.out(here, drone.node);
     const Int end = is_recovered(drone, Recovery::meet) ? to : here;
     drone.takeoff = takeoff;
-    drone.ready = end_of_service(craft.node[drone.node], arrival);
-    drone.back = drone.ready + craft.home(drone.node, end);
+    drone.ready = end_of_service(drone_kind.node[drone.node], arrival);
+    drone.back = drone.ready + drone_kind.home(drone.node, end);
     drone.lacking = 0;
-    if (charges_aboard(craft.type)) {
-        drone.lacking = battery_of(craft.type) - charged(craft.type, drone.kept, drone.since,
-                                                         launch_begin(craft.type, takeoff, 1));
+    if (charges_aboard(drone_kind.type)) {
+        drone.lacking =
+            battery_of(drone_kind.type) - charged(drone_kind.type, drone.kept, drone.since,
+                                                  launch_begin(drone_kind.type, takeoff, 1));
     }
 }
 
@@ -94,18 +97,19 @@ Int next_back(View<const Drone, 1> drones, Recovery place) {
 
 // Recover a drone launched at `here` from `free` on; return the end, -1 if it can't last.
 Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int free) {
-    const Craft craft = craft_of(setting, drone.row);
+    const DroneKind drone_kind = drone_kind_of(setting, drone.row);
     const Int begin = std::max(free, drone.back);
     if (unreachable(drone.back) ||
-        !within_endurance(craft.type, drone.takeoff, drone.back, begin)) {
+        !within_endurance(drone_kind.type, drone.takeoff, drone.back, begin)) {
         return -1;
     }
-    const Int left = left_after(craft.type, craft.node[drone.node], craft.out(here, drone.node),
-                                drone.back - drone.ready, drone.takeoff, drone.ready, begin);
+    const Int left =
+        left_after(drone_kind.type, drone_kind.node[drone.node], drone_kind.out(here, drone.node),
+                   drone.back - drone.ready, drone.takeoff, drone.ready, begin);
     if (left < drone.lacking) return -1;
     drone.left = left - drone.lacking;
     drone.recovery = begin;
-    return recovery_end(craft.type, begin);
+    return recovery_end(drone_kind.type, begin);
 }
 
 // Launch all drones in flight from this stop, and recover those that loop.
@@ -163,8 +167,9 @@ Int meet(const Setting& setting, View<Drone, 1> drones, Int here, Int arrival) {
 bool any_late(const Setting& setting, Int here, View<const Drone, 1> drones) {
     return std::any_of(drones.begin(), drones.end(), [&](const Drone& drone) {
         if (is_aboard(drone)) return false;
-        const Craft craft = craft_of(setting, drone.row);
-        return too_late(craft.node[drone.node], drone.takeoff + craft.out(here, drone.node));
+        const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+        return too_late(drone_kind.node[drone.node],
+                        drone.takeoff + drone_kind.out(here, drone.node));
     });
 }
 
@@ -198,9 +203,9 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
         if (!are_several(setting.type)) return d;
         const Int row = drones[d].row;
         if (!setting.can_fly(row, node) || !has_battery(setting, log, row)) continue;
-        const Craft craft = craft_of(setting, row);
-        if (can_serve(craft.type, craft.node[node], craft.out(vehicle.node, node),
-                      craft.home(node, vehicle.node))) {
+        const DroneKind drone_kind = drone_kind_of(setting, row);
+        if (can_serve(drone_kind.type, drone_kind.node[node], drone_kind.out(vehicle.node, node),
+                      drone_kind.home(node, vehicle.node))) {
             return d;
         }
         if (chosen < 0) chosen = d;

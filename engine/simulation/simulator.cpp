@@ -72,10 +72,10 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     if (chosen < 0) return Verdict::no;
     Drone& drone = drones[chosen];
     const NodeRows place = setting.node[node];
-    const Craft craft = craft_of(setting, drone.row);
-    const Int flight = craft.out(vehicle.node, node);
-    const Int takeoff = take_off(craft.type, vehicle.free, vehicle.launched + vehicle.flying);
-    const Int soonest = soonest_takeoff(setting, vehicle, craft.type, takeoff);
+    const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+    const Int flight = drone_kind.out(vehicle.node, node);
+    const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
+    const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
     if (unreachable(flight) || too_late(place, soonest + flight)) return Verdict::no;
 
     // As if it flew and the vehicle went home.
@@ -134,7 +134,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Room room = room_of(open);
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
-    const bool trying = some_limited(setting.fresh_for) || order_is_open(setting, vehicle);
+    const bool trying = some_limited(setting.max_time_aboard) || order_is_open(setting, vehicle);
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {

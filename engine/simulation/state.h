@@ -42,14 +42,14 @@ inline VehicleLog log_of(const VehicleLogs& logs, Int r) {
 }
 
 // What one vehicle type meets in one problem. What is said of drones holds where they are of one
-// type, else `craft_of` tells.
+// type, else `drone_kind_of` tells.
 struct Setting {
     Int num_depots;
     View<const Node, 2> node;         // (node, row)
     View<const Node, 2> node_by_air;  // (node, row) as drones meet them
-    View<const Int, 3> amount;     // (node, tier, amounts); no tiers where `Node::demand` tells all
-    View<const Goods, 1> goods;    // (node,) none where all go together
-    View<const Int, 1> fresh_for;  // (node,) ms, none where nothing is limited
+    View<const Int, 3> amount;   // (node, tier, amounts); no tiers where `Node::demand` tells all
+    View<const Goods, 1> goods;  // (node,) none where all go together
+    View<const Int, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
     const VehicleType& type;
     View<const Int, 2> drive;           // (node, node) ms
     View<const Int, 2> fly;             // (node, node) ms
@@ -64,7 +64,7 @@ struct Setting {
 };
 
 // What a type of drones meets.
-struct Craft {
+struct DroneKind {
     const VehicleType& type;
     View<const Node, 2> node;  // (node, row)
     View<const Int, 2> out;    // (node, node) ms

@@ -75,9 +75,9 @@ void log_sorties(const Setting& setting, VehicleLog& log, const Vehicle& vehicle
     for (const Drone& drone : drones) {
         if (is_aboard(drone)) continue;
         LoggedSortie& sortie = log.sortie[drone.sortie];
-        const Craft craft = craft_of(setting, drone.row);
+        const DroneKind drone_kind = drone_kind_of(setting, drone.row);
         sortie.takeoff = drone.takeoff;
-        sortie.arrival = drone.takeoff + craft.out(vehicle.node, drone.node);
+        sortie.arrival = drone.takeoff + drone_kind.out(vehicle.node, drone.node);
         sortie.start = start_of_service(setting.node[drone.node], sortie.arrival);
         sortie.ready = drone.ready;
     }
@@ -143,7 +143,7 @@ bool hold_trip(OpenVehicle& open, Int release) {
 // Hold the trip until no parcel is too long aboard; false if that can't be.
 bool keep_fresh(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
-    if (!some_limited(setting.fresh_for)) return true;
+    if (!some_limited(setting.max_time_aboard)) return true;
     bool held = true;
     Int excess = most_excess(setting, log);
     while (excess > 0) {
@@ -184,11 +184,12 @@ void improve_departure(OpenVehicle& open) {
 
 void board(const OpenVehicle& open, Drone& drone, Int sortie, Int node, Int takeoff) {
     const auto& [setting, vehicle, log, drones] = open;
-    const Craft craft = craft_of(setting, drone.row);
+    const DroneKind drone_kind = drone_kind_of(setting, drone.row);
     drone.sortie = sortie;
     drone.node = node;
     drone.takeoff = takeoff;
-    drone.ready = end_of_service(craft.node[node], takeoff + craft.out(vehicle.node, node));
+    drone.ready =
+        end_of_service(drone_kind.node[node], takeoff + drone_kind.out(vehicle.node, node));
     ++vehicle.flying;
     vehicle.free = takeoff;
 }
@@ -206,10 +207,10 @@ bool launch(OpenVehicle& open, Int node) {
     const Int chosen = next_drone(setting, log, vehicle, drones, node);
     if (chosen < 0) return false;
     Drone& drone = drones[chosen];
-    const Craft craft = craft_of(setting, drone.row);
-    const Int takeoff = take_off(craft.type, vehicle.free, vehicle.launched + vehicle.flying);
-    const Int flight = craft.out(vehicle.node, node);
-    const Int soonest = soonest_takeoff(setting, vehicle, craft.type, takeoff);
+    const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+    const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
+    const Int flight = drone_kind.out(vehicle.node, node);
+    const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
     if (unreachable(flight) || too_late(place, soonest + flight)) return false;
     const Int here = log.count.stops - 1;
     const Int index = log.count.sorties++;

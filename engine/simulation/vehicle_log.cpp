@@ -16,13 +16,13 @@ namespace {
 // trip before it. It is held back for the customer's window once it is known where it is recovered.
 Int sortie_takeoff(const Setting& setting, const VehicleLog& log, const LoggedSortie& sortie,
                    Int free, Int launched) {
-    const Craft craft = craft_of(setting, sortie.row);
-    const Int takeoff = take_off(craft.type, free, launched);
+    const DroneKind drone_kind = drone_kind_of(setting, sortie.row);
+    const Int takeoff = take_off(drone_kind.type, free, launched);
     if (sortie.recovery_stop == in_flight) return takeoff;
     const Int here = log.stop[sortie.launch_stop].node;
     const Int to = log.stop[sortie.recovery_stop].node;
-    return held_takeoff(craft.type, craft.node[sortie.node], takeoff, craft.out(here, sortie.node),
-                        craft.home(sortie.node, to));
+    return held_takeoff(drone_kind.type, drone_kind.node[sortie.node], takeoff,
+                        drone_kind.out(here, sortie.node), drone_kind.home(sortie.node, to));
 }
 
 // As `sortie_takeoff`, of a sortie by its index, where drones are charged aboard; notes what it has
@@ -30,8 +30,8 @@ Int sortie_takeoff(const Setting& setting, const VehicleLog& log, const LoggedSo
 Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, Int first, Int free,
                     Int launched) {
     LoggedSortie& sortie = log.sortie[index];
-    const Craft craft = craft_of(setting, sortie.row);
-    auto [kept, since] = first_charge(craft.type, sortie.drone);
+    const DroneKind drone_kind = drone_kind_of(setting, sortie.row);
+    auto [kept, since] = first_charge(drone_kind.type, sortie.drone);
     for (const LoggedSortie& other : log.sortie.first(index)) {
         if (other.drone == sortie.drone && other.launch_stop >= first) {
             kept = other.trial_left;
@@ -41,13 +41,13 @@ Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, In
     if (sortie.recovery_stop != in_flight) {
         const Int here = log.stop[sortie.launch_stop].node;
         const Int to = log.stop[sortie.recovery_stop].node;
-        free = std::max(free,
-                        charged_launch(craft.type, craft.node[sortie.node], kept, since,
-                                       craft.out(here, sortie.node), craft.home(sortie.node, to)));
+        free = std::max(free, charged_launch(drone_kind.type, drone_kind.node[sortie.node], kept,
+                                             since, drone_kind.out(here, sortie.node),
+                                             drone_kind.home(sortie.node, to)));
     }
     const Int takeoff = sortie_takeoff(setting, log, sortie, free, launched);
     sortie.trial_left =
-        charged(craft.type, kept, since, launch_begin(craft.type, takeoff, launched));
+        charged(drone_kind.type, kept, since, launch_begin(drone_kind.type, takeoff, launched));
     return takeoff;
 }
 
@@ -133,13 +133,13 @@ private:
     std::optional<Int> launch(Int index, Int node) {
         LoggedSortie& sortie = log_.sortie[index];
         const Int customer = sortie.node;
-        const Craft craft = craft_of(setting_, sortie.row);
-        const NodeRows place = craft.node[customer];
+        const DroneKind drone_kind = drone_kind_of(setting_, sortie.row);
+        const NodeRows place = drone_kind.node[customer];
         const bool is_flying = sortie.recovery_stop == in_flight;
-        const Int takeoff = charges_aboard(craft.type)
+        const Int takeoff = charges_aboard(drone_kind.type)
                                 ? charged_takeoff(setting_, log_, index, first_, free_, launched_)
                                 : sortie_takeoff(setting_, log_, sortie, free_, launched_);
-        const Int arrival = takeoff + craft.out(node, customer);
+        const Int arrival = takeoff + drone_kind.out(node, customer);
         // Who is still in flight may be launched before those of other types.
         const bool may_be_sooner = writes && is_flying && are_several(setting_.type);
         if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
@@ -169,17 +169,17 @@ private:
     std::optional<Int> recover(Int index, Int node) {
         LoggedSortie& sortie = log_.sortie[index];
         const Int takeoff = sortie.trial_takeoff;
-        const Craft craft = craft_of(setting_, sortie.row);
-        const Int out = craft.out(log_.stop[sortie.launch_stop].node, sortie.node);
-        const Int home = craft.home(sortie.node, node);
+        const DroneKind drone_kind = drone_kind_of(setting_, sortie.row);
+        const Int out = drone_kind.out(log_.stop[sortie.launch_stop].node, sortie.node);
+        const Int home = drone_kind.home(sortie.node, node);
         const Int back = sortie.trial_ready + home;
-        const Int begin = std::max(takes_no_time(craft.type, true, 0) ? busy_ : free_, back);
-        const Int end = recovery_end(craft.type, begin);
+        const Int begin = std::max(takes_no_time(drone_kind.type, true, 0) ? busy_ : free_, back);
+        const Int end = recovery_end(drone_kind.type, begin);
         // A sortie as long as before may wait where that takes more.
-        Int left = left_after(craft.type, craft.node[sortie.node], out, home, takeoff,
+        Int left = left_after(drone_kind.type, drone_kind.node[sortie.node], out, home, takeoff,
                               sortie.trial_ready, begin);
-        if (charges_aboard(craft.type)) {
-            left -= battery_of(craft.type) - sortie.trial_left;
+        if (charges_aboard(drone_kind.type)) {
+            left -= battery_of(drone_kind.type) - sortie.trial_left;
             sortie.trial_left = left;
             sortie.trial_end = end;
         }
@@ -187,7 +187,8 @@ private:
             sortie.left = left;
             sortie.recovery_start = begin;
             sortie.recovery_end = end;
-            if (left < 0 || !within_endurance(craft.type, takeoff, back, begin)) lasting_ = false;
+            if (left < 0 || !within_endurance(drone_kind.type, takeoff, back, begin))
+                lasting_ = false;
         } else {
             const bool lasts = begin - takeoff <= sortie.recovery_start - sortie.takeoff;
             if (left < 0 || !lasts) return std::nullopt;
@@ -207,8 +208,8 @@ private:
 
     // Tell whether a parcel is too long aboard on a trip that has left at `departure`.
     bool aboard_too_long(Int node, Int departure, Int start) const {
-        return some_limited(setting_.fresh_for) &&
-               excess_aboard(setting_.fresh_for, node, departure, start) > 0;
+        return some_limited(setting_.max_time_aboard) &&
+               excess_aboard(setting_.max_time_aboard, node, departure, start) > 0;
     }
 
     const Setting& setting_;
@@ -244,7 +245,7 @@ Int most_excess(const Setting& setting, const VehicleLog& log) {
     }
     Int most = -far;
     const auto look_at = [&](Int node, Int start) {
-        most = std::max(most, excess_aboard(setting.fresh_for, node, departure, start));
+        most = std::max(most, excess_aboard(setting.max_time_aboard, node, departure, start));
     };
     for (Int index = first; index < log.count.stops; ++index) {
         const LoggedStop& stop = log.stop[index];

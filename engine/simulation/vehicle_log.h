@@ -24,7 +24,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .node_by_air = places_by_air(nodes, type),
         .amount = instance.amount[b],
         .goods = instance.goods[b],
-        .fresh_for = instance.fresh_for[b],
+        .max_time_aboard = instance.max_time_aboard[b],
         .type = type,
         .drive = durations[type.travel],
         .fly = durations[type.drone_travel],
@@ -40,7 +40,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
 }
 
 // What drones meet whose type is at a row.
-inline Craft craft_of(const Setting& setting, Int row) {
+inline DroneKind drone_kind_of(const Setting& setting, Int row) {
     const VehicleType& type = setting.types[row];
     return {type, places_by_air(setting.nodes, type), setting.durations[type.drone_travel],
             setting.durations[type.home_travel]};

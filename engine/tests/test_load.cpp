@@ -16,20 +16,20 @@ VehicleType truck(Int capacity, Int pickup_order) {
 }
 
 // A trip of one dimension, by what leaves and comes aboard at each stop.
-std::vector<Halt> trip(const std::vector<std::pair<Int, Int>>& stops) {
-    std::vector<Halt> halts;
+std::vector<StopLoad> trip(const std::vector<std::pair<Int, Int>>& stops) {
+    std::vector<StopLoad> stop_loads;
     for (const auto& [leaves, comes] : stops) {
-        Halt halt{};
-        add_left(halt, {leaves, 0, 0}, leaves);
-        add_come(halt, {comes, 0, 0}, comes);
-        halts.push_back(halt);
+        StopLoad stop_load{};
+        add_left(stop_load, {leaves, 0, 0}, leaves);
+        add_come(stop_load, {comes, 0, 0}, comes);
+        stop_loads.push_back(stop_load);
     }
-    return halts;
+    return stop_loads;
 }
 
-bool weighed(const VehicleType& type, std::vector<Halt>& halts) {
-    const Int count = static_cast<Int>(halts.size());
-    return weigh_trip(type, {halts.data(), {count}}, 0, count - 1, 0);
+bool weighed(const VehicleType& type, std::vector<StopLoad>& stop_loads) {
+    const Int count = static_cast<Int>(stop_loads.size());
+    return weigh_trip(type, {stop_loads.data(), {count}}, 0, count - 1, 0);
 }
 
 TEST_CASE("amounts are compared in each dimension") {
@@ -42,22 +42,22 @@ TEST_CASE("amounts are compared in each dimension") {
 
 TEST_CASE("the most is aboard between deliveries and pickups") {
     // Leaves the depot with 7; behind the stops there are 4, 8 and 5 aboard.
-    auto halts = trip({{0, 0}, {3, 0}, {1, 5}, {3, 0}});
-    CHECK(weighed(truck(8, pickups_any), halts));
-    CHECK(most_of(halts[0]) == Amount{8, 0, 0});
-    CHECK(halts[2].before[0] == 7);
-    CHECK(halts[2].behind[0] == 8);
-    CHECK(halts[3].behind[0] == 5);
-    CHECK(halts[1].load == 4);
-    CHECK(halts[3].picked == 5);
-    CHECK(halts[1].due == 4);
-    CHECK(halts[1].given == 7);
-    CHECK_FALSE(weighed(truck(7, pickups_any), halts));
+    auto stop_loads = trip({{0, 0}, {3, 0}, {1, 5}, {3, 0}});
+    CHECK(weighed(truck(8, pickups_any), stop_loads));
+    CHECK(most_of(stop_loads[0]) == Amount{8, 0, 0});
+    CHECK(stop_loads[2].before[0] == 7);
+    CHECK(stop_loads[2].behind[0] == 8);
+    CHECK(stop_loads[3].behind[0] == 5);
+    CHECK(stop_loads[1].load == 4);
+    CHECK(stop_loads[3].picked == 5);
+    CHECK(stop_loads[1].due == 4);
+    CHECK(stop_loads[1].given == 7);
+    CHECK_FALSE(weighed(truck(7, pickups_any), stop_loads));
 }
 
 TEST_CASE("pickups follow all deliveries where they have to") {
-    auto halts = trip({{0, 0}, {3, 0}, {1, 5}, {3, 0}});
-    CHECK_FALSE(weighed(truck(9, pickups_last), halts));
+    auto stop_loads = trip({{0, 0}, {3, 0}, {1, 5}, {3, 0}});
+    CHECK_FALSE(weighed(truck(9, pickups_last), stop_loads));
     auto ordered = trip({{0, 0}, {3, 0}, {4, 5}, {0, 1}});
     CHECK(weighed(truck(9, pickups_last), ordered));
     auto none_delivered = trip({{0, 0}, {0, 5}});
@@ -66,15 +66,15 @@ TEST_CASE("pickups follow all deliveries where they have to") {
 }
 
 TEST_CASE("a customer more needs room before its stop and behind it") {
-    auto halts = trip({{0, 0}, {3, 0}, {1, 5}, {3, 0}});
+    auto stop_loads = trip({{0, 0}, {3, 0}, {1, 5}, {3, 0}});
     const VehicleType type = truck(8, pickups_any);
-    REQUIRE(weighed(type, halts));
+    REQUIRE(weighed(type, stop_loads));
     // Of two customers, one is brought 1, the other gives 2.
     std::vector<Int> amounts(16, 0);
     amounts[0] = amounts[6] = 1;
     amounts[8 + 3] = amounts[8 + 7] = 2;
     const View<const Int, 3> asked(amounts.data(), {2, 1, 8});
-    const View<const Halt, 2> stops(halts.data(), {1, 4});
+    const View<const StopLoad, 2> stops(stop_loads.data(), {1, 4});
     CHECK(has_room(type, stops, 1, 0, asked, 0));        // 8 aboard up to it
     CHECK(has_room(type, stops, 2, 1, asked, 0));        // behind the first stop, 5
     CHECK_FALSE(has_room(type, stops, 3, 2, asked, 0));  // with the 5 picked up, 9

@@ -1,6 +1,6 @@
 """Calls of the engine's functions.
 
-    call("tandem_anneal", world, searcher, turns, order)
+    call("tandem_anneal", data, searcher, turns, order)
 
 Named tuples of arrays are packed as the C structs that the function takes, by the names of their
 fields; rows are pointed to, and so are arrays of numbers where C takes a pointer to one. Pointers

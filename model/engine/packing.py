@@ -50,7 +50,7 @@ def packed(value: Any, name: str = "") -> Packed:
     Parameters
     ----------
     value
-        A `World`, for example.
+        A `ProblemData`, for example.
     name
         Of the C struct; without, that of the value's class.
     """

@@ -58,7 +58,7 @@ class Instance(NamedTuple):
     price: Records  # (problem, node)
     goods: Records  # (problem, node), or (problem, 0)
     setup: Records  # (problem, node), or (problem, 0)
-    fresh_for: IntArray  # (problem, node) ms, FAR without limit, or (problem, 0) if nobody has one
+    max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
     type: Records  # (problem, row); trucks first, as many as `size` says
     rate: Records  # (problem, row)
     reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
@@ -116,7 +116,7 @@ def _empty(problems: Sequence[Problem], variants: int, travels: int, legs: bool)
         goods=np.zeros((rows, nodes if apart else 0), dtype_of("tandem_goods")),
         setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0),
                        dtype_of("tandem_setup")),
-        fresh_for=np.full((rows, nodes if limited else 0), FAR, np.int64),
+        max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
         type=np.zeros((rows, types), dtype_of("tandem_vehicle_type")),
         rate=np.zeros((rows, types), dtype_of("tandem_rate")),
         reload=np.zeros((rows, types, nodes), np.bool_),
@@ -196,7 +196,7 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
     instance.unassigned_cost[row] = costs.min()
     instance.unassigned_more[row, depots:nodes] = costs - costs.min()
     if problem.limits_time_aboard:
-        instance.fresh_for[row, depots:nodes] = [
+        instance.max_time_aboard[row, depots:nodes] = [
             FAR if customer.max_time_aboard is None else customer.max_time_aboard
             for customer in problem.customers]
     if problem.incompatible_goods:

@@ -213,7 +213,7 @@ def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -
     seen["pickup_share"] = np.minimum((picked_up(instance) / capacity).max(axis=2), 2)
     seen["between_windows"] = np.minimum(between.sum(axis=2) / horizon, 2)
     seen["max_time_aboard"] = (
-        squash(instance.fresh_for / time) if instance.fresh_for.shape[1] else 1.0)
+        squash(instance.max_time_aboard / time) if instance.max_time_aboard.shape[1] else 1.0)
     if instance.setup.shape[1]:
         seen["setup"] = squash(instance.setup["setup_duration"] / time)
     if instance.goods.shape[1]:

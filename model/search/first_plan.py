@@ -3,47 +3,47 @@
 from model.problem import Problem
 from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.savings import by_nearest, cost_by_savings, savings_routes
-from model.search.route.layout import World
-from model.search.world import are_alike, from_one_place, may_be_turned
+from model.search.route.layout import ProblemData
+from model.search.problem_data import are_alike, from_one_place, may_be_turned
 from model.solution import Route, Solution, Stop, Trip
 
 
-def first_plan(problem: Problem, world: World) -> Solution:
+def first_plan(problem: Problem, data: ProblemData) -> Solution:
     """Return routes by savings where no vehicle flies drones.
 
     Where vehicles hold and cost the same, but begin and end at several places, customers are served
     from the nearest. Where they don't, but begin and end at one, by the type that serves all at the
     least cost, and who is left when all its vehicles drive by the next; if trips are several or
-    time costs, insertion makes far better plans. What flies is up to `world`, in which drones may
+    time costs, insertion makes far better plans. What flies is up to `data`, in which drones may
     be left aside. Routes have no times yet.
     """
-    everyone = tuple(range(world.num_depots, world.num_nodes))
-    if world.type["drones"][:world.num_types].any():
+    everyone = tuple(range(data.num_depots, data.num_nodes))
+    if data.type["drones"][:data.num_types].any():
         return Solution((), everyone)
-    if not are_alike(world):
-        joined = not world.general and from_one_place(world)
-        return Solution(tuple(_by_types(problem, world)) if joined else (), everyone)
-    if world.num_types > 1:
-        world = world._replace(can=by_nearest(world))
-    return Solution(tuple(route for k in range(world.num_types)
-                          for route in _routes_of_type(problem, world, k)), everyone)
+    if not are_alike(data):
+        joined = not data.general and from_one_place(data)
+        return Solution(tuple(_by_types(problem, data)) if joined else (), everyone)
+    if data.num_types > 1:
+        data = data._replace(can=by_nearest(data))
+    return Solution(tuple(route for k in range(data.num_types)
+                          for route in _routes_of_type(problem, data, k)), everyone)
 
 
-def _by_types(problem: Problem, world: World) -> list[Route]:
+def _by_types(problem: Problem, data: ProblemData) -> list[Route]:
     """Return routes by one type after another, what serves all at the least cost first."""
-    can, routes = world.can.copy(), list[Route]()
-    world = world._replace(can=can)
-    for k in sorted(range(world.num_types), key=lambda k: cost_by_savings(world, k)):
-        more = _routes_of_type(problem, world, k)
+    can, routes = data.can.copy(), list[Route]()
+    data = data._replace(can=can)
+    for k in sorted(range(data.num_types), key=lambda k: cost_by_savings(data, k)):
+        more = _routes_of_type(problem, data, k)
         can[:, 0, [stop.node for route in more for stop in route.trips[0].stops]] = False
         routes += more
     return routes
 
 
-def _routes_of_type(problem: Problem, world: World, k: int) -> list[Route]:
+def _routes_of_type(problem: Problem, data: ProblemData, k: int) -> list[Route]:
     """Return routes of a type, for as many vehicles as there are, those of most customers."""
     kind = problem.vehicle_types[k]
-    join = shortest_routes if may_be_turned(world) else savings_routes
-    longest = sorted(join(world, k), key=len, reverse=True)[:kind.count]
+    join = shortest_routes if may_be_turned(data) else savings_routes
+    longest = sorted(join(data, k), key=len, reverse=True)[:kind.count]
     return [Route(k, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (
         kind.begins_at, *customers, kind.ends_at))),)) for number, customers in enumerate(longest)]

@@ -16,18 +16,18 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
-from model.search.ground.lay import Ground, lay_ground
+from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.linked.engine import measure_near
 from model.search.linked.layout import Linked, make_linked
 from model.search.limits import WHOLE, Limits, Span
-from model.search.route.layout import NOWHERE, World
+from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
 from model.search.worker import Worker
-from model.search.world import (
-    ALL_MOVES, Moves, are_timed, can_be_linked, make_world, only_loads_limit,
+from model.search.problem_data import (
+    ALL_MOVES, Moves, are_timed, can_be_linked, make_data, only_loads_limit,
 )
 from model.solution import Solution, renumbered, renumbered_routes
 
@@ -209,12 +209,13 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     latest = end if solution.routes else math.inf
     found = Improved(solution, math.inf, 0.0, 0, False)
     try:
-        ground = lay_ground(problem, instance, pausing(should_stop, latest, GRACE), along=True)
+        neighbourhood = make_neighbourhood(
+            problem, instance, pausing(should_stop, latest, GRACE), along=True)
         with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
             limits = Limits(began, end,
                             None if config.turns is None else config.turns // config.threads,
                             lambda: alarm.has_rung or should_stop())
-            task = _Task(problem, instance, ground, config, limits, alarm, reading)
+            task = _Task(problem, instance, neighbourhood, config, limits, alarm, reading)
             trucks_first = not solution.routes and _trucks_come_first(problem, config.moves)
             if trucks_first:
                 found = _plan_by_truck(task)
@@ -231,7 +232,7 @@ class _Task:
 
     problem: Problem
     instance: Instance
-    ground: Ground
+    neighbourhood: Neighbourhood
     config: SearchConfig
     limits: Limits
     alarm: Alarm
@@ -242,43 +243,43 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
               on_progress: Callable[[Progress], None]) -> Improved:
     """Search for a better plan than the one given, which trucks alone made if `from_trucks`."""
     problem, config, limits = task.problem, task.config, task.limits
-    world = make_world(problem, task.instance, config.moves, task.ground, task.alarm.setting)
-    numbering, fresh = task.ground.numbering, not solution.routes
-    plan = (first_plan(problem, world) if fresh
+    data = make_data(problem, task.instance, config.moves, task.neighbourhood, task.alarm.setting)
+    numbering, fresh = task.neighbourhood.numbering, not solution.routes
+    plan = (first_plan(problem, data) if fresh
             else renumbered(solution, numbering.number.tolist().__getitem__))
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
-    whole = make_searcher(problem, world, plan, seeds[0])
+    whole = make_searcher(problem, data, plan, seeds[0])
     is_large = problem.num_customers >= LARGE_FROM
-    _begin(world, whole, fresh, fresh and bool(plan.routes), task)
+    _begin(data, whole, fresh, fresh and bool(plan.routes), task)
     limits.reading = task.reading(*_size(whole))
-    heat = Heat.of(world, whole, is_large, from_trucks, config.hot, config.cold)
+    heat = Heat.of(data, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [Worker(world, whole, limits, heat, cooled=config.cooled, linked=linked)
-               for linked in _linked(world, whole, config.threads)]
+    workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=linked)
+               for linked in _linked(data, whole, config.threads)]
 
     node = numbering.node.tolist()
 
     def best() -> Solution:
-        routes = renumbered_routes(read_routes(world, whole), node.__getitem__)
+        routes = renumbered_routes(read_routes(data, whole), node.__getitem__)
         return Solution(tuple(routes), tuple(sorted(node[each] for each in left_out(whole))))
 
     def after_round(turns: int) -> None:
         limits.reading = task.reading(*_size(whole))
         on_progress(Progress(float(whole.value.best), turns, best))
 
-    crew = Crew(world, problem.coordinates[numbering.node], whole, seeds[1:])
+    crew = Crew(data, problem.coordinates[numbering.node], whole, seeds[1:])
     with ThreadPoolExecutor(config.threads) as pool, suppress(EndedError):
-        _search(_Team(whole, workers, limits, pool, after_round), world, crew, seeds[1:])
+        _search(_Team(whole, workers, limits, pool, after_round), data, crew, seeds[1:])
     return Improved(best(), float(whole.value.best), first_cost,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
 
 
-def _linked(world: World, whole: Searcher, threads: int) -> list[Linked | None]:
+def _linked(data: ProblemData, whole: Searcher, threads: int) -> list[Linked | None]:
     """Return room for linked routes for each thread; None where routes can't be linked."""
-    if not can_be_linked(world):
+    if not can_be_linked(data):
         return [None] * threads
-    first, *others = (make_linked(world, whole, are_timed(world)) for _ in range(threads))
-    measure_near(world, first)
+    first, *others = (make_linked(data, whole, are_timed(data)) for _ in range(threads))
+    measure_near(data, first)
     return [first, *(other._replace(near=first.near) for other in others)]
 
 
@@ -289,7 +290,7 @@ def _size(whole: Searcher) -> tuple[int, int]:
     return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
-def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, task: _Task) -> None:
+def _begin(data: ProblemData, whole: Searcher, fresh: bool, by_savings: bool, task: _Task) -> None:
     """Insert the customers left out; if nothing was given, plan all anew where that is better.
 
     In place. `by_savings`: what there is was made so. Where the clock ends the search, it ends
@@ -300,16 +301,16 @@ def _begin(world: World, whole: Searcher, fresh: bool, by_savings: bool, task: _
     if limits.turns is None:
         deadline = limits.began + (limits.deadline - limits.began) * BEGINNING_SHARE
     # Savings are far better than insertion there, which in large problems takes its time.
-    is_best = by_savings and is_large and only_loads_limit(world)
+    is_best = by_savings and is_large and only_loads_limit(data)
     with task.alarm.sooner(deadline) as alarm:
-        hurried = world._replace(deadline=alarm.setting)
-        begin_anew(world, whole, fresh and not is_best, hurried)
-        if fresh and world.mixed and not by_savings:
+        hurried = data._replace(deadline=alarm.setting)
+        begin_anew(data, whole, fresh and not is_best, hurried)
+        if fresh and data.mixed and not by_savings:
             _begin_by_types(hurried, whole, limits,
                             BEGINNING_SHARE if is_large else MOST_BEGINNING)
 
 
-def _search(team: _Team, world: World, crew: Crew,
+def _search(team: _Team, data: ProblemData, crew: Crew,
             seeds: list[np.random.SeedSequence]) -> None:
     """Search until the end. In place.
 
@@ -319,8 +320,8 @@ def _search(team: _Team, world: World, crew: Crew,
     """
     whole = team.whole
     starts = None
-    if world.scan_all and not team.workers[0].heat.drones and team.workers[0].cooled == 0.0:
-        starts = Starts(world, whole, seeds)
+    if data.scan_all and not team.workers[0].heat.drones and team.workers[0].cooled == 0.0:
+        starts = Starts(data, whole, seeds)
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
     if starts is not None and count > 1:
@@ -330,13 +331,13 @@ def _search(team: _Team, world: World, crew: Crew,
             if not team.over(span):
                 starts.begin(number > 0)
                 team.search(starts, span)
-        go_on_from_best(world, whole)
+        go_on_from_best(data, whole)
         rest = Span(team.limits.share(team.workers[0].turns), 1.0, REHEAT)
     if not team.over():
         team.search(crew, rest)
 
 
-def _begin_by_types(world: World, whole: Searcher, limits: Limits, most: float) -> None:
+def _begin_by_types(data: ProblemData, whole: Searcher, limits: Limits, most: float) -> None:
     """Plan anew by vehicles of one type after another as far as they go. In place: the best plan.
 
     What a route costs its first customer says nothing of how many more a larger vehicle serves.
@@ -344,12 +345,12 @@ def _begin_by_types(world: World, whole: Searcher, limits: Limits, most: float) 
     """
     alone = whole.alone
     dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
-    for k in range(world.num_types):
+    for k in range(data.num_types):
         if limits.turns is None and limits.share(0) > most:
             return
         others_last = alone + dearest
         others_last[k] = alone[k]
-        begin_anew(world, whole._replace(alone=others_last), True)
+        begin_anew(data, whole._replace(alone=others_last), True)
 
 
 def _trucks_come_first(problem: Problem, moves: Moves) -> bool:

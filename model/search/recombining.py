@@ -14,31 +14,31 @@ salesman problem, GECCO.
 import numpy as np
 
 from model.problem import BoolArray, FloatArray, IntArray
-from model.search.route.layout import ELSEWHERE, NOWHERE, OTHERS, Fleet, World
+from model.search.route.layout import ELSEWHERE, NOWHERE, OTHERS, Fleet, ProblemData
 from model.search.route.state import ALL, Searcher
 from model.search.sharing import ROUNDING
 
 
-def take_better_parts(world: World, searcher: Searcher) -> None:
+def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     """Let the best plan take over the parts of the plan as it is that cost less. In place.
 
     Where that would take too many vehicles, those parts alone that need no more of any type.
     """
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
-    nodes = np.arange(world.num_depots, world.num_nodes)
+    nodes = np.arange(data.num_depots, data.num_nodes)
     nodes = nodes[now.where["slot"][nodes] != ELSEWHERE]
     # Who is left out is like a route, numbered behind them all.
     one, other = (np.where(slot == NOWHERE, slots + nodes, slot)
-                  for slot in (_slots_in(best, slots, world.num_nodes)[nodes],
+                  for slot in (_slots_in(best, slots, data.num_nodes)[nodes],
                                now.where["slot"][nodes]))
-    old, new = _common_parts(one, other, slots + world.num_nodes)
-    saved = _costs(world, best, old) - _costs(world, now, new)
+    old, new = _common_parts(one, other, slots + data.num_nodes)
+    saved = _costs(data, best, old) - _costs(data, now, new)
     better = saved > ROUNDING
     if not better.any():
         return
     used = _used(searcher, old, new, better)
-    if (used > world.type["count"][:world.num_types]).any() or used.sum() > slots:
-        for k in range(world.num_types):
+    if (used > data.type["count"][:data.num_types]).any() or used.sum() > slots:
+        for k in range(data.num_types):
             better &= _routes(now, new, slots, k) <= _routes(best, old, slots, k)
         used = _used(searcher, old, new, better)
     best.used[:] = used
@@ -82,13 +82,13 @@ def _common_parts(one: IntArray, other: IntArray, size: int) -> tuple[IntArray, 
         part = joined
 
 
-def _costs(world: World, fleet: Fleet, part: IntArray) -> FloatArray:
+def _costs(data: ProblemData, fleet: Fleet, part: IntArray) -> FloatArray:
     """Return (part,) what the routes of each part cost, and those whom it leaves out.
 
     `part` (number,) is that of each slot's route, and behind them of each customer left out.
     """
-    slots = len(part) - world.num_nodes
-    each = np.concatenate([fleet.cost[:slots], world.unassigned_cost + world.unassigned_more])
+    slots = len(part) - data.num_nodes
+    each = np.concatenate([fleet.cost[:slots], data.unassigned_cost + data.unassigned_more])
     each[part == len(part)] = 0.0
     return np.bincount(part, each, len(part) + 1).astype(np.float64)
 
@@ -135,6 +135,6 @@ def _copy(source: Fleet, slot: int, target: Fleet, to: int) -> None:
     target.route[to], target.cost[to] = route, source.cost[slot]
     target.early[to] = source.early[slot]
     target.stop[to, :route["length"]] = source.stop[slot, :route["length"]]
-    target.halt[to, :, :route["length"]] = source.halt[slot, :, :route["length"]]
+    target.stop_load[to, :, :route["length"]] = source.stop_load[slot, :, :route["length"]]
     target.trip[to, :route["trips"]] = source.trip[slot, :route["trips"]]
     target.sortie[to, :route["sorties"]] = source.sortie[slot, :route["sorties"]]

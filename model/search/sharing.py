@@ -5,7 +5,7 @@ import numpy as np
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
-from model.search.route.layout import OTHERS, World
+from model.search.route.layout import OTHERS, ProblemData
 from model.search.route.state import ALL, Searcher
 
 DIVIDED_FROM = 200
@@ -21,16 +21,16 @@ ROUNDING = 1e-9
 class Crew:
     """Searches of several threads, and the routes of all together."""
 
-    def __init__(self, world: World, place: FloatArray, whole: Searcher,
+    def __init__(self, data: ProblemData, place: FloatArray, whole: Searcher,
                  seeds: list[np.random.SeedSequence]) -> None:
         """Make room for a search by each seed; `place` (node, 2) in any unit.
 
         One search alone goes on from the whole.
         """
         self.whole = whole
-        self._world = world
+        self._data = data
         self._place = place
-        self._rooms = [whole] if len(seeds) == 1 else make_rooms(world, whole, seeds)
+        self._rooms = [whole] if len(seeds) == 1 else make_rooms(data, whole, seeds)
         self._parts = self._rooms
         self._divided = False
         self._rng = np.random.default_rng(seeds[0])
@@ -48,7 +48,7 @@ class Crew:
             return self._parts
         self._parts = self._rooms
         for part in self._parts:
-            take_all(self._world, whole, part)
+            take_all(self._data, whole, part)
         return self._parts
 
     def _divide(self) -> None:
@@ -56,16 +56,16 @@ class Crew:
         whole, threads = self.whole, len(self._rooms)
         owner = regions(self._place, whole, threads, self._rng)
         missing = whole.missing[: whole.count.missing]
-        beside = whole.now.where["slot"][self._world.near[missing]]
+        beside = whole.now.where["slot"][self._data.near[missing]]
         nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
         heir = np.where(nearest >= 0, owner[nearest], 0)
-        spare = self._world.type["count"][:self._world.num_types] - whole.now.used
+        spare = self._data.type["count"][:self._data.num_types] - whole.now.used
         routes = np.bincount(owner[whole.active[: whole.count.active]], minlength=threads)
         free = (len(whole.active) - routes.sum()) // threads
         self._parts = [room._replace(active=room.active[: routes[number] + free])
                        for number, room in enumerate(self._rooms)]
         for number, part in enumerate(self._parts):
-            call("tandem_take_part", self._world, whole, part, owner, number,
+            call("tandem_take_part", self._data, whole, part, owner, number,
                  missing[heir == number], (spare + number) // threads)
 
     def gather(self) -> None:
@@ -87,19 +87,19 @@ class Crew:
         keep_best_of(whole, best)
 
 
-def make_rooms(world: World, whole: Searcher,
+def make_rooms(data: ProblemData, whole: Searcher,
                seeds: list[np.random.SeedSequence]) -> list[Searcher]:
     """Return room for a search by each seed, as large as the whole."""
     sizes = (len(whole.active), *(table.shape[1] for table in
                                   (whole.now.stop, whole.now.trip, whole.now.sortie)))
-    return [empty_searcher(world, sizes, whole.alone, seed) for seed in seeds]
+    return [empty_searcher(data, sizes, whole.alone, seed) for seed in seeds]
 
 
-def take_all(world: World, whole: Searcher, part: Searcher) -> None:
+def take_all(data: ProblemData, whole: Searcher, part: Searcher) -> None:
     """Go on from all routes as they are. In place."""
-    call("tandem_take_part", world, whole, part, np.zeros(len(whole.active), np.int64), 0,
+    call("tandem_take_part", data, whole, part, np.zeros(len(whole.active), np.int64), 0,
          whole.missing[: whole.count.missing],
-         world.type["count"][:world.num_types] - whole.now.used)
+         data.type["count"][:data.num_types] - whole.now.used)
 
 
 def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
@@ -115,15 +115,15 @@ def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
         whole.count.changed = ALL
 
 
-def go_on_from_best(world: World, whole: Searcher) -> None:
+def go_on_from_best(data: ProblemData, whole: Searcher) -> None:
     """Let the routes be the best ones. In place."""
     best, count = whole.best, whole.count.copy()
     slots = np.flatnonzero(best.route[: len(whole.active)]["length"] > 0)
-    best.used[:] = np.bincount(best.route["type"][slots], minlength=world.num_types)
+    best.used[:] = np.bincount(best.route["type"][slots], minlength=data.num_types)
     count.active, count.missing = len(slots), count.best_missing
     active = whole.active.copy()
     active[: len(slots)] = slots
-    take_all(world, whole._replace(now=best, active=active, missing=whole.best_missing.copy(),
+    take_all(data, whole._replace(now=best, active=active, missing=whole.best_missing.copy(),
                                    count=count), whole)
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 
 from model.search.beginning.construct import begin_again
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import keep_best_of, make_rooms, take_all
 
@@ -11,23 +11,23 @@ from model.search.sharing import keep_best_of, make_rooms, take_all
 class Starts:
     """Searches of several threads that share nothing but where they begin."""
 
-    def __init__(self, world: World, whole: Searcher,
+    def __init__(self, data: ProblemData, whole: Searcher,
                  seeds: list[np.random.SeedSequence]) -> None:
         """Keep the routes of the whole for searches by each seed to begin with."""
-        self._world = world
+        self._data = data
         self._whole = whole
         self._seeds = seeds
-        self._first, = make_rooms(world, whole, seeds[:1])
+        self._first, = make_rooms(data, whole, seeds[:1])
         self._rooms: list[Searcher] = []
-        take_all(world, whole, self._first)
+        take_all(data, whole, self._first)
 
     def begin(self, anew: bool) -> None:
         """Let all searches go on from the first routes, or plan `anew`, each by itself."""
-        self._rooms = self._rooms or make_rooms(self._world, self._whole, self._seeds)
+        self._rooms = self._rooms or make_rooms(self._data, self._whole, self._seeds)
         for room in self._rooms:
-            take_all(self._world, self._first, room)
+            take_all(self._data, self._first, room)
             if anew:
-                begin_again(self._world, room)
+                begin_again(self._data, room)
 
     def spread(self) -> list[Searcher]:
         """Return the searches as they are."""

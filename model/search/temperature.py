@@ -4,9 +4,9 @@ import math
 from dataclasses import dataclass
 
 from model.search.route.engine import leg_cost, missing_cost
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
-from model.search.world import are_alike, only_loads_limit
+from model.search.problem_data import are_alike, only_loads_limit
 
 HOT, COLD = 1.0, 0.1
 """First temperature by what a customer costs, last by what a leg between customers does."""
@@ -46,15 +46,15 @@ class Heat:
     cold: float | None  # last
 
     @classmethod
-    def of(cls, world: World, searcher: Searcher, is_large: bool, from_trucks: bool,
+    def of(cls, data: ProblemData, searcher: Searcher, is_large: bool, from_trucks: bool,
            hot: float | None, cold: float | None) -> "Heat":
         """Measure the routes as they are, of thousands of customers if `is_large`."""
         missing = int(searcher.count.missing)
         served = max(1, int(searcher.count.customers) - missing)
-        cost = float(searcher.value.cost) - missing_cost(world, searcher)
-        drones = world.type["drones"][:world.num_types]
-        large = is_large and are_alike(world) and only_loads_limit(world)
-        return cls(cost / served, leg_cost(world, searcher), world.num_types,
+        cost = float(searcher.value.cost) - missing_cost(data, searcher)
+        drones = data.type["drones"][:data.num_types]
+        large = is_large and are_alike(data) and only_loads_limit(data)
+        return cls(cost / served, leg_cost(data, searcher), data.num_types,
                    bool((drones > 0).any()), bool((drones == 1).any()), large, from_trucks,
                    hot, cold)
 

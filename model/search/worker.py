@@ -12,7 +12,7 @@ from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.recombining import take_better_parts
 from model.search.route.engine import ANY, LONGEST_STRING, anneal
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.temperature import Heat
 
@@ -46,7 +46,7 @@ LOOK = 5e-6
 class Worker:
     """One thread's search."""
 
-    world: World
+    data: ProblemData
     searcher: Searcher
     limits: Limits
     heat: Heat
@@ -57,13 +57,13 @@ class Worker:
     pace: float = 0.0  # seconds a turn takes
     cooled: float = 0.0  # share of the cooling that is left out
     looked: int = 0  # turns after which better parts were last looked for
-    given: tuple[Packed, Packed] = field(init=False)  # world and search, packed for a round
+    given: tuple[Packed, Packed] = field(init=False)  # data and search, packed for a round
     tied: Packed | None = field(default=None, init=False)  # likewise what is linked
 
     def run(self) -> None:
         """Search for one round."""
         most, end = self.limits.round_end(self.turns, self.span)
-        self.given = packed(self.world), packed(self.searcher)
+        self.given = packed(self.data), packed(self.searcher)
         self.tied = None if self.linked is None else packed(self.linked)
         if self.tied is None:
             self._search(most, end)
@@ -103,12 +103,12 @@ class Worker:
         self.looked = self.turns
         spare = end - time.perf_counter()
         if (self.span.share(self.limits.share(self.turns)) >= LOOKED_FROM
-                and spare > LOOK * self.world.num_nodes and not self.limits.should_stop()):
+                and spare > LOOK * self.data.num_nodes and not self.limits.should_stop()):
             if self.tied is None:
-                take_better_parts(self.world, self.searcher)
+                take_better_parts(self.data, self.searcher)
                 return
             write_back(*self.given, self.tied)
-            take_better_parts(self.world, self.searcher)
+            take_better_parts(self.data, self.searcher)
             tie(*self.given, self.tied)
 
     def _longest_string(self) -> float:

@@ -52,7 +52,7 @@ def test_a_rule_has_one_home(home: str) -> None:
 
 
 @pytest.mark.parametrize("applied", [
-    "if (arrival > place[0].arrival_limit) return;", "flight <= world.type[k].endurance",
+    "if (arrival > place[0].arrival_limit) return;", "flight <= data.type[k].endurance",
     "type->capacity[0] - load", "legs.stated(m, here, there, 0)",
 ])
 def test_a_rule_applied_outside_its_home_is_found(applied: str) -> None:

@@ -40,19 +40,19 @@ void set_out(View<Chain, 1> chain, Int node) {
 
 }  // namespace
 
-void join_either_way(const World& world, Int k, Int ranks, View<const Int, 1> keys,
+void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
                      View<Chain, 1> chain, const View<ChainCargo, 2>& cargo) {
-    const VehicleType& type = world.type[k];
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+    const VehicleType& type = data.type[k];
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         Chain& link = chain[node];
         link.before = link.behind = nowhere;
         link.route = node;
         link.length = 1;
-        set_up_cargo(world, node, cargo[node]);
+        set_up_cargo(data, node, cargo[node]);
     }
     for (const Int key : keys) {
-        world.deadline.go_on_late();
-        const auto [a, b] = pair(world, ranks, key);
+        data.deadline.go_on_late();
+        const auto [a, b] = pair(data, ranks, key);
         if (is_amid(chain[a]) || is_amid(chain[b])) continue;
         const Int one = route_of(chain, a);
         const Int other = route_of(chain, b);
@@ -67,8 +67,8 @@ void join_either_way(const World& world, Int k, Int ranks, View<const Int, 1> ke
         link_to(chain[a], b);
         link_to(chain[b], a);
     }
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) chain[node].last = nowhere;
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) chain[node].last = nowhere;
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         if (chain[node].last == nowhere && !is_amid(chain[node])) set_out(chain, node);
     }
 }
@@ -77,8 +77,8 @@ void join_either_way(const World& world, Int k, Int ranks, View<const Int, 1> ke
 
 using namespace tandem;
 
-extern "C" int tandem_join_either_way(const tandem_world* world, int64_t k, int64_t ranks,
+extern "C" int tandem_join_either_way(const tandem_problem_data* data, int64_t k, int64_t ranks,
                                       const tandem_i64_1d* keys, const tandem_chain_1d* chain,
                                       const tandem_chain_cargo_2d* cargo) {
-    return guarded([&] { join_either_way(world_of(*world), k, ranks, *keys, *chain, *cargo); });
+    return guarded([&] { join_either_way(data_of(*data), k, ranks, *keys, *chain, *cargo); });
 }

@@ -10,7 +10,7 @@
 namespace tandem {
 
 // Joins routes at either end, pair after pair. As `join`.
-void join_either_way(const World& world, Int k, Int ranks, View<const Int, 1> keys,
+void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
                      View<Chain, 1> chain, const View<ChainCargo, 2>& cargo);
 
 }  // namespace tandem

@@ -30,11 +30,11 @@ void set_chain_cargo(ChainCargo& chain, const Cargo& cargo) {
 }
 
 // How fast a type drives from where its routes begin, in mm per ms.
-double speed_of(const World& world, const VehicleType& type) {
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+double speed_of(const ProblemData& data, const VehicleType& type) {
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     double distance = 0.0;
     double duration = 0.0;
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         const Leg way = leg(legs, type.begins_at, node);
         distance += double(way.distance);
         duration += double(way.duration);
@@ -117,12 +117,12 @@ void link_up(const Chains& chains, const Joint& joint) {
 
 }  // namespace
 
-Int length_of(const World& world, Int k, View<const Chain, 1> chain) {
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+Int length_of(const ProblemData& data, Int k, View<const Chain, 1> chain) {
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     Int length = 0;
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
-        if (!world.can(k, 0, node)) continue;
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
+        if (!data.can(k, 0, node)) continue;
         const Int behind = chain[node].behind;
         if (chain[node].before == nowhere) length += leg(legs, type.begins_at, node).distance;
         length += leg(legs, node, behind == nowhere ? type.ends_at : behind).distance;
@@ -130,13 +130,13 @@ Int length_of(const World& world, Int k, View<const Chain, 1> chain) {
     return length;
 }
 
-void write_nearest_types(const World& world, View<Int, 1> nearest) {
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+void write_nearest_types(const ProblemData& data, View<Int, 1> nearest) {
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         Int least = -1;
-        for (Int k = 0; k < world.num_types; ++k) {
-            if (!world.can(k, 0, node)) continue;
-            const VehicleType& type = world.type[k];
-            const TravelLegs legs = legs_of(world.leg, type.travel);
+        for (Int k = 0; k < data.num_types; ++k) {
+            if (!data.can(k, 0, node)) continue;
+            const VehicleType& type = data.type[k];
+            const TravelLegs legs = legs_of(data.leg, type.travel);
             const Int way =
                 leg(legs, type.begins_at, node).distance + leg(legs, node, type.ends_at).distance;
             if (least < 0 || way < least) {
@@ -147,22 +147,22 @@ void write_nearest_types(const World& world, View<Int, 1> nearest) {
     }
 }
 
-void write_excess(const World& world, Int k, Int ranks, View<Int, 1> excess) {
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
-    const NodesRows places = places_of(world.place, type);
-    const double speed = speed_of(world, type);
+void write_excess(const ProblemData& data, Int k, Int ranks, View<Int, 1> excess) {
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
+    const NodesRows places = places_of(data.place, type);
+    const double speed = speed_of(data, type);
     std::fill(excess.begin(), excess.end(), 0);
-    for (Int a = world.num_depots; a < world.num_nodes; ++a) {
-        world.deadline.go_on_late();
-        if (!world.can(k, 0, a)) continue;
+    for (Int a = data.num_depots; a < data.num_nodes; ++a) {
+        data.deadline.go_on_late();
+        if (!data.can(k, 0, a)) continue;
         const Int to_end = leg(legs, a, type.ends_at).distance;
         const Int leaves = end_of_service(places[a], 0);
         const Int leaves_last = end_of_service(places[a], closing(places[a]));
-        const Int first = (a - world.num_depots) * ranks;
+        const Int first = (a - data.num_depots) * ranks;
         for (Int rank = 0; rank < ranks; ++rank) {
-            const Int b = world.near(a, rank);
-            if (b < 0 || !world.can(k, 0, b)) continue;
+            const Int b = data.near(a, rank);
+            if (b < 0 || !data.can(k, 0, b)) continue;
             const Leg way = leg(legs, a, b);
             const double more = detour(way.duration, double(leaves), double(leaves_last),
                                        double(opening(places[b], 0)), double(closing(places[b]))) -
@@ -179,21 +179,21 @@ void number_pairs(View<Int, 1> excess, Int coarse) {
     }
 }
 
-Neighbours pair(const World& world, Int ranks, Int key) {
-    const Int pairs = (world.num_nodes - world.num_depots) * ranks;
+Neighbours pair(const ProblemData& data, Int ranks, Int key) {
+    const Int pairs = (data.num_nodes - data.num_depots) * ranks;
     // The number of the pair, whether the key is below zero or not.
     const Int index = (key % pairs + pairs) % pairs;
-    const Int customer = world.num_depots + index / ranks;
-    return {customer, world.near(customer, index % ranks)};
+    const Int customer = data.num_depots + index / ranks;
+    return {customer, data.near(customer, index % ranks)};
 }
 
-void set_up_cargo(const World& world, Int node, View<ChainCargo, 1> cargo) {
-    if (tiers_of(world) == 0) {
-        const Amount demand = demand_of(world.place[0][node]);
+void set_up_cargo(const ProblemData& data, Int node, View<ChainCargo, 1> cargo) {
+    if (tiers_of(data) == 0) {
+        const Amount demand = demand_of(data.place[0][node]);
         set_chain_cargo(cargo[0], {demand, nothing, demand, total(demand), 0});
     }
-    for (Int tier = 0; tier < tiers_of(world); ++tier) {
-        set_chain_cargo(cargo[tier], cargo_for(world.amount, node, tier));
+    for (Int tier = 0; tier < tiers_of(data); ++tier) {
+        set_chain_cargo(cargo[tier], cargo_for(data.amount, node, tier));
     }
 }
 
@@ -215,17 +215,17 @@ void add_cargo(View<ChainCargo, 1> front, View<const ChainCargo, 1> rear) {
     }
 }
 
-void join(const World& world, Int k, Int ranks, View<const Int, 1> keys, View<Chain, 1> chain,
+void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, View<Chain, 1> chain,
           const View<ChainCargo, 2>& cargo) {
-    const VehicleType& type = world.type[k];
-    const Chains chains{type, legs_of(world.leg, type.travel), places_of(world.place, type), chain};
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+    const VehicleType& type = data.type[k];
+    const Chains chains{type, legs_of(data.leg, type.travel), places_of(data.place, type), chain};
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         set_up_chain(chains, node);
-        set_up_cargo(world, node, cargo[node]);
+        set_up_cargo(data, node, cargo[node]);
     }
     for (const Int key : keys) {
-        world.deadline.go_on_late();
-        const auto [a, b] = pair(world, ranks, key);
+        data.deadline.go_on_late();
+        const auto [a, b] = pair(data, ranks, key);
         const Int way = leg(chains.legs, a, b).duration;
         if (chain[a].behind != nowhere || chain[b].before != nowhere ||
             chain[a].leave + way > chain[b].latest) {
@@ -250,26 +250,27 @@ void join(const World& world, Int k, Int ranks, View<const Int, 1> keys, View<Ch
 
 using namespace tandem;
 
-extern "C" int tandem_length_of(const tandem_world* world, int64_t k, const tandem_chain_1d* chain,
-                                int64_t* length) {
-    return guarded([&] { *length = length_of(world_of(*world), k, View<Chain, 1>(*chain)); });
+extern "C" int tandem_length_of(const tandem_problem_data* data, int64_t k,
+                                const tandem_chain_1d* chain, int64_t* length) {
+    return guarded([&] { *length = length_of(data_of(*data), k, View<Chain, 1>(*chain)); });
 }
 
-extern "C" int tandem_write_nearest_types(const tandem_world* world, const tandem_i64_1d* nearest) {
-    return guarded([&] { write_nearest_types(world_of(*world), *nearest); });
+extern "C" int tandem_write_nearest_types(const tandem_problem_data* data,
+                                          const tandem_i64_1d* nearest) {
+    return guarded([&] { write_nearest_types(data_of(*data), *nearest); });
 }
 
-extern "C" int tandem_write_excess(const tandem_world* world, int64_t k, int64_t ranks,
+extern "C" int tandem_write_excess(const tandem_problem_data* data, int64_t k, int64_t ranks,
                                    const tandem_i64_1d* excess) {
-    return guarded([&] { write_excess(world_of(*world), k, ranks, *excess); });
+    return guarded([&] { write_excess(data_of(*data), k, ranks, *excess); });
 }
 
 extern "C" int tandem_number_pairs(const tandem_i64_1d* excess, int64_t coarse) {
     return guarded([&] { number_pairs(*excess, coarse); });
 }
 
-extern "C" int tandem_join(const tandem_world* world, int64_t k, int64_t ranks,
+extern "C" int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
                            const tandem_i64_1d* keys, const tandem_chain_1d* chain,
                            const tandem_chain_cargo_2d* cargo) {
-    return guarded([&] { join(world_of(*world), k, ranks, *keys, *chain, *cargo); });
+    return guarded([&] { join(data_of(*data), k, ranks, *keys, *chain, *cargo); });
 }

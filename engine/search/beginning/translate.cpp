@@ -16,13 +16,14 @@
 
 namespace tandem {
 
-void alone_costs(const World& world, Fleet& fleet, BlockSums& acc, const View<double, 3>& alone) {
+void alone_costs(const ProblemData& data, Fleet& fleet, BlockSums& acc,
+                 const View<double, 3>& alone) {
     const Int slot = fleet.route.size() - 1;
-    for (Int k = 0; k < world.num_types; ++k) {
+    for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
-            for (Int node = world.num_depots; node < world.num_nodes; ++node) {
-                if (world.can(k, by_drone, node) && !world.deadline.passed() &&
-                    serve_alone(world, fleet, slot, k, node, by_drone == 1, acc)) {
+            for (Int node = data.num_depots; node < data.num_nodes; ++node) {
+                if (data.can(k, by_drone, node) && !data.deadline.passed() &&
+                    serve_alone(data, fleet, slot, k, node, by_drone == 1, acc)) {
                     alone(k, by_drone, node) = fleet.cost[slot];
                 }
             }
@@ -30,15 +31,15 @@ void alone_costs(const World& world, Fleet& fleet, BlockSums& acc, const View<do
     }
 }
 
-void begin(const World& world, Searcher& searcher, Int num_routes) {
+void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     const Fleet& now = searcher.now;
     SearchCounts& count = *searcher.count;
-    for (Int node = 0; node < world.num_nodes; ++node) now.where[node].slot = nowhere;
+    for (Int node = 0; node < data.num_nodes; ++node) now.where[node].slot = nowhere;
     double cost = 0.0;
     for (Int slot = 0; slot < num_routes; ++slot) {
-        world.deadline.go_on_late();
+        data.deadline.go_on_late();
         Route& route = now.route[slot];
-        if (refresh(world, now, slot, *searcher.acc)) {
+        if (refresh(data, now, slot, *searcher.acc)) {
             ++now.used[route.type];
             cost += now.cost[slot];
             locate(now, slot);
@@ -47,24 +48,24 @@ void begin(const World& world, Searcher& searcher, Int num_routes) {
             now.cost[slot] = 0.0;
         }
     }
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         if (now.where[node].slot == nowhere) searcher.missing[count.missing++] = node;
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) now.route[slot].stamp = 1;
     count.stamp = 1;
-    count.customers = world.num_nodes - world.num_depots;
+    count.customers = data.num_nodes - data.num_depots;
     count.changed = all_slots;
-    searcher.value->cost = cost + left_out_cost(world, searcher.missing, count.missing);
+    searcher.value->cost = cost + left_out_cost(data, searcher.missing, count.missing);
     list_active(searcher);
     keep_best(searcher);
 }
 
-double leg_cost(const World& world, const Searcher& searcher) {
+double leg_cost(const ProblemData& data, const Searcher& searcher) {
     const Fleet& now = searcher.now;
     double cost = 0.0;
     Int legs = 0;
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
-        const Rate& rate = world.rate[now.route[slot].type];
+        const Rate& rate = data.rate[now.route[slot].type];
         const View<Stop, 1> stops = now.stop[slot];
         for (Int p = 0; p < now.route[slot].length - 1; ++p) {
             if (stops[p].kind != customer_stop || stops[p + 1].kind != customer_stop) continue;
@@ -73,55 +74,55 @@ double leg_cost(const World& world, const Searcher& searcher) {
         }
     }
     if (cost > 0.0) return cost / double(legs);
-    const double left_out = left_out_cost(world, searcher.missing, searcher.count->missing);
-    return std::max(1e-9, (searcher.value->cost - left_out) / double(world.num_nodes));
+    const double left_out = left_out_cost(data, searcher.missing, searcher.count->missing);
+    return std::max(1e-9, (searcher.value->cost - left_out) / double(data.num_nodes));
 }
 
-bool finish_route(const World& world, Fleet& fleet, Int slot, BlockSums& acc) {
+bool finish_route(const ProblemData& data, Fleet& fleet, Int slot, BlockSums& acc) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
-    load_trips(world, route, stops, trips, sorties);
+    load_trips(data, route, stops, trips, sorties);
     clear_holds(route, stops, trips);
-    if (!drive_forward(world, route, stops, sorties, acc)) return false;
-    if (time_aboard_counts(world) && !hold_trips(world, route, stops, trips, sorties, acc) &&
-        !drive_forward(world, route, stops, sorties, acc)) {
+    if (!drive_forward(data, route, stops, sorties, acc)) return false;
+    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties, acc) &&
+        !drive_forward(data, route, stops, sorties, acc)) {
         return false;
     }
-    return settle(world, route, stops, trips, sorties, acc);
+    return settle(data, route, stops, trips, sorties, acc);
 }
 
 }  // namespace tandem
 
 using namespace tandem;
 
-extern "C" int tandem_alone_costs(const tandem_world* world, const tandem_fleet* fleet,
+extern "C" int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
                                   tandem_block_sums* acc, const tandem_f64_3d* alone) {
     return guarded([&] {
         Fleet routes = fleet_of(*fleet);
-        alone_costs(world_of(*world), routes, *acc, *alone);
+        alone_costs(data_of(*data), routes, *acc, *alone);
     });
 }
 
-extern "C" int tandem_begin(const tandem_world* world, const tandem_searcher* searcher,
+extern "C" int tandem_begin(const tandem_problem_data* data, const tandem_searcher* searcher,
                             int64_t num_routes) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        begin(world_of(*world), searching, num_routes);
+        begin(data_of(*data), searching, num_routes);
     });
 }
 
-extern "C" int tandem_leg_cost(const tandem_world* world, const tandem_searcher* searcher,
+extern "C" int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
                                double* cost) {
-    return guarded([&] { *cost = leg_cost(world_of(*world), searcher_of(*searcher)); });
+    return guarded([&] { *cost = leg_cost(data_of(*data), searcher_of(*searcher)); });
 }
 
-extern "C" int tandem_finish_route(const tandem_world* world, const tandem_fleet* fleet,
+extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet,
                                    int64_t slot, tandem_block_sums* acc) {
     return guarded([&] {
         Fleet routes = fleet_of(*fleet);
-        if (!finish_route(world_of(*world), routes, slot, *acc)) {
+        if (!finish_route(data_of(*data), routes, slot, *acc)) {
             throw std::invalid_argument("nobody can drive the route");
         }
     });

@@ -80,8 +80,8 @@ CheapestStop scan_delayed(NodesRows places, const Newcomer& newcomer, View<const
 }
 
 // As `scan_stops`, on a route whose vehicle may only work for some time.
-CheapestStop scan_limited(const World& world, const Fleet& fleet, Int slot, Int first, Int last,
-                          Int node, const Newcomer& newcomer, const Wanted& wanted,
+CheapestStop scan_limited(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
+                          Int last, Int node, const Newcomer& newcomer, const Wanted& wanted,
                           View<std::uint64_t, 1> rng) {
     const View<const Stop, 1> stops = fleet.stop[slot];
     CheapestStop found{wanted.best, nowhere};
@@ -92,7 +92,7 @@ CheapestStop scan_limited(const World& world, const Fleet& fleet, Int slot, Int 
             continue;
         }
         if (too_late(newcomer.place, stops[p].leave)) break;
-        if (price_stop(world, fleet, slot, p, node) < infeasible && uniform(rng) >= wanted.blink) {
+        if (price_stop(data, fleet, slot, p, node) < infeasible && uniform(rng) >= wanted.blink) {
             found = {cost, p};
         }
     }
@@ -100,20 +100,20 @@ CheapestStop scan_limited(const World& world, const Fleet& fleet, Int slot, Int 
 }
 
 // Finds the cheapest place for a customer on a trip, by type `by`. As `scan_stops`.
-CheapestStop scan_trip(const World& world, const Fleet& fleet, Int slot, Int index, Int first,
+CheapestStop scan_trip(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int first,
                        Int last, Int node, Int by, double best, double blink,
                        View<std::uint64_t, 1> rng) {
     const Int k = fleet.route[slot].type;
     const Trip& trip = fleet.trip(slot, index);
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const Newcomer newcomer = newcomer_on(world, fleet, slot, by, node);
-    const Wanted wanted{world.rate[by].distance, best, blink,
-                        world.type[k].max_trip_distance - trip.distance};
-    if (world.mode[k] & mode_timed) {
-        return scan_limited(world, fleet, slot, first, last, node, newcomer, wanted, rng);
+    const Newcomer newcomer = newcomer_on(data, fleet, slot, by, node);
+    const Wanted wanted{data.rate[by].distance, best, blink,
+                        data.type[k].max_trip_distance - trip.distance};
+    if (data.mode[k] & mode_timed) {
+        return scan_limited(data, fleet, slot, first, last, node, newcomer, wanted, rng);
     }
     if (release_of(newcomer.place) > stops[trip.first].leave) {
-        return scan_delayed(places_of(world.place, world.type[k]), newcomer, stops, first, last,
+        return scan_delayed(places_of(data.place, data.type[k]), newcomer, stops, first, last,
                             trip.first, wanted, rng);
     }
     return scan_stops(newcomer, stops, first, last, wanted, rng);
@@ -152,14 +152,14 @@ ShortestDetour shortest_detour(const Newcomer& newcomer, View<const Stop, 1> sto
 // As `scan_stops`, on a lean route that this turn doesn't change, but for overlooking.
 //
 // Most turns are undone, so that most routes are as when the customer was inserted before.
-CheapestStop scan_kept(const World& world, const Fleet& fleet, Int slot, Int node, double rate,
+CheapestStop scan_kept(const ProblemData& data, const Fleet& fleet, Int slot, Int node, double rate,
                        double best, Kept& kept) {
     const Int stamp = fleet.route[slot].stamp;
     if (kept.stamp != stamp || (kept.stop < 0 && double(kept.detour) * rate < best)) {
         Int most = far;
         // Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
         if (std::abs(best) < double(far) * rate) most = static_cast<Int>(best / rate) + 1;
-        const Newcomer newcomer = newcomer_on(world, fleet, slot, fleet.route[slot].type, node);
+        const Newcomer newcomer = newcomer_on(data, fleet, slot, fleet.route[slot].type, node);
         const ShortestDetour found =
             shortest_detour(newcomer, fleet.stop[slot], fleet.trip(slot, 0).last, most);
         kept = {stamp, found.distance, found.stop};
@@ -172,10 +172,11 @@ CheapestStop scan_kept(const World& world, const Fleet& fleet, Int slot, Int nod
 // Tells whether a customer is known to cost no less than `best` on a route as it is.
 //
 // That is so of most routes, so nothing else is asked of them.
-bool is_too_far(const World& world, const Searcher& searcher, Int slot, Int node, double best) {
+bool is_too_far(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
+                double best) {
     const Route& route = searcher.now.route[slot];
-    if (!world.scan_all || route.stamp == changing) return false;
-    const Rate& rate = world.rate[route.type];
+    if (!data.scan_all || route.stamp == changing) return false;
+    const Rate& rate = data.rate[route.type];
     const Kept& kept = searcher.kept(node, slot);
     return kept.stamp == route.stamp && double(kept.detour) * rate.distance >= best - rate.stop;
 }
@@ -192,33 +193,33 @@ bool is_too_far_beside(const LegRow& inward, const LegRow& onward, View<const St
 
 }  // namespace
 
-bool is_simple(const World& world, const Fleet& fleet, Int slot) {
+bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
-    return (world.mode[route.type] & mode_simple) != 0 && route.sorties == 0;
+    return (data.mode[route.type] & mode_simple) != 0 && route.sorties == 0;
 }
 
-Serving serving_type(const World& world, const Fleet& fleet, Int slot, Int index, Int node,
+Serving serving_type(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int node,
                      bool enlarge) {
     const Int k = fleet.route[slot].type;
-    if (!goods_may_join(world, fleet, slot, index, node)) return {nowhere, 0.0};
-    if (takes(world, fleet, slot, index, k, node)) return {k, world.rate[k].stop};
+    if (!goods_may_join(data, fleet, slot, index, node)) return {nowhere, 0.0};
+    if (takes(data, fleet, slot, index, k, node)) return {k, data.rate[k].stop};
     if (!enlarge) return {nowhere, 0.0};
-    const Int by = larger_type(world, fleet, slot, node);
+    const Int by = larger_type(data, fleet, slot, node);
     if (by < 0) return {nowhere, 0.0};
-    const double cost = route_cost(world, by, fleet.trip(slot, 0)) + world.rate[by].stop;
+    const double cost = route_cost(data, by, fleet.trip(slot, 0)) + data.rate[by].stop;
     return {by, cost - fleet.cost[slot]};
 }
 
-double take_cheaper(const World& world, const Searcher& searcher, Int slot,
+double take_cheaper(const ProblemData& data, const Searcher& searcher, Int slot,
                     const std::array<Int, 2>& places, Int node, Serving serving, double best) {
     const View<const Stop, 1> stops = searcher.now.stop[slot];
-    const Newcomer newcomer = newcomer_on(world, searcher.now, slot, serving.type, node);
-    const double rate = world.rate[serving.type].distance;
+    const Newcomer newcomer = newcomer_on(data, searcher.now, slot, serving.type, node);
+    const double rate = data.rate[serving.type].distance;
     for (const Int p : places) {
         const Int further = newcomer.further_behind(stops, p);
         const double cost = double(further) * rate + serving.cost;
         if (cost < best && newcomer.comes_in_time(stops, p, stops[p].leave) &&
-            room_behind(newcomer.room, p) && uniform(searcher.rng) >= world.blink) {
+            room_behind(newcomer.room, p) && uniform(searcher.rng) >= data.blink) {
             best = cost;
             take_stop(*searcher.move, slot, p, serving.type);
         }
@@ -226,30 +227,30 @@ double take_cheaper(const World& world, const Searcher& searcher, Int slot,
     return best;
 }
 
-double scan_lean(const World& world, const Searcher& searcher, Int node, double best,
+double scan_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
                  bool enlarge) {
     const Fleet& fleet = searcher.now;
     for (const Int slot : searcher.active.first(searcher.count->active)) {
-        if (!enlarge && is_too_far(world, searcher, slot, node, best)) continue;
+        if (!enlarge && is_too_far(data, searcher, slot, node, best)) continue;
         const Route& route = fleet.route[slot];
         const Int k = route.type;
-        if (!world.can(k, 0, node)) continue;
-        const auto [by, base] = serving_type(world, fleet, slot, 0, node, enlarge);
+        if (!data.can(k, 0, node)) continue;
+        const auto [by, base] = serving_type(data, fleet, slot, 0, node, enlarge);
         if (by < 0 || (by != k && base >= best)) continue;
-        Wanted wanted{world.rate[by].distance, best - base, world.blink};
+        Wanted wanted{data.rate[by].distance, best - base, data.blink};
         // What is kept is where there is room on the vehicle as it is.
-        bool anew = !world.scan_all || route.stamp == changing || (by != k && tiers_of(world) > 0);
+        bool anew = !data.scan_all || route.stamp == changing || (by != k && tiers_of(data) > 0);
         CheapestStop found{best, nowhere};
         if (!anew) {
-            found = scan_kept(world, fleet, slot, node, wanted.rate, wanted.best,
+            found = scan_kept(data, fleet, slot, node, wanted.rate, wanted.best,
                               searcher.kept(node, slot));
-            if (found.stop >= 0 && uniform(searcher.rng) < world.blink) {
+            if (found.stop >= 0 && uniform(searcher.rng) < data.blink) {
                 wanted.skipped = found.stop;
                 anew = true;
             }
         }
         if (anew) {
-            found = scan_stops(newcomer_on(world, fleet, slot, by, node), fleet.stop[slot], 0,
+            found = scan_stops(newcomer_on(data, fleet, slot, by, node), fleet.stop[slot], 0,
                                fleet.trip(slot, 0).last - 1, wanted, searcher.rng);
         }
         if (found.stop >= 0) {
@@ -260,15 +261,16 @@ double scan_lean(const World& world, const Searcher& searcher, Int node, double 
     return best;
 }
 
-void scan_simple(const World& world, const Searcher& searcher, Int slot, Int node, bool enlarge) {
+void scan_simple(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
+                 bool enlarge) {
     const Fleet& fleet = searcher.now;
     Bound& bound = *searcher.bound;
     const Int k = fleet.route[slot].type;
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
-        const auto [by, base] = serving_type(world, fleet, slot, index, node, enlarge);
+        const auto [by, base] = serving_type(data, fleet, slot, index, node, enlarge);
         if (by < 0 || (by != k && base >= bound.best)) continue;
         const Trip& trip = fleet.trip(slot, index);
-        const auto [cost, p] = scan_trip(world, fleet, slot, index, trip.first, trip.last - 1, node,
+        const auto [cost, p] = scan_trip(data, fleet, slot, index, trip.first, trip.last - 1, node,
                                          by, bound.best - base, bound.blink, searcher.rng);
         if (p >= 0) {
             bound.best = cost + base;
@@ -277,27 +279,27 @@ void scan_simple(const World& world, const Searcher& searcher, Int slot, Int nod
     }
 }
 
-double scan_beside(const World& world, const Searcher& searcher, Int node, double best,
+double scan_beside(const ProblemData& data, const Searcher& searcher, Int node, double best,
                    bool enlarge) {
     const Fleet& fleet = searcher.now;
-    for (const Int other : world.fit[node]) {
+    for (const Int other : data.fit[node]) {
         if (other < 0) break;
         const Int slot = fleet.where[other].slot;
         if (slot < 0) continue;
         const Int k = fleet.route[slot].type;
-        if (!(is_simple(world, fleet, slot) && world.can(k, 0, node))) continue;
-        const Int behind = fleet.where[other].position, m = world.type[k].travel;
+        if (!(is_simple(data, fleet, slot) && data.can(k, 0, node))) continue;
+        const Int behind = fleet.where[other].position, m = data.type[k].travel;
         const View<const Stop, 1> stops = fleet.stop[slot];
         if (!enlarge &&
-            is_too_far_beside(legs_to(world.back, m, node), legs_from(world.leg, m, node), stops,
-                              behind, other, world.rate[k].distance, best - world.rate[k].stop)) {
+            is_too_far_beside(legs_to(data.back, m, node), legs_from(data.leg, m, node), stops,
+                              behind, other, data.rate[k].distance, best - data.rate[k].stop)) {
             continue;
         }
         const Int trip = stops[behind].trip;
-        const auto [by, base] = serving_type(world, fleet, slot, trip, node, enlarge);
+        const auto [by, base] = serving_type(data, fleet, slot, trip, node, enlarge);
         if (by < 0 || (by != k && base >= best)) continue;
-        const auto [cost, p] = scan_trip(world, fleet, slot, trip, behind - 1, behind, node, by,
-                                         best - base, world.blink, searcher.rng);
+        const auto [cost, p] = scan_trip(data, fleet, slot, trip, behind - 1, behind, node, by,
+                                         best - base, data.blink, searcher.rng);
         if (p >= 0) {
             best = cost + base;
             take_stop(*searcher.move, slot, p, by);
@@ -306,35 +308,36 @@ double scan_beside(const World& world, const Searcher& searcher, Int node, doubl
     return best;
 }
 
-double scan_beside_lean(const World& world, const Searcher& searcher, Int node, double best,
+double scan_beside_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
                         bool enlarge) {
     const Fleet& fleet = searcher.now;
-    for (const Int other : world.fit[node]) {
+    for (const Int other : data.fit[node]) {
         if (other < 0) break;
         const Int slot = fleet.where[other].slot, behind = fleet.where[other].position;
         if (slot < 0) continue;
         const Int k = fleet.route[slot].type;
         const View<const Stop, 1> stops = fleet.stop[slot];
-        const Int m = world.type[k].travel;
+        const Int m = data.type[k].travel;
         if (!enlarge &&
-            is_too_far_beside(legs_to(world.back, m, node), legs_from(world.leg, m, node), stops,
-                              behind, other, world.rate[k].distance, best - world.rate[k].stop)) {
+            is_too_far_beside(legs_to(data.back, m, node), legs_from(data.leg, m, node), stops,
+                              behind, other, data.rate[k].distance, best - data.rate[k].stop)) {
             continue;
         }
-        if (!world.can(k, 0, node)) continue;
-        const auto [by, base] = serving_type(world, fleet, slot, 0, node, enlarge);
+        if (!data.can(k, 0, node)) continue;
+        const auto [by, base] = serving_type(data, fleet, slot, 0, node, enlarge);
         if (by < 0 || (by != k && base >= best)) continue;
-        best = take_cheaper(world, searcher, slot, {behind - 1, behind}, node, {by, base}, best);
+        best = take_cheaper(data, searcher, slot, {behind - 1, behind}, node, {by, base}, best);
     }
     return best;
 }
 
 }  // namespace tandem
 
-extern "C" int tandem_scan_beside_lean(const tandem_world* world, const tandem_searcher* searcher,
-                                       int64_t node, double best, bool enlarge, double* cost) {
+extern "C" int tandem_scan_beside_lean(const tandem_problem_data* data,
+                                       const tandem_searcher* searcher, int64_t node, double best,
+                                       bool enlarge, double* cost) {
     return tandem::guarded([&] {
         tandem::Searcher working = tandem::searcher_of(*searcher);
-        *cost = tandem::scan_beside_lean(tandem::world_of(*world), working, node, best, enlarge);
+        *cost = tandem::scan_beside_lean(tandem::data_of(*data), working, node, best, enlarge);
     });
 }

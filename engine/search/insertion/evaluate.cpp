@@ -11,10 +11,10 @@
 #include "search/route/block.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
-#include "search/route/halts.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
+#include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -83,16 +83,16 @@ Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& 
 // rule is broken.
 //
 // Leaves the sums so far in `acc`.
-bool time_part(const World& world, const Fleet& fleet, Int slot, Int first, Int to,
+bool time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first, Int to,
                BlockSums& acc) {
     const Route& route = fleet.route[to];
     const View<Stop, 1> stops = fleet.stop[to];
     const View<Sortie, 1> sorties = fleet.sortie[to];
     const View<const Stop, 1> old = fleet.stop[slot];
-    const Truck truck(world, route.type);
+    const Truck truck(data, route.type);
     const Int length = route.length, count = route.sorties;
     const VehicleType& type = truck.type;
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     Int time = old[first].arrival, cum = old[first].before;
     Int depart = first > 0 ? old[first - 1].depart : far;
     make_ready(truck, stops, sorties, count);
@@ -136,15 +136,15 @@ bool time_part(const World& world, const Fleet& fleet, Int slot, Int first, Int 
 }
 
 // Returns what it costs to put the stops in slot `to` in the place of a part.
-double price_part(const World& world, const Fleet& fleet, Int slot, Part part, Int to,
+double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part part, Int to,
                   BlockSums& acc) {
-    if (!time_part(world, fleet, slot, part.first, to, acc)) return infeasible;
+    if (!time_part(data, fleet, slot, part.first, to, acc)) return infeasible;
     const Int time = acc.end;
     Int cum = acc.cum, depart = acc.depart, driven = acc.driven;
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> old = fleet.stop[slot];
     const Int k = route.type;
-    const VehicleType& type = world.type[k];
+    const VehicleType& type = data.type[k];
     Int finish = time;
     if (part.last + 1 < route.length) {
         const Int arrival = time + old[part.last].gap;
@@ -158,15 +158,15 @@ double price_part(const World& world, const Fleet& fleet, Int slot, Part part, I
     const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
     if (working > type.max_working_duration) return infeasible;
     for (Int p = part.first; p < part.last; ++p) driven -= old[p].leg;
-    double cost = double(driven) * world.rate[k].distance +
-                  longer_cost(type, world.rate[k], route, finish, working);
+    double cost = double(driven) * data.rate[k].distance +
+                  longer_cost(type, data.rate[k], route, finish, working);
     for (Int s = 0; s < fleet.route[to].sorties; ++s) {
-        cost += sortie_cost(world, k, fleet.stop[to], fleet.sortie(to, s));
+        cost += sortie_cost(data, k, fleet.stop[to], fleet.sortie(to, s));
     }
     for (Int s = 0; s < route.sorties; ++s) {
         const Sortie& sortie = fleet.sortie(slot, s);
         if (part.first <= sortie.launch && sortie.launch <= part.last) {
-            cost -= sortie_cost(world, k, old, sortie);
+            cost -= sortie_cost(data, k, old, sortie);
         }
     }
     return cost;
@@ -199,17 +199,17 @@ struct Ending {
 //
 // `cum` and `depart` are the sum of all durations, and the latest departure that costs nothing, up
 // to stop `p`, and in what is returned those up to the end.
-Ending follow(const World& world, const Route& route, View<const Stop, 1> stops, Int p, Int time,
-              Int cum, Int depart) {
+Ending follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
+              Int time, Int cum, Int depart) {
     double cost = 0.0;
     const Int last = route.length - 1;
-    const NodesRows places = places_of(world.place, world.type[route.type]);
+    const NodesRows places = places_of(data.place, data.type[route.type]);
     for (Int q = p; q <= last; ++q) {
         const Stop& stop = stops[q];
         Int leave = time;
         if (stop.kind == customer_stop) {
             const NodeRows place = places[stop.node];
-            cost += window_cost(world, stop.node, time) - stop.window_cost;
+            cost += window_cost(data, stop.node, time) - stop.window_cost;
             depart = std::min(depart, as_late(place, time) - cum);
             leave = end_of_service(place, time);
             cum += service_duration(place);
@@ -227,25 +227,25 @@ Ending follow(const World& world, const Route& route, View<const Stop, 1> stops,
 
 }  // namespace
 
-bool serve_alone(const World& world, const Fleet& fleet, Int slot, Int k, Int node, bool by_drone,
-                 BlockSums& acc) {
-    const Int first_stop = world.type[k].begins_at, last_stop = world.type[k].ends_at;
+bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+                 bool by_drone, BlockSums& acc) {
+    const Int first_stop = data.type[k].begins_at, last_stop = data.type[k].ends_at;
     const Int first_way = by_drone ? from_start : by_truck;
     const Int options = by_drone && first_stop != last_stop ? ways - from_start : 1;
-    const Int number = by_drone ? options * num_drone_rows(world.type, k) : 1;
+    const Int number = by_drone ? options * num_drone_rows(data.type, k) : 1;
     double best = infeasible;
     Int chosen = 0;
     bool done = false;
     // The last time, the best of them is written once more.
     for (Int tried = 0; tried < (number == 1 ? number : number + 1); ++tried) {
         const Int option = tried == number ? chosen : tried;
-        const Int row = drone_row_at(world.type, k, option / options);
-        done = !by_drone || world.can(row, 1, node);
+        const Int row = drone_row_at(data.type, k, option / options);
+        done = !by_drone || data.can(row, 1, node);
         if (done) {
             begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k, first_stop,
                         last_stop, node, first_way + option % options,
-                        first_drone(world.type, k, row));
-            done = refresh(world, fleet, slot, acc);
+                        first_drone(data.type, k, row));
+            done = refresh(data, fleet, slot, acc);
         }
         if (done && fleet.cost[slot] < best) {
             best = fleet.cost[slot];
@@ -255,68 +255,68 @@ bool serve_alone(const World& world, const Fleet& fleet, Int slot, Int k, Int no
     return done;
 }
 
-double price_move(const World& world, const Fleet& fleet, const Move& move, Int node,
+double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
                   BlockSums& acc) {
     const Int slot = move.slot, to = fleet.route.size() - 1;
     const Int k = fleet.route[slot].type, kind = move.kind;
-    const Int depot = world.type[k].depot;
-    if ((world.mode[k] & mode_priced) || (is_apart(world, k) && kind >= new_trip)) {
+    const Int depot = data.type[k].depot;
+    if ((data.mode[k] & mode_priced) || (is_apart(data, k) && kind >= new_trip)) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0);
-        if (!refresh_cost(world, fleet, to, acc)) return infeasible;
+        if (!refresh_cost(data, fleet, to, acc)) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
     const Int there =
         kind == on_sortie ? fleet.sortie(slot, move.sortie).launch : std::max(move.first, Int{0});
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, there).trip);
-    const Int release = release_of(world.place[0][node]);
+    const Int release = release_of(data.place[0][node]);
     const bool alone = kind == new_trip || kind == flight_trip;
-    const Part part = part_of(world.type[k], fleet, slot, move, !alone && release > trip.release);
+    const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
     apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, part.first,
           skipped);
     give_releases(fleet, to, alone, trip, release);
-    double cost = price_part(world, fleet, slot, part, to, acc);
+    double cost = price_part(data, fleet, slot, part, to, acc);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
-        cost += world.rate[k].stop;
+        cost += data.rate[k].stop;
     }
     return cost;
 }
 
-bool stands_alone(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
-    const Int mode = world.mode[fleet.route[slot].type];
+bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
+    const Int mode = data.mode[fleet.route[slot].type];
     const Stop& stop = fleet.stop(slot, p);
     if ((mode & mode_priced) &&
         ((mode & (mode_settled | mode_retimed)) || fleet.route[slot].sorties > 0)) {
         return false;
     }
     return stop.flying == 0 &&
-           release_of(world.place[0][node]) <= fleet.trip(slot, stop.trip).release;
+           release_of(data.place[0][node]) <= fleet.trip(slot, stop.trip).release;
 }
 
-double price_stop(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
+double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> stops = fleet.stop[slot];
     const Stop &here = stops[p], &behind = stops[p + 1];
     const Int k = route.type;
-    const VehicleType& type = world.type[k];
-    const NodeRows place = places_of(world.place, type)[node];
-    const Leg out = leg_from(legs_to(world.back, type.travel, node), here.node);
-    const Leg on = leg(legs_of(world.leg, type.travel), node, behind.node);
+    const VehicleType& type = data.type[k];
+    const NodeRows place = places_of(data.place, type)[node];
+    const Leg out = leg_from(legs_to(data.back, type.travel, node), here.node);
+    const Leg on = leg(legs_of(data.leg, type.travel), node, behind.node);
     Int time = here.leave + out.duration, cum = here.cum + out.duration;
     if (too_late(place, time)) return infeasible;
-    double cost = double(out.distance + on.distance - here.leg) * world.rate[k].distance;
-    if (loads_cost(world, k)) {
-        cost += load_more_behind(world, fleet, slot, p, node, out.distance, on.distance);
+    double cost = double(out.distance + on.distance - here.leg) * data.rate[k].distance;
+    if (loads_cost(data, k)) {
+        cost += load_more_behind(data, fleet, slot, p, node, out.distance, on.distance);
     }
     Int depart = std::min(here.depart, as_late(place, time) - cum);
-    const double late = window_cost(world, node, time);
+    const double late = window_cost(data, node, time);
     time = end_of_service(place, time) + on.duration;
     cum += service_duration(place) + on.duration;
     if (time > behind.latest || time < behind.early) return infeasible;
     Int finish;
-    if (world.mode[k] & mode_priced) {
-        const Ending ending = follow(world, route, stops, p + 1, time, cum, depart);
+    if (data.mode[k] & mode_priced) {
+        const Ending ending = follow(data, route, stops, p + 1, time, cum, depart);
         cost += late + ending.cost;
         finish = ending.time;
         cum = ending.cum;
@@ -328,16 +328,16 @@ double price_stop(const World& world, const Fleet& fleet, Int slot, Int p, Int n
     }
     const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
     if (working > type.max_working_duration) return infeasible;
-    return cost + world.rate[k].stop + longer_cost(type, world.rate[k], route, finish, working);
+    return cost + data.rate[k].stop + longer_cost(type, data.rate[k], route, finish, working);
 }
 
 }  // namespace tandem
 
-extern "C" int tandem_price_move(const tandem_world* world, const tandem_fleet* fleet,
+extern "C" int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
                                  const tandem_move* move, int64_t node, tandem_block_sums* acc,
                                  double* cost) {
     return tandem::guarded([&] {
         tandem::Fleet routes = tandem::fleet_of(*fleet);
-        *cost = tandem::price_move(tandem::world_of(*world), routes, *move, node, *acc);
+        *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node, *acc);
     });
 }

@@ -10,22 +10,22 @@ constexpr double infeasible = 1e300;
 // Writes the route that serves a customer alone at the least cost. False if none may.
 //
 // Where it begins and ends at one place, a drone leaves from the start, and comes back there.
-bool serve_alone(const World& world, const Fleet& fleet, Int slot, Int k, Int node, bool by_drone,
-                 BlockSums& acc);
+bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+                 bool by_drone, BlockSums& acc);
 
 // Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be.
-double price_move(const World& world, const Fleet& fleet, const Move& move, Int node,
+double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
                   BlockSums& acc);
 
 // Tells whether `price_stop` can price a customer behind stop `p`.
 //
 // No drone is in the air there, the trip needs not wait for the parcel and, if lateness counts,
 // no drone flies at all, so that stops follow one another in time.
-bool stands_alone(const World& world, const Fleet& fleet, Int slot, Int p, Int node);
+bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node);
 
 // Returns what it costs to insert a customer behind stop `p`; `infeasible` if it can't be.
 //
 // For where `stands_alone`; in constant time unless lateness costs.
-double price_stop(const World& world, const Fleet& fleet, Int slot, Int p, Int node);
+double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node);
 
 }  // namespace tandem

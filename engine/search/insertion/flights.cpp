@@ -6,10 +6,10 @@
 #include "search/insertion/listing.h"
 #include "search/insertion/offers.h"
 #include "search/route/edit.h"
-#include "search/route/halts.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
+#include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -17,12 +17,12 @@ namespace {
 
 // Returns until which stop some drone of a row is free that is aboard at stop `launch`: that stop
 // alone if all are launched there, the one before if none is aboard.
-Int free_until(const World& world, const Fleet& fleet, Int slot, Int launch, Int row) {
+Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch, Int row) {
     const Route& route = fleet.route[slot];
     const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
-    const Int number = first_drone(world.type, route.type, row);
+    const Int number = first_drone(data.type, route.type, row);
     Int until = launch - 1;
-    for (Int drone = number; drone < number + world.type[row].drones; ++drone) {
+    for (Int drone = number; drone < number + data.type[row].drones; ++drone) {
         Int free = route.length;
         for (const Sortie& sortie : sorties) {
             if (sortie.drone != drone || sortie.recovery <= launch) continue;
@@ -37,25 +37,25 @@ Int free_until(const World& world, const Fleet& fleet, Int slot, Int launch, Int
 // Sorties to a customer by drones of a row on a route.
 class Flights {
 public:
-    Flights(const World& world, const Searcher& searcher, Int slot, Int row, Int node)
-        : world_(world),
+    Flights(const ProblemData& data, const Searcher& searcher, Int slot, Int row, Int node)
+        : data_(data),
           searcher_(searcher),
           slot_(slot),
           row_(row),
           node_(node),
           stops_(searcher.now.stop[slot]),
           length_(searcher.now.route[slot].length),
-          type_(world.type[row]),
-          rate_(world.rate[row]),
-          place_(places_by_air(world.place, type_)[node]),
-          inward_(legs_to(world.back, type_.drone_travel, node)),
-          onward_(legs_from(world.leg, type_.home_travel, node)),
-          room_(room_on(world, searcher.now, slot, searcher.now.route[slot].type, node)),
+          type_(data.type[row]),
+          rate_(data.rate[row]),
+          place_(places_by_air(data.place, type_)[node]),
+          inward_(legs_to(data.back, type_.drone_travel, node)),
+          onward_(legs_from(data.leg, type_.home_travel, node)),
+          room_(room_on(data, searcher.now, slot, searcher.now.route[slot].type, node)),
           best_(searcher.bound->best),
           early_(searcher.now.early[slot]),
           idle_(idle_time(searcher.now.route[slot])),
-          priced_((world.mode[searcher.now.route[slot].type] & mode_priced) != 0),
-          loaded_(loads_cost(world, searcher.now.route[slot].type)) {}
+          priced_((data.mode[searcher.now.route[slot].type] & mode_priced) != 0),
+          loaded_(loads_cost(data, searcher.now.route[slot].type)) {}
 
     // Lists those from stop `launch`.
     void offer_from(Int launch) const {
@@ -64,16 +64,16 @@ public:
         // Most stops are so far away that nothing else needs to be looked at.
         if (double(out.distance) * rate_.drone_distance - early_ >= best_) return;
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
-        const double late = priced_ ? lateness_cost(world_, node_, ready + out.duration) : 0.0;
+        const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
         if (double(out.distance) * rate_.drone_distance + late - early_ >= best_) return;
         if (too_late(place_, from.arrival + out.duration)) return;
         const Int served = end_of_service(place_, from.arrival + out.duration);
         const Int left = gone_by(type_, from.leave);
         const Int begun = recovery_end(type_, ready) - idle_;
-        Int last = free_until(world_, searcher_.now, slot_, launch, row_);
+        Int last = free_until(data_, searcher_.now, slot_, launch, row_);
         const Int furthest = searcher_.now.trip(slot_, from.trip).last;
-        last = std::min({last, furthest, world_.crossings ? launch + max_span : launch});
-        for (Int recovery = world_.loops ? launch : launch + 1; recovery <= last; ++recovery) {
+        last = std::min({last, furthest, data_.crossings ? launch + max_span : launch});
+        for (Int recovery = data_.loops ? launch : launch + 1; recovery <= last; ++recovery) {
             const Stop& to = stops_[recovery];
             const Leg home = leg_to(onward_, to.node);
             const double flown = double(out.distance + home.distance) * rate_.drone_distance;
@@ -94,7 +94,7 @@ public:
             const Int longer = std::max(Int{0}, begun + flight - to.leave);
             double cost = flown + double(longer) * rate_.time + late - early_;
             if (loaded_) {
-                cost += load_more(world_, searcher_.now, slot_, launch, recovery, node_);
+                cost += load_more(data_, searcher_.now, slot_, launch, recovery, node_);
             }
             if (cost < best_ && can_serve(type_, place_, out.duration, home.duration) &&
                 room_between(room_, launch, recovery)) {
@@ -106,7 +106,7 @@ public:
     }
 
 private:
-    const World& world_;
+    const ProblemData& data_;
     const Searcher& searcher_;
     Int slot_;
     Int row_;
@@ -128,25 +128,24 @@ private:
 
 }  // namespace
 
-void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+void offer_sorties(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
                    Int node) {
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Trip& trip = now.trip(slot, now.stop(slot, first).trip);
     const auto may_fly = [&](Int row) {
-        return world.can(row, 1, node) &&
-               has_battery(world.type, route, now.sortie[slot], trip, row);
+        return data.can(row, 1, node) && has_battery(data.type, route, now.sortie[slot], trip, row);
     };
-    const Int first_row = first_drone_row(world.type, route.type);
-    if (next_drone_row(world.type, first_row) == no_row) {
+    const Int first_row = first_drone_row(data.type, route.type);
+    if (next_drone_row(data.type, first_row) == no_row) {
         if (!may_fly(first_row)) return;
-        const Flights flights(world, searcher, slot, first_row, node);
+        const Flights flights(data, searcher, slot, first_row, node);
         for (Int launch = first; launch <= last; ++launch) flights.offer_from(launch);
         return;
     }
     for (Int launch = first; launch <= last; ++launch) {
-        for (Int row = first_row; row >= 0; row = next_drone_row(world.type, row)) {
-            if (may_fly(row)) Flights(world, searcher, slot, row, node).offer_from(launch);
+        for (Int row = first_row; row >= 0; row = next_drone_row(data.type, row)) {
+            if (may_fly(row)) Flights(data, searcher, slot, row, node).offer_from(launch);
         }
     }
 }

@@ -29,30 +29,31 @@ void for_each_flown(const Fleet& fleet, Int slot, Half half, const Visit& visit)
 }
 
 // Tells whether a customer's goods may go with those of half of a trip.
-bool goods_may_join_half(const World& world, const Fleet& fleet, Int slot, Half half, Int node) {
-    if (!goods_count(world)) return true;
+bool goods_may_join_half(const ProblemData& data, const Fleet& fleet, Int slot, Half half,
+                         Int node) {
+    if (!goods_count(data)) return true;
     const View<const Stop, 1> stops = fleet.stop[slot];
     Int barred = 0;
     for (Int q = half.first; q <= half.last; ++q) {
-        if (stops[q].kind == customer_stop) barred |= barred_on_trip(world.goods[stops[q].node]);
+        if (stops[q].kind == customer_stop) barred |= barred_on_trip(data.goods[stops[q].node]);
     }
     for_each_flown(fleet, slot, half,
-                   [&](Int other) { barred |= barred_on_trip(world.goods[other]); });
-    return go_together(world.goods[node], barred, fleet.route[slot].barred);
+                   [&](Int other) { barred |= barred_on_trip(data.goods[other]); });
+    return go_together(data.goods[node], barred, fleet.route[slot].barred);
 }
 
 // Tells whether a trip split behind stop `p` may be two, a customer more at the split.
 //
 // `front`: at the end of the first.
-bool halves_fit(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool front,
+bool halves_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node, bool front,
                 Int tier) {
-    const View<const Halt, 1> halts = fleet.halt[slot][tier];
-    const VehicleType& type = world.type[fleet.route[slot].type];
+    const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
+    const VehicleType& type = data.type[fleet.route[slot].type];
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, p).trip);
-    const Cargo more = cargo_for(world.amount, node, tier);
+    const Cargo more = cargo_for(data.amount, node, tier);
     Cargo one{}, other{};
-    for (Int q = trip.first; q <= p; ++q) one = followed(one, cargo_at(halts[q]));
-    for (Int q = p + 1; q <= trip.last; ++q) other = followed(other, cargo_at(halts[q]));
+    for (Int q = trip.first; q <= p; ++q) one = followed(one, cargo_at(stop_loads[q]));
+    for (Int q = p + 1; q <= trip.last; ++q) other = followed(other, cargo_at(stop_loads[q]));
     if (front) {
         return may_follow(type, one, more) && may_be_all(type, followed(one, more), tier) &&
                may_be_all(type, other, tier);
@@ -78,11 +79,12 @@ Int drive_to(NodesRows places, View<const Stop, 1> stops, Int first, Int last, I
 // Tells whether a trip can be split behind stop `p`, a customer more before or behind the split.
 //
 // `until`: before. Loads are not looked at.
-bool split_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool until) {
+bool split_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
+                bool until) {
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const VehicleType& type = world.type[fleet.route[slot].type];
-    const NodesRows places = places_of(world.place, type);
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const VehicleType& type = data.type[fleet.route[slot].type];
+    const NodesRows places = places_of(data.place, type);
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int first = fleet.trip(slot, stops[p].trip).first;
     const Int last = fleet.trip(slot, stops[p].trip).last;
     Int front = 0, rear = 0, front_length = 0, rear_length = 0;
@@ -122,12 +124,12 @@ bool split_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int nod
 }
 
 // Tells whether a customer can be served by a trip of its own behind stop `p`, or -1.
-bool trip_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
+bool trip_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const VehicleType& type = world.type[route.type];
-    const NodesRows places = places_of(world.place, type);
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const VehicleType& type = data.type[route.type];
+    const NodesRows places = places_of(data.place, type);
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     Int time = p >= 0 ? stops[p].leave + type.reload_duration : type.shift_earliest;
     time = std::max(time, release_of(places[node]));
     const Leg out = leg(legs, type.depot, node), home = leg(legs, node, type.depot);
@@ -138,41 +140,42 @@ bool trip_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node
 
 }  // namespace
 
-bool part_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool front) {
+bool part_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node, bool front) {
     const View<const Stop, 1> stops = fleet.stop[slot];
     const Trip& trip = fleet.trip(slot, stops[p].trip);
     const Half half = front ? Half{trip.first, p} : Half{p + 1, trip.last};
-    if (!goods_may_join_half(world, fleet, slot, half, node)) return false;
-    Amount load = demand_of(world.place[0][node]);
+    if (!goods_may_join_half(data, fleet, slot, half, node)) return false;
+    Amount load = demand_of(data.place[0][node]);
     Int count = 1;
     for (Int q = half.first; q <= half.last; ++q) {
         if (stops[q].kind != customer_stop) continue;
         ++count;
-        load = plus(load, demand_of(world.place[0][stops[q].node]));
+        load = plus(load, demand_of(data.place[0][stops[q].node]));
     }
-    const VehicleType& type = world.type[fleet.route[slot].type];
+    const VehicleType& type = data.type[fleet.route[slot].type];
     if (!allows_stops(type, count)) return false;
     if (tiers_aboard(fleet) > 0) {
         for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
-            if (!halves_fit(world, fleet, slot, p, node, front, tier)) return false;
+            if (!halves_fit(data, fleet, slot, p, node, front, tier)) return false;
         }
         return true;
     }
     for_each_flown(fleet, slot, half,
-                   [&](Int other) { load = plus(load, demand_of(world.place[0][other])); });
+                   [&](Int other) { load = plus(load, demand_of(data.place[0][other])); });
     return holds(type, load);
 }
 
-bool may_begin(const World& world, Int k, Int node) {
-    for (Int tier = 0; tier < tiers_of(world); ++tier) {
-        if (!may_be_all(world.type[k], cargo_for(world.amount, node, tier), tier)) return false;
+bool may_begin(const ProblemData& data, Int k, Int node) {
+    for (Int tier = 0; tier < tiers_of(data); ++tier) {
+        if (!may_be_all(data.type[k], cargo_for(data.amount, node, tier), tier)) return false;
     }
     return true;
 }
 
-bool more_trips_fit(const World& world, const Fleet& fleet, Int slot, Int p, Int node, Int kind) {
-    if (kind == new_trip) return trip_fits(world, fleet, slot, p, node);
-    return split_fits(world, fleet, slot, p, node, kind == trip_until);
+bool more_trips_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
+                    Int kind) {
+    if (kind == new_trip) return trip_fits(data, fleet, slot, p, node);
+    return split_fits(data, fleet, slot, p, node, kind == trip_until);
 }
 
 }  // namespace tandem

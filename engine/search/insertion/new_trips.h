@@ -6,12 +6,13 @@
 namespace tandem {
 
 // Tells whether a customer may join a trip's up to stop `p`, or the rest, by what is carried.
-bool part_fits(const World& world, const Fleet& fleet, Int slot, Int p, Int node, bool front);
+bool part_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node, bool front);
 
 // Tells whether a vehicle of type `k` may serve a customer on a trip of its own, by loads.
-bool may_begin(const World& world, Int k, Int node);
+bool may_begin(const ProblemData& data, Int k, Int node);
 
 // Tells whether a simple route may have a trip more as a move of `kind` behind stop `p` says.
-bool more_trips_fit(const World& world, const Fleet& fleet, Int slot, Int p, Int node, Int kind);
+bool more_trips_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
+                    Int kind);
 
 }  // namespace tandem

@@ -3,8 +3,8 @@
 
 #include "rules/leg.h"
 #include "rules/window.h"
-#include "search/route/halts.h"
 #include "search/route/layout.h"
+#include "search/route/stop_loads.h"
 
 namespace tandem {
 
@@ -44,10 +44,11 @@ struct Newcomer {
 };
 
 // Returns a customer as trucks of type `k` meet it on a route, for one of type `by` to be served.
-inline Newcomer newcomer_on(const World& world, const Fleet& fleet, Int slot, Int by, Int node) {
-    const VehicleType& type = world.type[fleet.route[slot].type];
-    return {places_of(world.place, type)[node], legs_to(world.back, type.travel, node),
-            legs_from(world.leg, type.travel, node), room_on(world, fleet, slot, by, node)};
+inline Newcomer newcomer_on(const ProblemData& data, const Fleet& fleet, Int slot, Int by,
+                            Int node) {
+    const VehicleType& type = data.type[fleet.route[slot].type];
+    return {places_of(data.place, type)[node], legs_to(data.back, type.travel, node),
+            legs_from(data.leg, type.travel, node), room_on(data, fleet, slot, by, node)};
 }
 
 // Tells whether a truck that leaves at `leave` may serve a customer next, and then reach a stop.

@@ -31,12 +31,12 @@ struct Slack {
 
 // Returns what a customer behind stop `p` costs at least, or `best` if that is no less, or not
 // allowed.
-double stop_costs(const World& world, Int k, const Newcomer& newcomer, const Detour& detour,
+double stop_costs(const ProblemData& data, Int k, const Newcomer& newcomer, const Detour& detour,
                   View<const Stop, 1> stops, Int p, Int node, const Slack& slack, double best) {
-    const Rate& rate = world.rate[k];
+    const Rate& rate = data.rate[k];
     double cost = double(detour.distance) * rate.distance - slack.early;
     cost += rate.stop;
-    const Int mode = world.mode[k];
+    const Int mode = data.mode[k];
     const Stop &here = stops[p], &behind = stops[p + 1];
     if (mode & mode_timed) {
         // While drones fly, the truck may have time before they are back.
@@ -48,8 +48,8 @@ double stop_costs(const World& world, Int k, const Newcomer& newcomer, const Det
     if (mode & mode_priced) {
         const Int arrival = here.leave + detour.out.duration;
         const Int following = end_of_service(newcomer.place, arrival) + detour.on.duration;
-        cost += lateness_cost(world, node, arrival) + lateness_cost(world, behind.node, following) -
-                lateness_cost(world, behind.node, behind.arrival);
+        cost += lateness_cost(data, node, arrival) + lateness_cost(data, behind.node, following) -
+                lateness_cost(data, behind.node, behind.arrival);
     }
     return cost;
 }
@@ -59,14 +59,14 @@ double stop_costs(const World& world, Int k, const Newcomer& newcomer, const Det
 //
 // That which flies least from and to these stops, so that drones fly side by side; on the trip, if
 // drones are charged aboard.
-Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int recovery,
+Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Int launch, Int recovery,
                Int row) {
     const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const bool charging = charges_aboard(world.type[row]);
+    const bool charging = charges_aboard(data.type[row]);
     Int chosen = nowhere, fewest = 0;
-    const Int number = first_drone(world.type, fleet.route[slot].type, row);
-    for (Int drone = number; drone < number + world.type[row].drones; ++drone) {
+    const Int number = first_drone(data.type, fleet.route[slot].type, row);
+    for (Int drone = number; drone < number + data.type[row].drones; ++drone) {
         bool free = true;
         Int beside = 0;
         for (const Sortie& sortie : sorties) {
@@ -94,39 +94,39 @@ Int free_drone(const World& world, const Fleet& fleet, Int slot, Int launch, Int
 // Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
 //
 // In place: a sortie's drone.
-double price_offer(const World& world, const Searcher& searcher, Move& move, Int node,
+double price_offer(const ProblemData& data, const Searcher& searcher, Move& move, Int node,
                    double least) {
     const Fleet& now = searcher.now;
     const Int kind = move.kind, slot = move.slot, p = move.first;
     if (kind == by_sortie) {
-        move.drone = free_drone(world, now, slot, p, move.last, move.type);
+        move.drone = free_drone(data, now, slot, p, move.last, move.type);
         if (move.drone < 0) return infeasible;
     } else if (kind == at_stop) {
-        if (stands_alone(world, now, slot, p, node)) return price_stop(world, now, slot, p, node);
+        if (stands_alone(data, now, slot, p, node)) return price_stop(data, now, slot, p, node);
     } else if ((kind == new_trip || kind == trip_from || kind == trip_until) &&
-               is_simple(world, now, slot) && !is_apart(world, now.route[slot].type)) {
-        return more_trips_fit(world, now, slot, p, node, kind) ? least : infeasible;
+               is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
+        return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
     }
-    return price_move(world, now, move, node, *searcher.acc);
+    return price_move(data, now, move, node, *searcher.acc);
 }
 
 }  // namespace
 
-void offer_stops(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+void offer_stops(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
                  Int node) {
     const Fleet& now = searcher.now;
     const double best = searcher.bound->best;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
-    const Newcomer newcomer = newcomer_on(world, now, slot, k, node);
+    const Newcomer newcomer = newcomer_on(data, now, slot, k, node);
     const Slack slack{idle_time(now.route[slot]), now.early[slot]};
-    const Int most = world.type[k].max_trip_distance - now.trip(slot, stops[first].trip).distance;
+    const Int most = data.type[k].max_trip_distance - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
         const Detour detour = newcomer.behind(stops, p);
-        double cost = stop_costs(world, k, newcomer, detour, stops, p, node, slack, best);
-        if (cost < best && loads_cost(world, k)) {
-            cost += load_more_behind(world, now, slot, p, node, detour.out.distance,
-                                     detour.on.distance);
+        double cost = stop_costs(data, k, newcomer, detour, stops, p, node, slack, best);
+        if (cost < best && loads_cost(data, k)) {
+            cost +=
+                load_more_behind(data, now, slot, p, node, detour.out.distance, detour.on.distance);
         }
         if (cost < best && detour.distance <= most && room_behind(newcomer.room, p)) {
             add_offer(searcher, cost, at_stop, slot, p);
@@ -134,7 +134,7 @@ void offer_stops(const World& world, const Searcher& searcher, Int slot, Int fir
     }
 }
 
-void offer_joining(const World& world, const Searcher& searcher, Int slot, Int node) {
+void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
@@ -142,17 +142,17 @@ void offer_joining(const World& world, const Searcher& searcher, Int slot, Int n
     const double best = searcher.bound->best;
     for (Int s = 0; s < now.route[slot].sorties; ++s) {
         const Sortie& sortie = sorties[s];
-        const Int row = row_of_drone(world.type, k, sortie.drone);
+        const Int row = row_of_drone(data.type, k, sortie.drone);
         const Int trip = stops[sortie.launch].trip;
-        if (sortie.count >= world.visits[row] || !world.can(row, 1, node) ||
-            !may_fit(world, now, slot, trip, k, node) ||
-            !goods_may_join(world, now, slot, trip, node) ||
-            !room_between(room_on(world, now, slot, k, node), sortie.launch, sortie.recovery)) {
+        if (sortie.count >= data.visits[row] || !data.can(row, 1, node) ||
+            !may_fit(data, now, slot, trip, k, node) ||
+            !goods_may_join(data, now, slot, trip, node) ||
+            !room_between(room_on(data, now, slot, k, node), sortie.launch, sortie.recovery)) {
             continue;
         }
-        bool may_carry = can_carry(world, row, sortie, 0, node);
-        if (!may_carry && tiers_of(world) == 0) continue;
-        const TravelLegs flights = legs_of(world.leg, world.type[row].drone_travel);
+        bool may_carry = can_carry(data, row, sortie, 0, node);
+        if (!may_carry && tiers_of(data) == 0) continue;
+        const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
         Int here = stops[sortie.launch].node;
         for (Int place = 0; place <= sortie.count; ++place) {
             const Int there =
@@ -160,51 +160,50 @@ void offer_joining(const World& world, const Searcher& searcher, Int slot, Int n
             const Int further = leg(flights, here, node).distance +
                                 leg(flights, node, there).distance -
                                 leg(flights, here, there).distance;
-            const double cost = double(further) * world.rate[row].drone_distance - now.early[slot];
+            const double cost = double(further) * data.rate[row].drone_distance - now.early[slot];
             here = there;
             if (cost >= best) continue;
-            if (place > 0 && tiers_of(world) > 0) {
-                may_carry = can_carry(world, row, sortie, place, node);
+            if (place > 0 && tiers_of(data) > 0) {
+                may_carry = can_carry(data, row, sortie, place, node);
             }
             if (may_carry) add_offer(searcher, cost, on_sortie, slot, place).sortie = s;
         }
     }
 }
 
-void offer_flight_trips(const World& world, const Searcher& searcher, Int slot, Int node) {
-    if (!world.loops) return;
+void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
+    if (!data.loops) return;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
-    const Int k = route.type, depot = world.type[k].depot;
-    for (Int row = first_drone_row(world.type, k); row >= 0;
-         row = next_drone_row(world.type, row)) {
-        const TravelLegs flights = legs_of(world.leg, world.type[row].drone_travel);
+    const Int k = route.type, depot = data.type[k].depot;
+    for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
+        const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
         const Leg out = leg(flights, depot, node), home = leg(flights, node, depot);
-        double cost = double(out.distance + home.distance) * world.rate[row].drone_distance;
+        double cost = double(out.distance + home.distance) * data.rate[row].drone_distance;
         cost -= now.early[slot];
         if (unreachable(std::max(out.duration, home.duration)) || cost >= searcher.bound->best ||
-            !world.can(row, 1, node) || !may_begin(world, k, node)) {
+            !data.can(row, 1, node) || !may_begin(data, k, node)) {
             continue;
         }
         for (Int p = -1; p < route.length; ++p) {
             if (p < 0 || stops[p].kind == end_stop) {
                 add_offer(searcher, cost, flight_trip, slot, p).drone =
-                    first_drone(world.type, k, row);
+                    first_drone(data.type, k, row);
             }
         }
     }
 }
 
-void offer_trips(const World& world, const Searcher& searcher, Int slot, Int node) {
+void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
     const double best = searcher.bound->best;
-    const Int k = route.type, m = world.type[k].travel, depot = world.type[k].depot;
-    const double rate = world.rate[k].distance;
-    const TravelLegs legs = legs_of(world.leg, m);
-    const LegRow inward = legs_to(world.back, m, node);
+    const Int k = route.type, m = data.type[k].travel, depot = data.type[k].depot;
+    const double rate = data.rate[k].distance;
+    const TravelLegs legs = legs_of(data.leg, m);
+    const LegRow inward = legs_to(data.back, m, node);
     const Int out = leg_from(inward, depot).distance, home = leg(legs, node, depot).distance;
     for (Int p = -1; p < route.length; ++p) {
         Int kind = new_trip;
@@ -226,25 +225,25 @@ void offer_trips(const World& world, const Searcher& searcher, Int slot, Int nod
                 kind = trip_until;
                 cost = until;
             }
-            if (cost < best && !part_fits(world, now, slot, p, node, kind == trip_until)) continue;
+            if (cost < best && !part_fits(data, now, slot, p, node, kind == trip_until)) continue;
         }
-        cost += world.rate[k].stop - now.early[slot];
+        cost += data.rate[k].stop - now.early[slot];
         // Each of two trips carries less, at best next to nothing.
-        if (kind != new_trip && loads_cost(world, k)) cost -= load_cost(world, now, slot);
-        if (kind == new_trip && !may_begin(world, k, node)) continue;
-        if (cost < best && (p < 0 || !too_late(world.place[0][node], stops[p].leave))) {
+        if (kind != new_trip && loads_cost(data, k)) cost -= load_cost(data, now, slot);
+        if (kind == new_trip && !may_begin(data, k, node)) continue;
+        if (cost < best && (p < 0 || !too_late(data.place[0][node], stops[p].leave))) {
             add_offer(searcher, cost, kind, slot, p);
         }
     }
 }
 
-void offer_trips_apart(const World& world, const Searcher& searcher, Int slot, Int node) {
+void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
     const double best = searcher.bound->best;
     const Int k = route.type, last = route.length - 1;
-    const double rate = world.rate[k].distance;
+    const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {
         Int kind = new_trip, here, there;
         if (p < 0) {
@@ -264,33 +263,33 @@ void offer_trips_apart(const World& world, const Searcher& searcher, Int slot, I
             there = stops[p + 1].node;
             kind = trip_until;
         }
-        double cost = double(detour_by_reload(world, k, here, node, there, p != last)) * rate;
+        double cost = double(detour_by_reload(data, k, here, node, there, p != last)) * rate;
         if (kind == trip_until) {
             const double behind =
-                double(detour_by_reload(world, k, here, node, there, false)) * rate;
+                double(detour_by_reload(data, k, here, node, there, false)) * rate;
             if (behind < cost) {
                 kind = trip_from;
                 cost = behind;
             }
         }
-        cost += world.rate[k].stop - now.early[slot];
+        cost += data.rate[k].stop - now.early[slot];
         // Whoever was served may be carried less far, at best next to nowhere.
-        if (loads_cost(world, k)) cost -= load_cost(world, now, slot);
-        if (kind == new_trip && !may_begin(world, k, node)) continue;
+        if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
+        if (kind == new_trip && !may_begin(data, k, node)) continue;
         if (cost < best) add_offer(searcher, cost, kind, slot, p);
     }
 }
 
-void take_cheapest(const World& world, const Searcher& searcher, Int node) {
+void take_cheapest(const ProblemData& data, const Searcher& searcher, Int node) {
     Bound& bound = *searcher.bound;
     const View<Move, 1> offer = searcher.offer;
     const View<double, 1> least = searcher.least;
     Int left = searcher.count->offers;
     Least cheapest(least, left);
-    while (left > 0 && !world.deadline.passed()) {
+    while (left > 0 && !data.deadline.passed()) {
         const Int first = cheapest.first();
         if (least[first] >= bound.best) break;
-        const double cost = price_offer(world, searcher, offer[first], node, least[first]);
+        const double cost = price_offer(data, searcher, offer[first], node, least[first]);
         if (cost < bound.best && uniform(searcher.rng) >= bound.blink) {
             bound.best = cost;
             *searcher.move = offer[first];

@@ -15,30 +15,30 @@ constexpr Int at_one_stop = max_span + 2;
 // Lists a customer behind each stop of a trip from `first` to `last`, if that may be cheaper.
 //
 // For where more than distance counts.
-void offer_stops(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+void offer_stops(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
                  Int node);
 
 // Lists sorties to a customer from each stop of a trip from `first` to `last`, by each type of
 // drones.
-void offer_sorties(const World& world, const Searcher& searcher, Int slot, Int first, Int last,
+void offer_sorties(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
                    Int node);
 
 // Lists a customer on each sortie of a route.
-void offer_joining(const World& world, const Searcher& searcher, Int slot, Int node);
+void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
 
 // Lists trips that a drone flies alone to a customer.
-void offer_flight_trips(const World& world, const Searcher& searcher, Int slot, Int node);
+void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
 
 // Lists a customer where a trip more begins or ends.
-void offer_trips(const World& world, const Searcher& searcher, Int slot, Int node);
+void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
 
 // As `offer_trips`, where trips don't all begin and end at one place.
-void offer_trips_apart(const World& world, const Searcher& searcher, Int slot, Int node);
+void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
 
 // Lets the move be the cheapest of the insertions listed, if it is the best, but for blinks.
 //
 // Those that may be cheapest are priced first, so that most need not be; none is once the search
 // must end.
-void take_cheapest(const World& world, const Searcher& searcher, Int node);
+void take_cheapest(const ProblemData& data, const Searcher& searcher, Int node);
 
 }  // namespace tandem

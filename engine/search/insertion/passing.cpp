@@ -7,7 +7,7 @@
 
 namespace tandem {
 
-double scan_passing_lean(const World& world, const Searcher& searcher, Int node, double best,
+double scan_passing_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
                          bool enlarge) {
     const Fleet& fleet = searcher.now;
     const Int active = searcher.count->active;
@@ -16,11 +16,11 @@ double scan_passing_lean(const World& world, const Searcher& searcher, Int node,
     for (Int index = begin; index < begin + number; ++index) {
         const Int slot = searcher.active[index < active ? index : index - active];
         const Int k = fleet.route[slot].type;
-        if (!world.can(k, 0, node)) continue;
-        const Serving serving = serving_type(world, fleet, slot, 0, node, enlarge);
+        if (!data.can(k, 0, node)) continue;
+        const Serving serving = serving_type(data, fleet, slot, 0, node, enlarge);
         if (serving.type < 0 || (serving.type != k && serving.cost >= best)) continue;
         const Int last = fleet.trip(slot, 0).last;
-        best = take_cheaper(world, searcher, slot, {0, last - 1}, node, serving, best);
+        best = take_cheaper(data, searcher, slot, {0, last - 1}, node, serving, best);
     }
     return best;
 }

@@ -15,7 +15,7 @@ constexpr Int most_drawn = 16;  // and how many are at most
 // Finds the cheapest stop first or last on routes drawn, where all are lean. As `scan_lean`.
 //
 // Most routes are full, so they are asked for room before their legs.
-double scan_passing_lean(const World& world, const Searcher& searcher, Int node, double best,
+double scan_passing_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
                          bool enlarge);
 
 }  // namespace tandem

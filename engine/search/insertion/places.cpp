@@ -22,34 +22,35 @@ namespace {
 // Tries a customer on the trips and sorties of a route.
 //
 // In place: the move, and the cost of the best so far.
-void try_route(const World& world, const Searcher& searcher, Int slot, Int node, bool enlarge) {
+void try_route(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
+               bool enlarge) {
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Int k = route.type;
-    const VehicleType& type = world.type[k];
-    const bool drives = world.can(k, 0, node), flies = world.can(k, 1, node);
-    const bool simple = is_simple(world, now, slot);
-    if (simple && drives) scan_simple(world, searcher, slot, node, enlarge);
+    const VehicleType& type = data.type[k];
+    const bool drives = data.can(k, 0, node), flies = data.can(k, 1, node);
+    const bool simple = is_simple(data, now, slot);
+    if (simple && drives) scan_simple(data, searcher, slot, node, enlarge);
     if (simple && !flies) return;
     for (Int index = 0; index < route.trips; ++index) {
         const Trip& trip = now.trip(slot, index);
-        if (!may_fit(world, now, slot, index, k, node) ||
-            !goods_may_join(world, now, slot, index, node)) {
+        if (!may_fit(data, now, slot, index, k, node) ||
+            !goods_may_join(data, now, slot, index, node)) {
             continue;
         }
         const Int first = trip.first, last = trip.last;
         if (drives && !simple && allows_stops(type, stops_on(trip) + 1)) {
-            offer_stops(world, searcher, slot, first, last - 1, node);
+            offer_stops(data, searcher, slot, first, last - 1, node);
         }
         if (!flies || !may_launch(type, route, now.sortie[slot], trip)) continue;
-        offer_sorties(world, searcher, slot, first, last - 1, node);
+        offer_sorties(data, searcher, slot, first, last - 1, node);
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
-        const Int soonest = held_until(opening(world.place[0][node], leave), endurance_of(type));
-        if (leave < soonest) offer_sorties(world, searcher, slot, last, last, node);
+        const Int soonest = held_until(opening(data.place[0][node], leave), endurance_of(type));
+        if (leave < soonest) offer_sorties(data, searcher, slot, last, last, node);
     }
-    if (world.visits[k] > 1 && flies) offer_joining(world, searcher, slot, node);
-    take_cheapest(world, searcher, node);
+    if (data.visits[k] > 1 && flies) offer_joining(data, searcher, slot, node);
+    take_cheapest(data, searcher, node);
 }
 
 // Tells whether the best place kept for a customer on a route is still that, or none is.
@@ -81,61 +82,61 @@ void keep(const Searcher& searcher, Int slot, Int node, double before) {
 //
 // Most turns are undone, so that most routes are as when the customer was inserted before. If the
 // best place there is overlooked, so is the route.
-void try_routes(const World& world, const Searcher& searcher, Int node, bool enlarge) {
+void try_routes(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
     const Fleet& now = searcher.now;
     Bound& bound = *searcher.bound;
     for (const bool costly : {false, true}) {
         for (const Int slot : searcher.active.first(searcher.count->active)) {
             const Route& route = now.route[slot];
-            const bool flies = world.can(route.type, 1, node);
-            if (!flies && !world.can(route.type, 0, node)) continue;
-            if (world.deadline.passed()) return;
-            const bool known = world.keeps && !enlarge && route.stamp != changing;
+            const bool flies = data.can(route.type, 1, node);
+            if (!flies && !data.can(route.type, 0, node)) continue;
+            if (data.deadline.passed()) return;
+            const bool known = data.keeps && !enlarge && route.stamp != changing;
             if (known && is_kept(searcher, slot, node)) {
                 if (!costly) take_kept(searcher, slot, node);
                 continue;
             }
-            if (costly != (flies || !is_simple(world, now, slot))) continue;
+            if (costly != (flies || !is_simple(data, now, slot))) continue;
             const double before = bound.best;
-            bound.blink = known ? 0.0 : world.blink;
-            try_route(world, searcher, slot, node, enlarge);
-            bound.blink = world.blink;
+            bound.blink = known ? 0.0 : data.blink;
+            try_route(data, searcher, slot, node, enlarge);
+            bound.blink = data.blink;
             if (known) keep(searcher, slot, node, before);
         }
     }
 }
 
 // Lists a customer behind, and on flights from, the stops beside another, on its trip.
-void offer_beside(const World& world, const Searcher& searcher, Int other, Int node) {
+void offer_beside(const ProblemData& data, const Searcher& searcher, Int other, Int node) {
     const Fleet& now = searcher.now;
     const Int slot = now.where[other].slot, k = now.route[slot].type;
-    const VehicleType& type = world.type[k];
+    const VehicleType& type = data.type[k];
     const Int p = stop_beside(now, other), index = now.stop(slot, p).trip;
     const Trip& trip = now.trip(slot, index);
-    const bool drives = world.can(k, 0, node) && !is_simple(world, now, slot) &&
+    const bool drives = data.can(k, 0, node) && !is_simple(data, now, slot) &&
                         allows_stops(type, stops_on(trip) + 1);
     const bool flies =
-        world.can(k, 1, node) && may_launch(type, now.route[slot], now.sortie[slot], trip);
-    if ((!drives && !flies) || !may_fit(world, now, slot, index, k, node) ||
-        !goods_may_join(world, now, slot, index, node)) {
+        data.can(k, 1, node) && may_launch(type, now.route[slot], now.sortie[slot], trip);
+    if ((!drives && !flies) || !may_fit(data, now, slot, index, k, node) ||
+        !goods_may_join(data, now, slot, index, node)) {
         return;
     }
     const Int first = std::max(p - 1, trip.first);
     // Nobody is served behind the depot.
-    if (drives) offer_stops(world, searcher, slot, first, std::min(p, trip.last - 1), node);
+    if (drives) offer_stops(data, searcher, slot, first, std::min(p, trip.last - 1), node);
     if (!flies) return;
-    offer_sorties(world, searcher, slot, first, p, node);
+    offer_sorties(data, searcher, slot, first, p, node);
 }
 
 }  // namespace
 
-double try_new_route(const World& world, const Searcher& searcher, Int node) {
+double try_new_route(const ProblemData& data, const Searcher& searcher, Int node) {
     double best = infeasible;
-    for (Int k = 0; k < world.num_types; ++k) {
-        if (searcher.now.used[k] >= world.type[k].count) continue;
-        for (Int way = 0; way < (world.loops ? 2 : 1); ++way) {
+    for (Int k = 0; k < data.num_types; ++k) {
+        if (searcher.now.used[k] >= data.type[k].count) continue;
+        for (Int way = 0; way < (data.loops ? 2 : 1); ++way) {
             const double cost = searcher.alone(k, way, node);
-            if (cost < best && uniform(searcher.rng) >= world.blink) {
+            if (cost < best && uniform(searcher.rng) >= data.blink) {
                 best = cost;
                 searcher.move->kind = way == 0 ? new_route : new_flight;
                 searcher.move->type = k;
@@ -145,53 +146,53 @@ double try_new_route(const World& world, const Searcher& searcher, Int node) {
     return best;
 }
 
-double find_place(const World& world, const Searcher& searcher, Int node, bool enlarge) {
-    const double best = try_new_route(world, searcher, node);
-    if (!world.general) return scan_lean(world, searcher, node, best, enlarge);
-    *searcher.bound = {best, world.blink};
-    try_routes(world, searcher, node, enlarge);
+double find_place(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
+    const double best = try_new_route(data, searcher, node);
+    if (!data.general) return scan_lean(data, searcher, node, best, enlarge);
+    *searcher.bound = {best, data.blink};
+    try_routes(data, searcher, node, enlarge);
     return searcher.bound->best;
 }
 
-double find_beside(const World& world, const Searcher& searcher, Int node, bool enlarge) {
-    double best = try_new_route(world, searcher, node);
-    if (!world.general) {
-        best = scan_beside_lean(world, searcher, node, best, enlarge);
-        return scan_passing_lean(world, searcher, node, best, enlarge);
+double find_beside(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
+    double best = try_new_route(data, searcher, node);
+    if (!data.general) {
+        best = scan_beside_lean(data, searcher, node, best, enlarge);
+        return scan_passing_lean(data, searcher, node, best, enlarge);
     }
-    best = scan_beside(world, searcher, node, best, enlarge);
-    *searcher.bound = {best, world.blink};
-    for (const Int other : world.fit[node]) {
+    best = scan_beside(data, searcher, node, best, enlarge);
+    *searcher.bound = {best, data.blink};
+    for (const Int other : data.fit[node]) {
         if (other < 0) break;
-        if (searcher.now.where[other].slot >= 0) offer_beside(world, searcher, other, node);
+        if (searcher.now.where[other].slot >= 0) offer_beside(data, searcher, other, node);
     }
-    take_cheapest(world, searcher, node);
+    take_cheapest(data, searcher, node);
     return searcher.bound->best;
 }
 
 bool opens_route(const Move& move) { return move.kind == new_route || move.kind == new_flight; }
 
-double try_trips(const World& world, const Searcher& searcher, Int node, Int number) {
+double try_trips(const ProblemData& data, const Searcher& searcher, Int node, Int number) {
     const Fleet& now = searcher.now;
     const Int active = searcher.count->active;
     const Int first = number < active ? below(searcher.rng, active) : 0;
     for (Int index = first; index < first + std::min(number, active); ++index) {
         const Int slot = searcher.active[index < active ? index : index - active];
         const Int k = now.route[slot].type;
-        if (now.route[slot].trips >= world.type[k].max_trips || world.deadline.passed() ||
-            !goods_may_follow(world, now, slot, node)) {
+        if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
+            !goods_may_follow(data, now, slot, node)) {
             continue;
         }
-        if (world.can(k, 0, node)) {
-            if (is_apart(world, k)) {
-                offer_trips_apart(world, searcher, slot, node);
+        if (data.can(k, 0, node)) {
+            if (is_apart(data, k)) {
+                offer_trips_apart(data, searcher, slot, node);
             } else {
-                offer_trips(world, searcher, slot, node);
+                offer_trips(data, searcher, slot, node);
             }
         }
-        if (world.can(k, 1, node)) offer_flight_trips(world, searcher, slot, node);
+        if (data.can(k, 1, node)) offer_flight_trips(data, searcher, slot, node);
     }
-    take_cheapest(world, searcher, node);
+    take_cheapest(data, searcher, node);
     return searcher.bound->best;
 }
 

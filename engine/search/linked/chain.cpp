@@ -13,13 +13,13 @@ namespace tandem {
 namespace {
 
 // Who comes behind a customer, or first on a route if `before` is a depot.
-Int onward_of(const World& world, const Linked& linked, const Run& run, Int before) {
-    return before < world.num_depots ? run.first : linked.link[before].behind;
+Int onward_of(const ProblemData& data, const Linked& linked, const Run& run, Int before) {
+    return before < data.num_depots ? run.first : linked.link[before].behind;
 }
 
 // Lets one customer, or the depot, come right behind another, so far away.
-void join(const World& world, Linked& linked, Run& run, Int before, Int behind, Int distance) {
-    if (before >= world.num_depots) {
+void join(const ProblemData& data, Linked& linked, Run& run, Int before, Int behind, Int distance) {
+    if (before >= data.num_depots) {
         Link& here = linked.link[before];
         here.behind = behind;
         here.onward = distance;
@@ -27,7 +27,7 @@ void join(const World& world, Linked& linked, Run& run, Int before, Int behind, 
     } else {
         run.first = behind;
     }
-    if (behind >= world.num_depots) {
+    if (behind >= data.num_depots) {
         Link& here = linked.link[behind];
         here.before = before;
         here.inward = distance;
@@ -37,12 +37,12 @@ void join(const World& world, Linked& linked, Run& run, Int before, Int behind, 
     }
 }
 
-void add_load(const World& world, Run& run, Int node) {
-    write_amount(plus(amount_of(run.load), demand_of(world.place[0][node])), run.load);
+void add_load(const ProblemData& data, Run& run, Int node) {
+    write_amount(plus(amount_of(run.load), demand_of(data.place[0][node])), run.load);
 }
 
-void take_load(const World& world, Run& run, Int node) {
-    write_amount(minus(amount_of(run.load), demand_of(world.place[0][node])), run.load);
+void take_load(const ProblemData& data, Run& run, Int node) {
+    write_amount(minus(amount_of(run.load), demand_of(data.place[0][node])), run.load);
 }
 
 // Notes when a customer is left, and has to be reached, before that changes.
@@ -57,14 +57,14 @@ void note_times(Linked& linked, Int node) {
 }
 
 // Takes the customer inserted last out again. Times stay as they are.
-void untie(const World& world, Searcher& searcher, Linked& linked) {
+void untie(const ProblemData& data, Searcher& searcher, Linked& linked) {
     const Entry& entry = linked.entry[--linked.noted->entries];
     Link& here = linked.link[entry.node];
     const Int slot = here.slot;
     Run& run = linked.run[slot];
-    join(world, linked, run, here.before, here.behind, entry.onward);
-    if (here.behind >= world.num_depots) linked.link[here.behind].gap = entry.gap;
-    take_load(world, run, entry.node);
+    join(data, linked, run, here.before, here.behind, entry.onward);
+    if (here.behind >= data.num_depots) linked.link[here.behind].gap = entry.gap;
+    take_load(data, run, entry.node);
     here.slot = nowhere;
     linked.reach[entry.node] = out_of_reach;
     --run.count;
@@ -73,24 +73,24 @@ void untie(const World& world, Searcher& searcher, Linked& linked) {
 }
 
 // Puts the customers back that were taken out last. Times stay as they are.
-void put_back(const World& world, Searcher& searcher, Linked& linked) {
+void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
     Noted& noted = *linked.noted;
     const Piece& piece = linked.piece[--noted.pieces];
     Run& run = linked.run[piece.slot];
-    if (run.count == 0) open_run(world, searcher, linked, piece.slot, piece.type);
+    if (run.count == 0) open_run(data, searcher, linked, piece.slot, piece.type);
     const Int begin = noted.removed - piece.count;
     for (Int index = begin; index < noted.removed; ++index) {
         const Int node = linked.removed_node[index];
         const Link& here = linked.link[node] = linked.removed[index];
         linked.reach[node] = std::max(here.inward, here.onward);
-        add_load(world, run, node);
+        add_load(data, run, node);
     }
     const Int first = linked.removed_node[begin];
     const Int last = linked.removed_node[noted.removed - 1];
     const Int behind = linked.link[last].behind;
-    join(world, linked, run, linked.link[first].before, first, linked.link[first].inward);
-    join(world, linked, run, last, behind, linked.link[last].onward);
-    if (behind >= world.num_depots) linked.link[behind].gap = piece.gap;
+    join(data, linked, run, linked.link[first].before, first, linked.link[first].inward);
+    join(data, linked, run, last, behind, linked.link[last].onward);
+    if (behind >= data.num_depots) linked.link[behind].gap = piece.gap;
     run.count += piece.count;
     run.distance += piece.saved;
     noted.removed = begin;
@@ -98,9 +98,9 @@ void put_back(const World& world, Searcher& searcher, Linked& linked) {
 
 }  // namespace
 
-void open_run(const World& world, Searcher& searcher, Linked& linked, Int slot, Int k) {
+void open_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot, Int k) {
     Run& run = linked.run[slot];
-    run = {k, world.type[k].ends_at, world.type[k].begins_at, 0, 0, {}};
+    run = {k, data.type[k].ends_at, data.type[k].begins_at, 0, 0, {}};
     ++searcher.now.used[k];
     list_anew(searcher, slot, true);
 }
@@ -110,20 +110,20 @@ void close_run(Searcher& searcher, Linked& linked, Int slot) {
     list_anew(searcher, slot, false);
 }
 
-void tie_in(const World& world, Linked& linked, Int slot, Int before, Int node) {
+void tie_in(const ProblemData& data, Linked& linked, Int slot, Int before, Int node) {
     Run& run = linked.run[slot];
-    const Int behind = onward_of(world, linked, run, before);
-    const Int m = world.type[run.type].travel;
-    const LegRow inward = legs_to(world.back, m, node);
-    const LegRow onward = legs_from(world.leg, m, node);
+    const Int behind = onward_of(data, linked, run, before);
+    const Int m = data.type[run.type].travel;
+    const LegRow inward = legs_to(data.back, m, node);
+    const LegRow onward = legs_from(data.leg, m, node);
     const Int there = distance_from(inward, before);
     const Int on = distance_to(onward, behind);
     Entry& entry = linked.entry[linked.noted->entries++];
     entry = {node, 0, 0};
-    if (behind >= world.num_depots) {
+    if (behind >= data.num_depots) {
         entry.onward = linked.link[behind].inward;
         entry.gap = linked.link[behind].gap;
-    } else if (before >= world.num_depots) {
+    } else if (before >= data.num_depots) {
         entry.onward = linked.link[before].onward;
     }
     Link& here = linked.link[node];
@@ -132,32 +132,32 @@ void tie_in(const World& world, Linked& linked, Int slot, Int before, Int node) 
     here.behind = behind;
     here.inward = there;
     here.onward = on;
-    join(world, linked, run, before, node, there);
-    join(world, linked, run, node, behind, on);
+    join(data, linked, run, before, node, there);
+    join(data, linked, run, node, behind, on);
     if (linked.timed) {
         here.gap = leg_from(inward, before).duration;
-        if (behind >= world.num_depots) linked.link[behind].gap = leg_to(onward, behind).duration;
+        if (behind >= data.num_depots) linked.link[behind].gap = leg_to(onward, behind).duration;
     }
     ++run.count;
     run.distance += there + on - entry.onward;
-    add_load(world, run, node);
+    add_load(data, run, node);
 }
 
-Int connect(const World& world, Linked& linked, Int slot, Int before, Int behind) {
+Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int behind) {
     Run& run = linked.run[slot];
     Int distance = 0;
-    if (before >= world.num_depots || behind >= world.num_depots) {
-        const LegRow onward = legs_from(world.leg, world.type[run.type].travel, before);
+    if (before >= data.num_depots || behind >= data.num_depots) {
+        const LegRow onward = legs_from(data.leg, data.type[run.type].travel, before);
         distance = distance_to(onward, behind);
-        if (linked.timed && behind >= world.num_depots) {
+        if (linked.timed && behind >= data.num_depots) {
             linked.link[behind].gap = leg_to(onward, behind).duration;
         }
     }
-    join(world, linked, run, before, behind, distance);
+    join(data, linked, run, before, behind, distance);
     return distance;
 }
 
-Int cut_out(const World& world, Linked& linked, Int slot, Int first, Int count) {
+Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int count) {
     Noted& noted = *linked.noted;
     Run& run = linked.run[slot];
     Piece& piece = linked.piece[noted.pieces++];
@@ -171,7 +171,7 @@ Int cut_out(const World& world, Linked& linked, Int slot, Int first, Int count) 
         linked.removed_node[noted.removed] = node;
         ++noted.removed;
         saved += here.onward;
-        take_load(world, run, node);
+        take_load(data, run, node);
         here.slot = nowhere;
         linked.reach[node] = out_of_reach;
         node = here.behind;
@@ -179,25 +179,25 @@ Int cut_out(const World& world, Linked& linked, Int slot, Int first, Int count) 
     run.count -= count;
     Int distance = 0;
     if (run.count > 0) {
-        const LegRow onward = legs_from(world.leg, world.type[run.type].travel, before);
+        const LegRow onward = legs_from(data.leg, data.type[run.type].travel, before);
         distance = distance_to(onward, node);
-        if (linked.timed && node >= world.num_depots) {
+        if (linked.timed && node >= data.num_depots) {
             piece.gap = linked.link[node].gap;
             linked.link[node].gap = leg_to(onward, node).duration;
         }
     }
-    join(world, linked, run, before, node, distance);
+    join(data, linked, run, before, node, distance);
     piece.saved = saved - distance;
     run.distance -= piece.saved;
     return piece.saved;
 }
 
-void drive_on(const World& world, Linked& linked, Int slot, Int node, Int number) {
-    if (node < world.num_depots) return;
-    const VehicleType& type = world.type[linked.run[slot].type];
-    const NodesRows places = places_of(world.place, type);
-    Int time = leaves_at(world, linked, type, linked.link[node].before);
-    for (; node >= world.num_depots; --number) {
+void drive_on(const ProblemData& data, Linked& linked, Int slot, Int node, Int number) {
+    if (node < data.num_depots) return;
+    const VehicleType& type = data.type[linked.run[slot].type];
+    const NodesRows places = places_of(data.place, type);
+    Int time = leaves_at(data, linked, type, linked.link[node].before);
+    for (; node >= data.num_depots; --number) {
         Link& here = linked.link[node];
         time = end_of_service(places[node], time + here.gap);
         if (here.leave == time && number <= 0) return;
@@ -207,18 +207,18 @@ void drive_on(const World& world, Linked& linked, Int slot, Int node, Int number
     }
 }
 
-void look_back(const World& world, Linked& linked, Int slot, Int node, Int number) {
-    if (node < world.num_depots) return;
-    const VehicleType& type = world.type[linked.run[slot].type];
-    const NodesRows places = places_of(world.place, type);
+void look_back(const ProblemData& data, Linked& linked, Int slot, Int node, Int number) {
+    if (node < data.num_depots) return;
+    const VehicleType& type = data.type[linked.run[slot].type];
+    const NodesRows places = places_of(data.place, type);
     const Int behind = linked.link[node].behind;
-    Int leave_by = due_at(world, linked, type, behind);
-    if (behind >= world.num_depots) {
+    Int leave_by = due_at(data, linked, type, behind);
+    if (behind >= data.num_depots) {
         leave_by -= linked.link[behind].gap;
     } else {
-        leave_by -= leg(legs_of(world.leg, type.travel), node, behind).duration;
+        leave_by -= leg(legs_of(data.leg, type.travel), node, behind).duration;
     }
-    for (; node >= world.num_depots; --number) {
+    for (; node >= data.num_depots; --number) {
         Link& here = linked.link[node];
         const Int latest = latest_arrival(places[node], leave_by);
         if (here.latest == latest && number <= 0) return;
@@ -229,17 +229,17 @@ void look_back(const World& world, Linked& linked, Int slot, Int node, Int numbe
     }
 }
 
-void retime(const World& world, Linked& linked, Int slot) {
+void retime(const ProblemData& data, Linked& linked, Int slot) {
     const Run& run = linked.run[slot];
-    drive_on(world, linked, slot, run.first, run.count);
-    look_back(world, linked, slot, run.last, run.count);
+    drive_on(data, linked, slot, run.first, run.count);
+    look_back(data, linked, slot, run.last, run.count);
 }
 
-void take_back(const World& world, Searcher& searcher, Linked& linked) {
+void take_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
     Noted& noted = *linked.noted;
     take_types_back(searcher, linked);
-    while (noted.entries > 0) untie(world, searcher, linked);
-    while (noted.pieces > 0) put_back(world, searcher, linked);
+    while (noted.entries > 0) untie(data, searcher, linked);
+    while (noted.pieces > 0) put_back(data, searcher, linked);
     while (noted.moments > 0) {
         const Moment& moment = linked.moment[--noted.moments];
         linked.link[moment.node].leave = moment.leave;
@@ -247,7 +247,7 @@ void take_back(const World& world, Searcher& searcher, Linked& linked) {
     }
     if (noted.over) {
         for (const Int slot : searcher.active.first(searcher.count->active)) {
-            retime(world, linked, slot);
+            retime(data, linked, slot);
         }
         noted.moments = noted.over = 0;
     }

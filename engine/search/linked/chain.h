@@ -7,44 +7,46 @@
 namespace tandem {
 
 // Lets a vehicle of a type drive from a free slot, to nobody as yet.
-void open_run(const World& world, Searcher& searcher, Linked& linked, Int slot, Int k);
+void open_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot, Int k);
 
 // Lets a vehicle that serves nobody stay where it is.
 void close_run(Searcher& searcher, Linked& linked, Int slot);
 
 // Inserts a customer behind another, or first if `before` is a depot, and notes it. Times stay as
 // they are.
-void tie_in(const World& world, Linked& linked, Int slot, Int before, Int node);
+void tie_in(const ProblemData& data, Linked& linked, Int slot, Int before, Int node);
 
 // Lets one customer, or the depot, come right behind another on a route; returns how far that is.
-Int connect(const World& world, Linked& linked, Int slot, Int before, Int behind);
+Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int behind);
 
 // Takes customers in a row out of a route, and notes them; returns what that saves. Times stay as
 // they are.
-Int cut_out(const World& world, Linked& linked, Int slot, Int first, Int count);
+Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int count);
 
 // When a vehicle of a type leaves a customer, or where it begins if that is a depot.
-inline Int leaves_at(const World& world, const Linked& linked, const VehicleType& type, Int node) {
-    if (node >= world.num_depots) return linked.link[node].leave;
+inline Int leaves_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
+                     Int node) {
+    if (node >= data.num_depots) return linked.link[node].leave;
     return leaves_first(type, type.shift_earliest);
 }
 
 // When a vehicle of a type has to come to a customer, or home, at the latest.
-inline Int due_at(const World& world, const Linked& linked, const VehicleType& type, Int node) {
-    return node >= world.num_depots ? linked.link[node].latest : type.shift_latest;
+inline Int due_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
+                  Int node) {
+    return node >= data.num_depots ? linked.link[node].latest : type.shift_latest;
 }
 
 // Brings departures from a customer on up to date, of so many even if none changes.
-void drive_on(const World& world, Linked& linked, Int slot, Int node, Int number);
+void drive_on(const ProblemData& data, Linked& linked, Int slot, Int node, Int number);
 
 // Brings latest arrivals from a customer back up to date. As `drive_on`.
-void look_back(const World& world, Linked& linked, Int slot, Int node, Int number);
+void look_back(const ProblemData& data, Linked& linked, Int slot, Int node, Int number);
 
 // Writes all times of a route.
-void retime(const World& world, Linked& linked, Int slot);
+void retime(const ProblemData& data, Linked& linked, Int slot);
 
 // Lets all be as it was before this turn.
-void take_back(const World& world, Searcher& searcher, Linked& linked);
+void take_back(const ProblemData& data, Searcher& searcher, Linked& linked);
 
 // Lets nothing be noted.
 void forget(Linked& linked);

@@ -35,9 +35,9 @@ struct Newcomer {
     bool same_back;  // legs are as far there as back
 };
 
-Newcomer newcomer_at(const World& world, Int m, Int node, bool enlarge) {
-    const LegRow inward = legs_to(world.back, m, node);
-    const LegRow onward = legs_from(world.leg, m, node);
+Newcomer newcomer_at(const ProblemData& data, Int m, Int node, bool enlarge) {
+    const LegRow inward = legs_to(data.back, m, node);
+    const LegRow onward = legs_from(data.leg, m, node);
     return {node, inward, onward, enlarge, are_same(inward, onward)};
 }
 
@@ -46,13 +46,13 @@ Newcomer newcomer_at(const World& world, Int m, Int node, bool enlarge) {
 class Room {
 public:
     // `enlarge` tells that a route may be given a larger type.
-    Room(const World& world, Int node, bool enlarge) : world_(world), node_(node) {
-        if (enlarge || world.num_types > most_known) {
+    Room(const ProblemData& data, Int node, bool enlarge) : data_(data), node_(node) {
+        if (enlarge || data.num_types > most_known) {
             same_for_all_ = most_known;
-        } else if (world.num_types == 1) {
+        } else if (data.num_types == 1) {
             same_for_all_ = 0;
         }
-        const Int count = std::min(world.num_types, most_known);
+        const Int count = std::min(data.num_types, most_known);
         for (Int k = 0; k < count; ++k) most_[std::size_t(k)] = most(k);
         most_[most_known] = {far, far, far};
     }
@@ -75,11 +75,11 @@ private:
     static constexpr Int most_known = 8;
 
     Amount most(Int k) const {
-        if (!world_.can(k, 0, node_)) return {-1, -1, -1};
-        return minus(capacity_of(world_.type[k]), demand_of(world_.place[0][node_]));
+        if (!data_.can(k, 0, node_)) return {-1, -1, -1};
+        return minus(capacity_of(data_.type[k]), demand_of(data_.place[0][node_]));
     }
 
-    const World& world_;
+    const ProblemData& data_;
     const Int node_;
     Int same_for_all_ = nowhere;  // what is the most for all types, by number
     std::array<Amount, most_known + 1> most_;
@@ -104,13 +104,13 @@ struct Gap {
 // Looks for the cheapest place for one customer, and writes it to `searcher.move`.
 class Places {
 public:
-    Places(const World& world, Searcher& searcher, const Linked& linked, const Newcomer& newcomer,
-           double best)
-        : world_(world),
+    Places(const ProblemData& data, Searcher& searcher, const Linked& linked,
+           const Newcomer& newcomer, double best)
+        : data_(data),
           searcher_(searcher),
           linked_(linked),
           newcomer_(newcomer),
-          room_(world, newcomer.node, newcomer.enlarge),
+          room_(data, newcomer.node, newcomer.enlarge),
           best_(best) {
         set_longest_detour();
     }
@@ -161,7 +161,7 @@ public:
     // Tries a customer on all routes with room.
     void try_everywhere() {
         for (const Int slot : searcher_.active.first(searcher_.count->active)) {
-            if (world_.deadline.passed()) break;
+            if (data_.deadline.passed()) break;
             Joining joins;
             if (!may_join(slot, joins)) continue;
             try_ends(joins);
@@ -186,8 +186,8 @@ private:
 
     // How many neighbours are listed.
     Int num_listed() const {
-        Int size = world_.fit.shape(1);
-        while (size > 0 && world_.fit(newcomer_.node, size - 1) < 0) --size;
+        Int size = data_.fit.shape(1);
+        while (size > 0 && data_.fit(newcomer_.node, size - 1) < 0) --size;
         return size;
     }
 
@@ -203,7 +203,7 @@ private:
     // Lists neighbours, of those by rank from `first` to `behind`, whose places may be the best
     // yet, and whose routes may be joined; returns how many.
     std::size_t choose(Int first, Int behind, std::array<Neighbour, at_once>& chosen) const {
-        const std::int32_t* const others = &world_.fit(newcomer_.node, 0);
+        const std::int32_t* const others = &data_.fit(newcomer_.node, 0);
         const std::int32_t* const near = &linked_.near(newcomer_.node, 0);
         const Link* const link = linked_.link.data();
         const Int* const reach = linked_.reach.data();
@@ -260,7 +260,7 @@ private:
     bool may_join(Int slot, Joining& joins) const {
         const Run& run = linked_.run[slot];
         if (room_.is_on(run)) {
-            const Rate& rate = world_.rate[run.type];
+            const Rate& rate = data_.rate[run.type];
             joins = {slot, run.type, rate.distance, rate.stop};
             return true;
         }
@@ -269,22 +269,22 @@ private:
 
     [[gnu::noinline]] bool may_join_enlarged(Int slot, Joining& joins) const {
         const Run& run = linked_.run[slot];
-        const Int by = larger_for(world_, searcher_, run, newcomer_.node);
+        const Int by = larger_for(data_, searcher_, run, newcomer_.node);
         if (by < 0) return false;
-        const Rate& rate = world_.rate[by];
-        const double more = cost_of_run(world_, by, run) - cost_of_run(world_, run.type, run);
+        const Rate& rate = data_.rate[by];
+        const double more = cost_of_run(data_, by, run) - cost_of_run(data_, run.type, run);
         joins = {slot, by, rate.distance, more + rate.stop};
         return true;
     }
 
     // Whether a customer may come between two by what windows, and the shift, allow.
     bool keeps_windows(const VehicleType& type, const Gap& gap) const {
-        const Int arrival = leaves_at(world_, linked_, type, gap.before) +
+        const Int arrival = leaves_at(data_, linked_, type, gap.before) +
                             leg_from(newcomer_.inward, gap.before).duration;
-        const NodeRows place = places_of(world_.place, type)[newcomer_.node];
+        const NodeRows place = places_of(data_.place, type)[newcomer_.node];
         if (too_late(place, arrival)) return false;
         return end_of_service(place, arrival) + leg_to(newcomer_.onward, gap.behind).duration <=
-               due_at(world_, linked_, type, gap.behind);
+               due_at(data_, linked_, type, gap.behind);
     }
 
     // Tries a customer between two.
@@ -295,8 +295,8 @@ private:
 
     // Takes a place between two for the best if it may be there and isn't overlooked.
     void take(const Joining& joins, const Gap& gap, double cost) {
-        if (linked_.timed && !keeps_windows(world_.type[joins.type], gap)) return;
-        if (uniform(searcher_.rng) < world_.blink) return;
+        if (linked_.timed && !keeps_windows(data_.type[joins.type], gap)) return;
+        if (uniform(searcher_.rng) < data_.blink) return;
         Move& move = *searcher_.move;
         move.kind = at_stop;
         move.slot = joins.slot;
@@ -309,14 +309,14 @@ private:
     // Tries a customer first and last on a route.
     void try_ends(const Joining& joins) {
         const Run& run = linked_.run[joins.slot];
-        const VehicleType& type = world_.type[run.type];
+        const VehicleType& type = data_.type[run.type];
         const Link& first = linked_.link[run.first];
         const Link& last = linked_.link[run.last];
         try_between(joins, between(type.begins_at, run.first, first.inward));
         try_between(joins, between(run.last, type.ends_at, last.onward));
     }
 
-    const World& world_;
+    const ProblemData& data_;
     Searcher& searcher_;
     const Linked& linked_;
     const Newcomer& newcomer_;
@@ -326,31 +326,31 @@ private:
 };
 
 // Inserts a customer where `searcher.move` says. False if no slot is free.
-bool insert_linked(const World& world, Searcher& searcher, Linked& linked, Int node) {
+bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int node) {
     const Move& move = *searcher.move;
     Int slot = move.slot;
     Int before = move.first;
     if (opens_route(move)) {
-        slot = free_slot(world, searcher, move.type);
+        slot = free_slot(data, searcher, move.type);
         if (slot < 0) return false;
-        before = world.type[move.type].begins_at;
-        open_run(world, searcher, linked, slot, move.type);
+        before = data.type[move.type].begins_at;
+        open_run(data, searcher, linked, slot, move.type);
     } else if (move.type != linked.run[slot].type) {
         give_run(searcher, linked, slot, move.type);
     }
-    tie_in(world, linked, slot, before, node);
+    tie_in(data, linked, slot, before, node);
     if (linked.timed) {
-        drive_on(world, linked, slot, node, 2);
-        look_back(world, linked, slot, node, 2);
+        drive_on(data, linked, slot, node, 2);
+        look_back(data, linked, slot, node, 2);
     }
     return true;
 }
 
 // Finds the cheapest place for a customer, a route of his own alone if he has to open one; returns
 // what it costs.
-double find_linked(const World& world, Searcher& searcher, const Linked& linked,
+double find_linked(const ProblemData& data, Searcher& searcher, const Linked& linked,
                    const Newcomer& newcomer, bool opens) {
-    Places places(world, searcher, linked, newcomer, try_new_route(world, searcher, newcomer.node));
+    Places places(data, searcher, linked, newcomer, try_new_route(data, searcher, newcomer.node));
     if (!opens) {
         places.try_beside();
         places.try_passing();
@@ -361,23 +361,23 @@ double find_linked(const World& world, Searcher& searcher, const Linked& linked,
 
 }  // namespace
 
-Recreated recreate_linked(const World& world, Searcher& searcher, Linked& linked, Int first,
+Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
                           double spare) {
     const View<Int, 1> absent = searcher.absent;
-    const Int m = world.type[0].travel;  // that of all types, looked up once for each customer
+    const Int m = data.type[0].travel;  // that of all types, looked up once for each customer
     const bool opening = uniform(searcher.rng) < opening_share;
-    const bool enlarge = world.traded && uniform(searcher.rng) < enlarged;
+    const bool enlarge = data.traded && uniform(searcher.rng) < enlarged;
     double total = 0.0;
     Int left = first;
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
-        if (world.deadline.passed()) return {false, total};
-        const Newcomer newcomer = newcomer_at(world, m, node, enlarge);
+        if (data.deadline.passed()) return {false, total};
+        const Newcomer newcomer = newcomer_at(data, m, node, enlarge);
         const bool opens = opening && index == first;
-        const double cost = find_linked(world, searcher, linked, newcomer, opens);
-        const double left_out = world.unassigned_cost + world.unassigned_more[node];
+        const double cost = find_linked(data, searcher, linked, newcomer, opens);
+        const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = cost < left_out || opens;
-        if (cost != infeasible && wanted && insert_linked(world, searcher, linked, node)) {
+        if (cost != infeasible && wanted && insert_linked(data, searcher, linked, node)) {
             total += cost;
         } else {
             absent[left++] = node;

@@ -12,7 +12,7 @@ struct Recreated {
 };
 
 // Inserts the absent customers from number `first` on, each where it costs least. As `recreate`.
-Recreated recreate_linked(const World& world, Searcher& searcher, Linked& linked, Int first,
+Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
                           double spare);
 
 }  // namespace tandem

@@ -18,12 +18,12 @@ constexpr Int most_traded = 64;
 constexpr double least_saved = 1e-9;
 
 // Whether there is a vehicle of a type that nobody drives.
-bool is_left(const World& world, const Searcher& searcher, Int k) {
-    return searcher.now.used[k] < world.type[k].count;
+bool is_left(const ProblemData& data, const Searcher& searcher, Int k) {
+    return searcher.now.used[k] < data.type[k].count;
 }
 
 // Swaps vehicles with other routes where that is cheaper; returns the saving.
-double trade_run(const World& world, Searcher& searcher, Linked& linked, Int slot) {
+double trade_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot) {
     const Run& run = linked.run[slot];
     const Int number = searcher.count->active;
     const Int begin = below(searcher.rng, number);
@@ -33,11 +33,11 @@ double trade_run(const World& world, Searcher& searcher, Linked& linked, Int slo
         const Run& other = linked.run[another];
         const Int k = run.type;
         const Int by = other.type;
-        if (!world.swap(k, by)) continue;
-        const double spared = cost_of_run(world, k, run) + cost_of_run(world, by, other) -
-                              cost_of_run(world, by, run) - cost_of_run(world, k, other);
-        if (spared > least_saved && holds(world.type[by], amount_of(run.load)) &&
-            holds(world.type[k], amount_of(other.load))) {
+        if (!data.swap(k, by)) continue;
+        const double spared = cost_of_run(data, k, run) + cost_of_run(data, by, other) -
+                              cost_of_run(data, by, run) - cost_of_run(data, k, other);
+        if (spared > least_saved && holds(data.type[by], amount_of(run.load)) &&
+            holds(data.type[k], amount_of(other.load))) {
             give_run(searcher, linked, slot, by);
             give_run(searcher, linked, another, k);
             saved += spared;
@@ -59,15 +59,15 @@ void give_run(Searcher& searcher, Linked& linked, Int slot, Int k) {
     run.type = k;
 }
 
-Int larger_for(const World& world, const Searcher& searcher, const Run& run, Int node) {
+Int larger_for(const ProblemData& data, const Searcher& searcher, const Run& run, Int node) {
     Int chosen = nowhere;
     double best = std::numeric_limits<double>::infinity();
-    for (Int k = 0; k < world.num_types; ++k) {
-        if (!world.swap(run.type, k) || !world.can(k, 0, node) || !is_left(world, searcher, k)) {
+    for (Int k = 0; k < data.num_types; ++k) {
+        if (!data.swap(run.type, k) || !data.can(k, 0, node) || !is_left(data, searcher, k)) {
             continue;
         }
-        const double cost = cost_of_run(world, k, run) + world.rate[k].stop;
-        if (cost < best && fits(world.type[k], amount_of(run.load), world.place[0][node])) {
+        const double cost = cost_of_run(data, k, run) + data.rate[k].stop;
+        if (cost < best && fits(data.type[k], amount_of(run.load), data.place[0][node])) {
             chosen = k;
             best = cost;
         }
@@ -75,29 +75,29 @@ Int larger_for(const World& world, const Searcher& searcher, const Run& run, Int
     return chosen;
 }
 
-double cheapen_run(const World& world, Searcher& searcher, Linked& linked, Int slot) {
+double cheapen_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot) {
     const Run& run = linked.run[slot];
     if (run.count == 0) return 0.0;
     double saved = 0.0;
-    for (Int k = 0; k < world.num_types; ++k) {
-        if (!world.swap(run.type, k) || !is_left(world, searcher, k)) continue;
-        const double spared = cost_of_run(world, run.type, run) - cost_of_run(world, k, run);
-        if (spared > least_saved && holds(world.type[k], amount_of(run.load))) {
+    for (Int k = 0; k < data.num_types; ++k) {
+        if (!data.swap(run.type, k) || !is_left(data, searcher, k)) continue;
+        const double spared = cost_of_run(data, run.type, run) - cost_of_run(data, k, run);
+        if (spared > least_saved && holds(data.type[k], amount_of(run.load))) {
             give_run(searcher, linked, slot, k);
             saved += spared;
         }
     }
-    return saved + trade_run(world, searcher, linked, slot);
+    return saved + trade_run(data, searcher, linked, slot);
 }
 
-double cheapen_runs(const World& world, Searcher& searcher, Linked& linked) {
+double cheapen_runs(const ProblemData& data, Searcher& searcher, Linked& linked) {
     const Noted& noted = *linked.noted;
     double saved = 0.0;
     for (const Piece& piece : linked.piece.first(noted.pieces)) {
-        saved += cheapen_run(world, searcher, linked, piece.slot);
+        saved += cheapen_run(data, searcher, linked, piece.slot);
     }
     for (const Entry& entry : linked.entry.first(noted.entries)) {
-        saved += cheapen_run(world, searcher, linked, linked.link[entry.node].slot);
+        saved += cheapen_run(data, searcher, linked, linked.link[entry.node].slot);
     }
     return saved;
 }

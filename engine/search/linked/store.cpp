@@ -18,30 +18,30 @@ namespace {
 // Routes as linked stops, where a turn notes what it has changed.
 class LinkedStore {
 public:
-    LinkedStore(const World& world, Searcher& searcher, Linked& linked)
-        : world_(world), searcher_(searcher), linked_(linked) {}
+    LinkedStore(const ProblemData& data, Searcher& searcher, Linked& linked)
+        : data_(data), searcher_(searcher), linked_(linked) {}
 
     void ruin(Int first) {
         const Int before = searcher_.count->absent;
-        const auto [saved, seed] = ruin_linked(world_, searcher_, linked_);
-        if (first > 0) try_near(world_, searcher_, seed, first, before);
+        const auto [saved, seed] = ruin_linked(data_, searcher_, linked_);
+        if (first > 0) try_near(data_, searcher_, seed, first, before);
         saved_ = saved;
         added_ = 0.0;
     }
 
     bool recreate(Int first, double spare) {
-        const auto [done, added] = recreate_linked(world_, searcher_, linked_, first, spare);
+        const auto [done, added] = recreate_linked(data_, searcher_, linked_, first, spare);
         added_ = added;
         return done;
     }
 
-    void retype() { added_ -= cheapen_runs(world_, searcher_, linked_); }
+    void retype() { added_ -= cheapen_runs(data_, searcher_, linked_); }
 
     Int parts() const { return 1; }
 
     // Swaps tails of routes, which is not taken back.
     bool move_part(Int, double rise) {
-        swapped_ = exchange_tails_linked(world_, searcher_, linked_, rise);
+        swapped_ = two_opt_star_linked(data_, searcher_, linked_, rise);
         if (swapped_.slot < 0) return false;
         saved_ = 0.0;
         added_ = swapped_.cost;
@@ -54,8 +54,8 @@ public:
     }
 
     void trade() {
-        const double saved = cheapen_run(world_, searcher_, linked_, swapped_.slot);
-        added_ -= saved + cheapen_run(world_, searcher_, linked_, swapped_.other);
+        const double saved = cheapen_run(data_, searcher_, linked_, swapped_.slot);
+        added_ -= saved + cheapen_run(data_, searcher_, linked_, swapped_.other);
     }
 
     // Tails are swapped, and vehicles with others, where that is worth it alone.
@@ -86,7 +86,7 @@ public:
         keep_totals(searcher_);
     }
 
-    void take_back() { tandem::take_back(world_, searcher_, linked_); }
+    void take_back() { tandem::take_back(data_, searcher_, linked_); }
 
 private:
     // Lists the routes of this turn as changed since the best, and notes nothing more.
@@ -115,7 +115,7 @@ private:
         }
     }
 
-    const World& world_;
+    const ProblemData& data_;
     Searcher& searcher_;
     Linked& linked_;
     double saved_ = 0.0;
@@ -125,20 +125,21 @@ private:
 
 }  // namespace
 
-void anneal_linked(const World& world, Searcher& searcher, Linked& linked, Int turns) {
-    LinkedStore routes(world, searcher, linked);
-    anneal(world, searcher, routes, turns);
+void anneal_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int turns) {
+    LinkedStore routes(data, searcher, linked);
+    anneal(data, searcher, routes, turns);
 }
 
 }  // namespace tandem
 
 using namespace tandem;
 
-extern "C" int tandem_anneal_linked(const tandem_world* world, const tandem_searcher* searcher,
-                                    const tandem_linked* linked, int64_t turns) {
+extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
+                                    const tandem_searcher* searcher, const tandem_linked* linked,
+                                    int64_t turns) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
-        anneal_linked(world_of(*world), searching, routes, turns);
+        anneal_linked(data_of(*data), searching, routes, turns);
     });
 }

@@ -6,6 +6,6 @@
 namespace tandem {
 
 // Ruins and recreates `turns` times, as `search/anneal` says.
-void anneal_linked(const World& world, Searcher& searcher, Linked& linked, Int turns);
+void anneal_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int turns);
 
 }  // namespace tandem

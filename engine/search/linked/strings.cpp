@@ -15,18 +15,18 @@ namespace {
 constexpr Int most_removed = 512;
 
 // Where a string of so many customers begins, drawn from all with a customer in it.
-Int first_of_string(const World& world, const Searcher& searcher, const Linked& linked,
+Int first_of_string(const ProblemData& data, const Searcher& searcher, const Linked& linked,
                     Int customer, Int span) {
     const View<Link, 1> link = linked.link;
     Int first = customer;
     Int before = 0;
-    while (before < span - 1 && link[first].before >= world.num_depots) {
+    while (before < span - 1 && link[first].before >= data.num_depots) {
         first = link[first].before;
         ++before;
     }
     Int last = customer;
     Int behind = 0;
-    while (behind < span - 1 && link[last].behind >= world.num_depots) {
+    while (behind < span - 1 && link[last].behind >= data.num_depots) {
         last = link[last].behind;
         ++behind;
     }
@@ -57,27 +57,27 @@ Cut draw_cut(View<std::uint64_t, 1> rng, Int stops, double longest) {
 }
 
 // Takes out a string around a customer, or all but some within; returns the saving.
-double cut_string(const World& world, Searcher& searcher, Linked& linked, Int customer,
+double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, Int customer,
                   double longest) {
     const View<Link, 1> link = linked.link;
     const Int slot = link[customer].slot;
     const Run& run = linked.run[slot];
-    const Rate& rate = world.rate[run.type];
+    const Rate& rate = data.rate[run.type];
     const auto [size, spared] = draw_cut(searcher.rng, run.count, longest);
-    const Int first = first_of_string(world, searcher, linked, customer, size + spared);
+    const Int first = first_of_string(data, searcher, linked, customer, size + spared);
     const Int gap = spared > 0 ? 1 + below(searcher.rng, size - 1) : size;
     const Int before = link[first].before;
-    Int saved = cut_out(world, linked, slot, first, gap);
-    const Int first_left = before < world.num_depots ? run.first : link[before].behind;
+    Int saved = cut_out(data, linked, slot, first, gap);
+    const Int first_left = before < data.num_depots ? run.first : link[before].behind;
     Int last_left = before;
     if (spared > 0) {
         last_left = first_left;
         for (Int number = 1; number < spared; ++number) last_left = link[last_left].behind;
-        saved += cut_out(world, linked, slot, link[last_left].behind, size - gap);
+        saved += cut_out(data, linked, slot, link[last_left].behind, size - gap);
     }
     if (linked.timed && run.count > 0) {
-        drive_on(world, linked, slot, first_left, spared + 1);
-        look_back(world, linked, slot, last_left, spared + 1);
+        drive_on(data, linked, slot, first_left, spared + 1);
+        look_back(data, linked, slot, last_left, spared + 1);
     }
     double cost = double(saved) * rate.distance + double(size) * rate.stop;
     if (run.count == 0) {
@@ -89,11 +89,11 @@ double cut_string(const World& world, Searcher& searcher, Linked& linked, Int cu
 
 }  // namespace
 
-Ruined ruin_linked(const World& world, Searcher& searcher, Linked& linked) {
+Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) {
     SearchCounts& count = *searcher.count;
     const double longest = longest_string(searcher);
     Int strings = draw_strings(longest, searcher.rng);
-    Int seed = draw_customer(world, searcher.now, count.focus, searcher.rng);
+    Int seed = draw_customer(data, searcher.now, count.focus, searcher.rng);
     if (count.absent > 0 && uniform(searcher.rng) < make_room_share) {
         seed = searcher.absent[below(searcher.rng, count.absent)];
     }
@@ -104,11 +104,11 @@ Ruined ruin_linked(const World& world, Searcher& searcher, Linked& linked) {
         const Int slot = linked.link[customer].slot;
         if (slot >= 0 && linked.hit[slot] != count.turn) {
             linked.hit[slot] = count.turn;
-            saved += cut_string(world, searcher, linked, customer, longest);
+            saved += cut_string(data, searcher, linked, customer, longest);
             --strings;
         }
         ++rank;
-        customer = rank < world.near.shape(1) ? world.near(seed, rank) : nowhere;
+        customer = rank < data.near.shape(1) ? data.near(seed, rank) : nowhere;
     }
     for (const Int node : linked.removed_node.first(linked.noted->removed)) {
         searcher.absent[count.absent++] = node;

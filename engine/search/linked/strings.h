@@ -12,6 +12,6 @@ struct Ruined {
 };
 
 // Removes strings of customers near each other; they are absent then.
-Ruined ruin_linked(const World& world, Searcher& searcher, Linked& linked);
+Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked);
 
 }  // namespace tandem

@@ -15,37 +15,37 @@ namespace tandem {
 namespace {
 
 // Whether type `k` may serve a customer and all who come behind.
-bool may_serve(const World& world, const Linked& linked, Int k, Int node) {
-    for (; node >= world.num_depots; node = linked.link[node].behind) {
-        if (!world.can(k, 0, node)) return false;
+bool may_serve(const ProblemData& data, const Linked& linked, Int k, Int node) {
+    for (; node >= data.num_depots; node = linked.link[node].behind) {
+        if (!data.can(k, 0, node)) return false;
     }
     return true;
 }
 
 // Whether `other` may come behind a customer, who now does behind `before`: on routes of one type
 // `k`, so that all are to be reached as late as now.
-bool come_in_time(const World& world, const Linked& linked, Int k, Int node, Int before,
+bool come_in_time(const ProblemData& data, const Linked& linked, Int k, Int node, Int before,
                   Int other) {
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int after = linked.link[node].behind;
     if (linked.link[node].leave + leg(legs, node, other).duration >
-        due_at(world, linked, type, other)) {
+        due_at(data, linked, type, other)) {
         return false;
     }
-    if (before < world.num_depots && after < world.num_depots) return true;
-    return leaves_at(world, linked, type, before) + leg(legs, before, after).duration <=
-           due_at(world, linked, type, after);
+    if (before < data.num_depots && after < data.num_depots) return true;
+    return leaves_at(data, linked, type, before) + leg(legs, before, after).duration <=
+           due_at(data, linked, type, after);
 }
 
 // Whether a vehicle of type `k` may drive from a stop to a customer and all behind; `node` is a
 // depot if there are none.
-bool drives_in_time(const World& world, const Linked& linked, Int k, Int before, Int node) {
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
-    const NodesRows places = places_of(world.place, type);
-    Int time = leaves_at(world, linked, type, before);
-    while (node >= world.num_depots) {
+bool drives_in_time(const ProblemData& data, const Linked& linked, Int k, Int before, Int node) {
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
+    const NodesRows places = places_of(data.place, type);
+    Int time = leaves_at(data, linked, type, before);
+    while (node >= data.num_depots) {
         time += leg(legs, before, node).duration;
         if (too_late(places[node], time)) return false;
         time = end_of_service(places[node], time);
@@ -56,10 +56,10 @@ bool drives_in_time(const World& world, const Linked& linked, Int k, Int before,
 }
 
 // How much longer a route's last leg is to where routes of type `k` end.
-Int longer_home(const World& world, const Linked& linked, Int slot, Int k) {
+Int longer_home(const ProblemData& data, const Linked& linked, Int slot, Int k) {
     const Int last = linked.run[slot].last;
-    const LegRow onward = legs_from(world.leg, world.type[k].travel, last);
-    return distance_to(onward, world.type[k].ends_at) - linked.link[last].onward;
+    const LegRow onward = legs_from(data.leg, data.type[k].travel, last);
+    return distance_to(onward, data.type[k].ends_at) - linked.link[last].onward;
 }
 
 // How far a route is driven from a customer on, and how many there are from there on.
@@ -68,9 +68,9 @@ struct Rest {
     Int customers;
 };
 
-Rest tail_from(const World& world, const Linked& linked, Int node) {
+Rest tail_from(const ProblemData& data, const Linked& linked, Int node) {
     Rest rest{0, 0};
-    for (; node >= world.num_depots; node = linked.link[node].behind) {
+    for (; node >= data.num_depots; node = linked.link[node].behind) {
         rest.distance += linked.link[node].onward;
         ++rest.customers;
     }
@@ -85,7 +85,7 @@ struct Cutting {
 };
 
 // What it costs to swap the tails behind a customer and before another.
-double cost_of_swap(const World& world, const Linked& linked, const Cutting& cut, Int other) {
+double cost_of_swap(const ProblemData& data, const Linked& linked, const Cutting& cut, Int other) {
     const View<Link, 1> link = linked.link;
     const Int after = link[cut.node].behind;
     const Int a = link[cut.node].slot;
@@ -93,28 +93,28 @@ double cost_of_swap(const World& world, const Linked& linked, const Cutting& cut
     const Int before = link[other].before;
     const Int k = linked.run[a].type;
     const Int by = linked.run[b].type;
-    const Rate& rate = world.rate[k];
-    const Rate& rate_by = world.rate[by];
+    const Rate& rate = data.rate[k];
+    const Rate& rate_by = data.rate[by];
     Int more = distance_to(cut.here, other) - link[cut.node].onward;
     Int more_by = -link[other].inward;
-    if (world.type[by].ends_at != world.type[k].ends_at) {
-        more += longer_home(world, linked, b, k);
-        if (after >= world.num_depots) more_by += longer_home(world, linked, a, by);
+    if (data.type[by].ends_at != data.type[k].ends_at) {
+        more += longer_home(data, linked, b, k);
+        if (after >= data.num_depots) more_by += longer_home(data, linked, a, by);
     }
-    if (after >= world.num_depots) {
+    if (after >= data.num_depots) {
         more_by += distance_from(cut.to_after, before);
-    } else if (before >= world.num_depots) {
-        const LegRow onward = legs_from(world.leg, world.type[by].travel, before);
-        more_by += distance_to(onward, world.type[by].ends_at);
+    } else if (before >= data.num_depots) {
+        const LegRow onward = legs_from(data.leg, data.type[by].travel, before);
+        more_by += distance_to(onward, data.type[by].ends_at);
     }
     double cost = double(more) * rate.distance + double(more_by) * rate_by.distance;
     if (rate.distance != rate_by.distance || rate.stop != rate_by.stop) {
-        const Rest tail = tail_from(world, linked, after);
-        const Rest other_tail = tail_from(world, linked, other);
+        const Rest tail = tail_from(data, linked, after);
+        const Rest other_tail = tail_from(data, linked, other);
         cost += double(other_tail.distance - tail.distance) * (rate.distance - rate_by.distance) +
                 double(other_tail.customers - tail.customers) * (rate.stop - rate_by.stop);
     }
-    if (after < world.num_depots && before < world.num_depots) cost -= rate_by.fixed;
+    if (after < data.num_depots && before < data.num_depots) cost -= rate_by.fixed;
     return cost;
 }
 
@@ -127,42 +127,41 @@ struct Tail {
 
 // Finds the tail that is best swapped with that behind a customer, for less than `limit`; an empty
 // slot, led by the end of its route, for a new one.
-Tail find_tail_linked(const World& world, const Searcher& searcher, const Linked& linked, Int node,
-                      double limit) {
+Tail find_tail_linked(const ProblemData& data, const Searcher& searcher, const Linked& linked,
+                      Int node, double limit) {
     const View<Link, 1> link = linked.link;
     const Int a = link[node].slot;
     const Int after = link[node].behind;
     const Int k = linked.run[a].type;
-    const VehicleType& type = world.type[k];
-    const Cutting cut{node, legs_from(world.leg, type.travel, node),
-                      legs_to(world.back, type.travel, after)};
+    const VehicleType& type = data.type[k];
+    const Cutting cut{node, legs_from(data.leg, type.travel, node),
+                      legs_to(data.back, type.travel, after)};
     Tail best{nowhere, nowhere, limit};
-    const Int ranks = std::min(tail_neighbours, world.near.shape(1));
+    const Int ranks = std::min(tail_neighbours, data.near.shape(1));
     for (Int rank = 0; rank < ranks; ++rank) {
-        const Int other = world.near(node, rank);
+        const Int other = data.near(node, rank);
         if (other < 0) break;
         const Int b = link[other].slot;
         if (b < 0 || b == a) continue;
         const Int by = linked.run[b].type;
-        if (by != k && !world.splice(k, by)) continue;
-        const double cost = cost_of_swap(world, linked, cut, other);
+        if (by != k && !data.splice(k, by)) continue;
+        const double cost = cost_of_swap(data, linked, cut, other);
         if (cost >= best.cost) continue;
-        if (by != k &&
-            !(may_serve(world, linked, k, other) && may_serve(world, linked, by, after))) {
+        if (by != k && !(may_serve(data, linked, k, other) && may_serve(data, linked, by, after))) {
             continue;
         }
         if (by != k || !linked.timed ||
-            come_in_time(world, linked, k, node, link[other].before, other)) {
+            come_in_time(data, linked, k, node, link[other].before, other)) {
             best = {b, other, cost};
         }
     }
-    if (after >= world.num_depots) {
+    if (after >= data.num_depots) {
         const Int detour = distance_to(cut.here, type.ends_at) - link[node].onward +
                            distance_from(cut.to_after, type.begins_at);
-        const double cost = world.rate[k].fixed + double(detour) * world.rate[k].distance;
-        const Int slot = free_slot(world, searcher, k);
+        const double cost = data.rate[k].fixed + double(detour) * data.rate[k].distance;
+        const Int slot = free_slot(data, searcher, k);
         if (slot >= 0 && cost < best.cost &&
-            (!linked.timed || come_in_time(world, linked, k, node, type.begins_at, type.ends_at))) {
+            (!linked.timed || come_in_time(data, linked, k, node, type.begins_at, type.ends_at))) {
             return {slot, type.ends_at, cost};
         }
     }
@@ -177,10 +176,10 @@ struct Stretch {
 };
 
 // The part of a route up to a customer, none if that is a depot.
-Stretch head_until(const World& world, const Linked& linked, Int node) {
+Stretch head_until(const ProblemData& data, const Linked& linked, Int node) {
     Stretch head{nothing, 0, 0};
-    for (; node >= world.num_depots; node = linked.link[node].before) {
-        head.load = plus(head.load, demand_of(world.place[0][node]));
+    for (; node >= data.num_depots; node = linked.link[node].before) {
+        head.load = plus(head.load, demand_of(data.place[0][node]));
         ++head.customers;
         head.distance += linked.link[node].inward;
     }
@@ -188,17 +187,17 @@ Stretch head_until(const World& world, const Linked& linked, Int node) {
 }
 
 // The part of a route behind its head, which a customer leads, none if a depot does.
-Stretch tail_behind(const World& world, const Linked& linked, const Run& run, const Stretch& head,
-                    Int first) {
-    if (first < world.num_depots) return {nothing, 0, 0};
+Stretch tail_behind(const ProblemData& data, const Linked& linked, const Run& run,
+                    const Stretch& head, Int first) {
+    if (first < data.num_depots) return {nothing, 0, 0};
     const Int around = linked.link[first].inward + linked.link[run.last].onward;
     return {minus(amount_of(run.load), head.load), run.count - head.customers,
             run.distance - head.distance - around};
 }
 
 // Lets a customer and all who come behind be served by the route in a slot.
-void assign(const World& world, Linked& linked, Int node, Int slot) {
-    for (; node >= world.num_depots; node = linked.link[node].behind) {
+void assign(const ProblemData& data, Linked& linked, Int node, Int slot) {
+    for (; node >= data.num_depots; node = linked.link[node].behind) {
         linked.link[node].slot = slot;
     }
 }
@@ -211,68 +210,68 @@ struct NewTail {
 };
 
 // Lets a route go on behind its head, which `before` ends, with another's tail.
-void end_with(const World& world, Linked& linked, Int slot, const Stretch& head, Int before,
+void end_with(const ProblemData& data, Linked& linked, Int slot, const Stretch& head, Int before,
               const NewTail& tail) {
     Run& run = linked.run[slot];
-    const Int end = world.type[run.type].ends_at;
+    const Int end = data.type[run.type].ends_at;
     const bool has_tail = tail.part.customers > 0;
-    assign(world, linked, tail.first, slot);
+    assign(data, linked, tail.first, slot);
     run.distance = head.distance + tail.part.distance;
-    run.distance += connect(world, linked, slot, before, has_tail ? tail.first : end);
-    if (has_tail) run.distance += connect(world, linked, slot, tail.last, end);
+    run.distance += connect(data, linked, slot, before, has_tail ? tail.first : end);
+    if (has_tail) run.distance += connect(data, linked, slot, tail.last, end);
     run.count = head.customers + tail.part.customers;
     write_amount(plus(head.load, tail.part.load), run.load);
     if (linked.timed) {
-        drive_on(world, linked, slot, tail.first, 1);
-        look_back(world, linked, slot, run.last, tail.part.customers + 1);
+        drive_on(data, linked, slot, tail.first, 1);
+        look_back(data, linked, slot, run.last, tail.part.customers + 1);
     }
 }
 
 // Lets `other`, of the route in slot `b`, come behind a customer, whose tail ends that route. False
 // if a vehicle can't hold that, and nothing has changed.
-bool swap_tails_linked(const World& world, Searcher& searcher, Linked& linked, Int node, Int b,
+bool swap_tails_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int node, Int b,
                        Int other) {
     const Int a = linked.link[node].slot;
     const Run& one = linked.run[a];
     const Run& two = linked.run[b];
     const Int after = linked.link[node].behind;
-    const bool is_new = other < world.num_depots;
+    const bool is_new = other < data.num_depots;
     const Int k = one.type;
     const Int by = is_new ? k : two.type;
-    const Int before = is_new ? world.type[k].begins_at : linked.link[other].before;
-    const Stretch head = head_until(world, linked, node);
-    const Stretch head_by = head_until(world, linked, before);
-    const Stretch tail = tail_behind(world, linked, one, head, after);
-    const Stretch tail_by = tail_behind(world, linked, two, head_by, other);
-    if (!holds(world.type[k], plus(head.load, tail_by.load)) ||
-        !holds(world.type[by], plus(head_by.load, tail.load))) {
+    const Int before = is_new ? data.type[k].begins_at : linked.link[other].before;
+    const Stretch head = head_until(data, linked, node);
+    const Stretch head_by = head_until(data, linked, before);
+    const Stretch tail = tail_behind(data, linked, one, head, after);
+    const Stretch tail_by = tail_behind(data, linked, two, head_by, other);
+    if (!holds(data.type[k], plus(head.load, tail_by.load)) ||
+        !holds(data.type[by], plus(head_by.load, tail.load))) {
         return false;
     }
     // Vehicles of other types may have to be home at other times, and elsewhere.
     if (by != k && linked.timed) {
-        if (!drives_in_time(world, linked, k, node, other)) return false;
-        const bool is_empty = before < world.num_depots && after < world.num_depots;
-        if (!is_empty && !drives_in_time(world, linked, by, before, after)) return false;
+        if (!drives_in_time(data, linked, k, node, other)) return false;
+        const bool is_empty = before < data.num_depots && after < data.num_depots;
+        if (!is_empty && !drives_in_time(data, linked, by, before, after)) return false;
     }
-    if (is_new) open_run(world, searcher, linked, b, k);
+    if (is_new) open_run(data, searcher, linked, b, k);
     const NewTail ends_one{tail_by, other, two.last};
     const NewTail ends_two{tail, after, one.last};
-    end_with(world, linked, a, head, node, ends_one);
-    end_with(world, linked, b, head_by, before, ends_two);
+    end_with(data, linked, a, head, node, ends_one);
+    end_with(data, linked, b, head_by, before, ends_two);
     if (two.count == 0) close_run(searcher, linked, b);
     return true;
 }
 
 }  // namespace
 
-SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked,
-                                   double limit) {
+SwappedTails two_opt_star_linked(const ProblemData& data, Searcher& searcher, Linked& linked,
+                                 double limit) {
     constexpr SwappedTails not_swapped{nowhere, nowhere, 0.0};
-    const Int node = draw_customer(world, searcher.now, searcher.count->focus, searcher.rng);
+    const Int node = draw_customer(data, searcher.now, searcher.count->focus, searcher.rng);
     const Int a = linked.link[node].slot;
     if (a < 0) return not_swapped;
-    const auto [b, other, cost] = find_tail_linked(world, searcher, linked, node, limit);
-    if (b < 0 || !swap_tails_linked(world, searcher, linked, node, b, other)) return not_swapped;
+    const auto [b, other, cost] = find_tail_linked(data, searcher, linked, node, limit);
+    if (b < 0 || !swap_tails_linked(data, searcher, linked, node, b, other)) return not_swapped;
     return {a, b, cost};
 }
 

@@ -13,7 +13,7 @@ struct SwappedTails {
 };
 
 // Swaps the tail behind a random customer if that costs less than `limit`.
-SwappedTails exchange_tails_linked(const World& world, Searcher& searcher, Linked& linked,
-                                   double limit);
+SwappedTails two_opt_star_linked(const ProblemData& data, Searcher& searcher, Linked& linked,
+                                 double limit);
 
 }  // namespace tandem

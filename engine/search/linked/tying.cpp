@@ -18,7 +18,7 @@ namespace {
 constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
 
 // Links the stops of a route.
-void link_route(const World& world, Linked& linked, const Fleet& fleet, Int slot) {
+void link_route(const ProblemData& data, Linked& linked, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     Run& run = linked.run[slot];
@@ -27,14 +27,14 @@ void link_route(const World& world, Linked& linked, const Fleet& fleet, Int slot
     run.count = route.length - 2;
     run.distance = 0;
     for (Int p = 1; p < route.length; ++p) {
-        run.distance += connect(world, linked, slot, stops[p - 1].node, stops[p].node);
+        run.distance += connect(data, linked, slot, stops[p - 1].node, stops[p].node);
         if (p < route.length - 1) {
             linked.link[stops[p].node].slot = slot;
-            load = plus(load, demand_of(world.place[0][stops[p].node]));
+            load = plus(load, demand_of(data.place[0][stops[p].node]));
         }
     }
     write_amount(load, run.load);
-    if (linked.timed) retime(world, linked, slot);
+    if (linked.timed) retime(data, linked, slot);
 }
 
 // Links the stops of a route of the best plan.
@@ -49,21 +49,22 @@ void link_best(Linked& linked, const Fleet& best, Int slot) {
 }
 
 // Writes the ends of a route whose customers are there, and all that follows.
-void write_stops(const World& world, Searcher& searcher, Fleet& fleet, Int slot, Int k, Int count) {
+void write_stops(const ProblemData& data, Searcher& searcher, Fleet& fleet, Int slot, Int k,
+                 Int count) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     route.type = k;
     route.length = count + 2;
     route.sorties = 0;
-    put(stops, 0, world.type[k].begins_at, start_stop);
-    put(stops, count + 1, world.type[k].ends_at, end_stop);
-    refresh(world, fleet, slot, *searcher.acc);
+    put(stops, 0, data.type[k].begins_at, start_stop);
+    put(stops, count + 1, data.type[k].ends_at, end_stop);
+    refresh(data, fleet, slot, *searcher.acc);
 }
 
 // Writes the routes as they are; returns what they cost.
-double write_now(const World& world, Searcher& searcher, const Linked& linked) {
+double write_now(const ProblemData& data, Searcher& searcher, const Linked& linked) {
     Fleet& now = searcher.now;
-    double cost = left_out_cost(world, searcher.missing, searcher.count->missing);
+    double cost = left_out_cost(data, searcher.missing, searcher.count->missing);
     for (const Int slot : searcher.active.first(searcher.count->active)) {
         const Run& run = linked.run[slot];
         Int node = run.first;
@@ -71,7 +72,7 @@ double write_now(const World& world, Searcher& searcher, const Linked& linked) {
             put(now.stop[slot], p, node, customer_stop);
             node = linked.link[node].behind;
         }
-        write_stops(world, searcher, now, slot, run.type, run.count);
+        write_stops(data, searcher, now, slot, run.type, run.count);
         locate(now, slot);
         cost += now.cost[slot];
     }
@@ -79,17 +80,17 @@ double write_now(const World& world, Searcher& searcher, const Linked& linked) {
 }
 
 // Writes the routes of the best plan; returns what they cost.
-double write_best(const World& world, Searcher& searcher, const Linked& linked) {
+double write_best(const ProblemData& data, Searcher& searcher, const Linked& linked) {
     Fleet& best = searcher.best;
-    double cost = left_out_cost(world, searcher.best_missing, searcher.count->best_missing);
+    double cost = left_out_cost(data, searcher.best_missing, searcher.count->best_missing);
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
         Int node = linked.best_first[slot];
         if (node < 0) continue;
         Int count = 0;
-        for (; node >= world.num_depots; node = linked.best_behind[node]) {
+        for (; node >= data.num_depots; node = linked.best_behind[node]) {
             put(best.stop[slot], ++count, node, customer_stop);
         }
-        write_stops(world, searcher, best, slot, linked.best_type[slot], count);
+        write_stops(data, searcher, best, slot, linked.best_type[slot], count);
         cost += best.cost[slot];
     }
     return cost;
@@ -105,14 +106,14 @@ void clear_route(Fleet& fleet, Int slot, Int stamp) {
 
 }  // namespace
 
-void measure_near(const World& world, Linked& linked) {
-    const Int m = world.type[0].travel;
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
-        world.deadline.go_on_late();
-        const LegRow inward = legs_to(world.back, m, node);
-        const LegRow onward = legs_from(world.leg, m, node);
-        for (Int rank = 0; rank < world.fit.shape(1); ++rank) {
-            const Int other = world.fit(node, rank);
+void measure_near(const ProblemData& data, Linked& linked) {
+    const Int m = data.type[0].travel;
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
+        data.deadline.go_on_late();
+        const LegRow inward = legs_to(data.back, m, node);
+        const LegRow onward = legs_from(data.leg, m, node);
+        for (Int rank = 0; rank < data.fit.shape(1); ++rank) {
+            const Int other = data.fit(node, rank);
             if (other < 0) continue;
             const Int distance = std::min(nearness(inward, onward, other), farthest);
             linked.near(node, rank) = static_cast<std::int32_t>(distance);
@@ -120,14 +121,14 @@ void measure_near(const World& world, Linked& linked) {
     }
 }
 
-void tie(const World& world, Searcher& searcher, Linked& linked) {
-    for (Int node = world.num_depots; node < world.num_nodes; ++node) {
+void tie(const ProblemData& data, Searcher& searcher, Linked& linked) {
+    for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         linked.link[node].slot = searcher.now.where[node].slot;
         linked.reach[node] = out_of_reach;
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
-        world.deadline.go_on();
-        if (searcher.now.route[slot].length > 0) link_route(world, linked, searcher.now, slot);
+        data.deadline.go_on();
+        if (searcher.now.route[slot].length > 0) link_route(data, linked, searcher.now, slot);
         linked.best_first[slot] = nowhere;
         if (searcher.best.route[slot].length > 0) link_best(linked, searcher.best, slot);
     }
@@ -135,16 +136,16 @@ void tie(const World& world, Searcher& searcher, Linked& linked) {
     searcher.count->changed = all_slots;
 }
 
-void write_back(const World& world, Searcher& searcher, Linked& linked) {
+void write_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
     SearchCounts& count = *searcher.count;
     ++count.stamp;
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
         clear_route(searcher.now, slot, count.stamp);
         clear_route(searcher.best, slot, others);
     }
-    searcher.value->cost = write_now(world, searcher, linked);
+    searcher.value->cost = write_now(data, searcher, linked);
     // The sums of what turns changed differ in their last bits; the best cost never rises.
-    searcher.value->best = std::min(searcher.value->best, write_best(world, searcher, linked));
+    searcher.value->best = std::min(searcher.value->best, write_best(data, searcher, linked));
     count.changed = all_slots;
 }
 
@@ -152,27 +153,27 @@ void write_back(const World& world, Searcher& searcher, Linked& linked) {
 
 using namespace tandem;
 
-extern "C" int tandem_measure_near(const tandem_world* world, const tandem_linked* linked) {
+extern "C" int tandem_measure_near(const tandem_problem_data* data, const tandem_linked* linked) {
     return guarded([&] {
         Linked routes = linked_of(*linked);
-        measure_near(world_of(*world), routes);
+        measure_near(data_of(*data), routes);
     });
 }
 
-extern "C" int tandem_tie(const tandem_world* world, const tandem_searcher* searcher,
+extern "C" int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
                           const tandem_linked* linked) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
-        tie(world_of(*world), searching, routes);
+        tie(data_of(*data), searching, routes);
     });
 }
 
-extern "C" int tandem_write_back(const tandem_world* world, const tandem_searcher* searcher,
+extern "C" int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
                                  const tandem_linked* linked) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
-        write_back(world_of(*world), searching, routes);
+        write_back(data_of(*data), searching, routes);
     });
 }

@@ -6,12 +6,12 @@
 namespace tandem {
 
 // Writes how near neighbours are.
-void measure_near(const World& world, Linked& linked);
+void measure_near(const ProblemData& data, Linked& linked);
 
 // Links the routes of a search as they are, and of its best plan.
-void tie(const World& world, Searcher& searcher, Linked& linked);
+void tie(const ProblemData& data, Searcher& searcher, Linked& linked);
 
 // Lets the routes of a search, and of its best plan, be those that are linked.
-void write_back(const World& world, Searcher& searcher, Linked& linked);
+void write_back(const ProblemData& data, Searcher& searcher, Linked& linked);
 
 }  // namespace tandem

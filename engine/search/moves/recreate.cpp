@@ -30,22 +30,22 @@ constexpr Int few_to_sort = 64;
 constexpr double dearest_first = 0.5;
 
 // Returns where a customer comes in an order; least first.
-double order_key(const World& world, Int order, Int node, View<std::uint64_t, 1> rng) {
-    const NodeRows place = world.place[0][node];
+double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_t, 1> rng) {
+    const NodeRows place = data.place[0][node];
     switch (order) {
         case by_cost:
-            return -world.unassigned_more[node];
+            return -data.unassigned_more[node];
         case by_demand:
-            if (tiers_of(world) > 0) {
-                return -double(total_delivered(world.amount, node) +
-                               total_picked(world.amount, node));
+            if (tiers_of(data) > 0) {
+                return -double(total_delivered(data.amount, node) +
+                               total_picked(data.amount, node));
             }
             return -double(total(demand_of(place)));
         case by_far:
         case by_close: {
-            const VehicleType& type = world.type[0];
+            const VehicleType& type = data.type[0];
             const double distance =
-                double(leg(legs_of(world.leg, type.travel), type.begins_at, node).distance);
+                double(leg(legs_of(data.leg, type.travel), type.begins_at, node).distance);
             return order == by_far ? -distance : distance;
         }
         case by_width:
@@ -58,12 +58,12 @@ double order_key(const World& world, Int order, Int node, View<std::uint64_t, 1>
 }
 
 // Serves a customer by a route of its own. False if no slot is free.
-bool open_route(const World& world, const Searcher& searcher, Int node, Int k, bool by_drone) {
+bool open_route(const ProblemData& data, const Searcher& searcher, Int node, Int k, bool by_drone) {
     const Fleet& now = searcher.now;
-    const Int slot = free_slot(world, searcher, k);
+    const Int slot = free_slot(data, searcher, k);
     if (slot < 0) return false;
     touch(searcher, slot);
-    if (!serve_alone(world, now, slot, k, node, by_drone, *searcher.acc)) {
+    if (!serve_alone(data, now, slot, k, node, by_drone, *searcher.acc)) {
         now.route[slot].length = 0;
         now.cost[slot] = 0.0;
         return false;
@@ -75,27 +75,27 @@ bool open_route(const World& world, const Searcher& searcher, Int node, Int k, b
 }
 
 // Inserts a customer where the move says. False if that breaks a rule.
-bool insert(const World& world, const Searcher& searcher, Int node) {
+bool insert(const ProblemData& data, const Searcher& searcher, Int node) {
     const Move& move = *searcher.move;
     const Fleet& now = searcher.now;
     if (opens_route(move)) {
-        return open_route(world, searcher, node, move.type, move.kind == new_flight);
+        return open_route(data, searcher, node, move.type, move.kind == new_flight);
     }
     const Int slot = move.slot;
     touch(searcher, slot);
     Route& route = now.route[slot];
-    if (world.mode[route.type] & mode_lean) {
-        if (move.type != route.type) change_type(world, now, slot, move.type);
-        insert_lean(world, now, slot, move.first, node);
+    if (data.mode[route.type] & mode_lean) {
+        if (move.type != route.type) change_type(data, now, slot, move.type);
+        insert_lean(data, now, slot, move.first, node);
         return true;
     }
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
-    apply(world.type[route.type].depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0);
-    const bool allowed = refresh(world, now, slot, *searcher.acc);
+    apply(data.type[route.type].depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0);
+    const bool allowed = refresh(data, now, slot, *searcher.acc);
     if (!allowed) {
         keep_aside(now, spare, slot);
-        refresh(world, now, slot, *searcher.acc);
+        refresh(data, now, slot, *searcher.acc);
     }
     locate(now, slot);
     return allowed;
@@ -106,17 +106,17 @@ bool several_trips(const Searcher& searcher) { return searcher.now.trip.shape(1)
 
 }  // namespace
 
-Int draw_order(const World& world, View<std::uint64_t, 1> rng) {
-    if (is_dearer_to_some(world) && uniform(rng) < dearest_first) return by_cost;
+Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng) {
+    if (is_dearer_to_some(data) && uniform(rng) < dearest_first) return by_cost;
     return orders[static_cast<std::size_t>(below(rng, orders.size()))];
 }
 
-void sort_absent(const World& world, const Searcher& searcher, Int first, Int order) {
+void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, Int order) {
     const View<Int, 1> absent = searcher.absent;
     const View<double, 1> key = searcher.key;
     const Int last = searcher.count->absent;
     for (Int index = first; index < last; ++index) {
-        key[absent[index]] = order_key(world, order, absent[index], searcher.rng);
+        key[absent[index]] = order_key(data, order, absent[index], searcher.rng);
     }
     Int gap = 1;
     while (few_to_sort * gap < last - first) gap = 3 * gap + 1;
@@ -133,16 +133,16 @@ void sort_absent(const World& world, const Searcher& searcher, Int first, Int or
     }
 }
 
-bool recreate(const World& world, const Searcher& searcher, Int first, bool scan_all,
+bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool scan_all,
               double spare) {
     const View<Int, 1> absent = searcher.absent;
     SearchCounts& count = *searcher.count;
-    const bool enlarge = world.traded && uniform(searcher.rng) < enlarged;
+    const bool enlarge = data.traded && uniform(searcher.rng) < enlarged;
     const bool opens_first = uniform(searcher.rng) < opening_share;
     Int left = first;
     for (Int index = first; index < count.absent; ++index) {
         const Int node = absent[index];
-        if (world.deadline.passed()) {
+        if (data.deadline.passed()) {
             absent[left++] = node;
             continue;
         }
@@ -150,24 +150,24 @@ bool recreate(const World& world, const Searcher& searcher, Int first, bool scan
         double cost = infeasible;
         Int tried = 0;
         if (opens) {
-            cost = try_new_route(world, searcher, node);
+            cost = try_new_route(data, searcher, node);
         } else if (!scan_all) {
-            cost = find_beside(world, searcher, node, enlarge);
+            cost = find_beside(data, searcher, node, enlarge);
             if (several_trips(searcher) &&
                 (opens_route(*searcher.move) || uniform(searcher.rng) < more_trips)) {
                 tried = drawn_for_trips;
             }
         }
         if (cost == infeasible) {
-            cost = find_place(world, searcher, node, enlarge);
-            if (world.general && (cost == infeasible || uniform(searcher.rng) < more_trips)) {
+            cost = find_place(data, searcher, node, enlarge);
+            if (data.general && (cost == infeasible || uniform(searcher.rng) < more_trips)) {
                 tried = count.active;
             }
         }
-        if (tried > 0) cost = try_trips(world, searcher, node, tried);
-        const double left_out = world.unassigned_cost + world.unassigned_more[node];
+        if (tried > 0) cost = try_trips(data, searcher, node, tried);
+        const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = cost < left_out || opens;
-        if (cost == infeasible || !wanted || !insert(world, searcher, node)) {
+        if (cost == infeasible || !wanted || !insert(data, searcher, node)) {
             absent[left++] = node;
         }
         spare -= std::min(cost, left_out);

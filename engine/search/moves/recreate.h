@@ -15,15 +15,16 @@ constexpr double opening_share = 0.03;
 enum InsertionOrder : Int { by_chance, by_demand, by_far, by_close, by_width, by_latest, by_cost };
 
 // Draws in what order customers are inserted.
-Int draw_order(const World& world, View<std::uint64_t, 1> rng);
+Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng);
 
 // Puts the customers to insert in order, from number `first` on.
-void sort_absent(const World& world, const Searcher& searcher, Int first, Int order);
+void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, Int order);
 
 // Inserts the absent customers from number `first` on, each where it costs least.
 //
 // False, with some inserted, once that costs more than is to `spare`. Once the search must end,
 // the others are left out.
-bool recreate(const World& world, const Searcher& searcher, Int first, bool scan_all, double spare);
+bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool scan_all,
+              double spare);
 
 }  // namespace tandem

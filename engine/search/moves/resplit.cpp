@@ -110,7 +110,7 @@ LinedUp line_up(const Fleet& fleet, Int slot, Part part, View<Line, 1> line) {
 double beside(const Rate& rate) { return rate.fixed - rate.stop; }
 
 // Append the places of a route's stops to a line. In place; false if that can't be.
-bool line_up_too(const World& world, const Fleet& fleet, Int k, Int slot, Part part,
+bool line_up_too(const ProblemData& data, const Fleet& fleet, Int k, Int slot, Part part,
                  View<Line, 1> line, Lines& lines) {
     const Int begin = lines.length - 1;
     const Route& route = fleet.route[slot];
@@ -123,25 +123,25 @@ bool line_up_too(const World& world, const Fleet& fleet, Int k, Int slot, Part p
     if (count == 0) return false;
     lines.exact = lines.exact && exact;
     lines.idle += idle_time(route);
-    if (world.rate[k].overtime > 0.0) {
-        lines.idle += overtime(world.type[k], route.end, route.working);
+    if (data.rate[k].overtime > 0.0) {
+        lines.idle += overtime(data.type[k], route.end, route.working);
     }
     if (lines.exact) {
-        measure(world, k, rest, count);
-        lines.cost += present_cost(world, k, rest, count) + beside(world.rate[k]);
+        measure(data, k, rest, count);
+        lines.cost += present_cost(data, k, rest, count) + beside(data.rate[k]);
     }
     lines.length = begin + count;
     return true;
 }
 
 // Write the places of a part of a route, then those of the other, if any.
-Lines line_up_all(const World& world, const Fleet& fleet, Int k, Int slot, Int other, Part part,
-                  View<Line, 1> line) {
+Lines line_up_all(const ProblemData& data, const Fleet& fleet, Int k, Int slot, Int other,
+                  Part part, View<Line, 1> line) {
     Lines lines;
-    bool done = line_up_too(world, fleet, k, slot, part, line, lines);
+    bool done = line_up_too(data, fleet, k, slot, part, line, lines);
     if (done && other >= 0) {
         const Part all{0, fleet.route[other].length - 1};
-        done = line_up_too(world, fleet, k, other, all, line, lines);
+        done = line_up_too(data, fleet, k, other, all, line, lines);
     }
     if (!done) lines.length = 0;
     return lines;
@@ -156,19 +156,19 @@ bool ends_in_flight(const Fleet& fleet, Int slot) {
 // Return a route to plan anew together with a customer's: that of a near neighbour.
 //
 // An empty slot if that is the same route; `nowhere` if there is none.
-Int partner(const World& world, const Searcher& searcher, Int slot, Int node) {
+Int partner(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Int k = route.type;
-    const View<const std::int32_t, 1> near = world.near[node];
+    const View<const std::int32_t, 1> near = data.near[node];
     const Int neighbour = near[below(searcher.rng, std::min(near_places, near.size()))];
     // The end of the one route is the start of the other in a line.
     if (neighbour < 0 || route.trips > 1 || ends_in_flight(now, slot) ||
-        world.type[k].begins_at != world.type[k].ends_at) {
+        data.type[k].begins_at != data.type[k].ends_at) {
         return nowhere;
     }
     Int other = now.where[neighbour].slot;
-    if (other == slot) other = free_slot(world, searcher, k);
+    if (other == slot) other = free_slot(data, searcher, k);
     if (other < 0) return nowhere;
     const Route& mate = now.route[other];
     if (mate.length > 0 && (mate.type != k || mate.trips > 1 || ends_in_flight(now, other))) {
@@ -178,9 +178,9 @@ Int partner(const World& world, const Searcher& searcher, Int slot, Int node) {
 }
 
 // Return where in a line of two routes the first ends, or the end of a line of one.
-Int depot_between(const World& world, View<const Line, 1> line, Int length) {
+Int depot_between(const ProblemData& data, View<const Line, 1> line, Int length) {
     Int place = 1;
-    while (place < length - 1 && line[place].node >= world.num_depots) ++place;
+    while (place < length - 1 && line[place].node >= data.num_depots) ++place;
     return place;
 }
 
@@ -188,41 +188,41 @@ Int depot_between(const World& world, View<const Line, 1> line, Int length) {
 //
 // Where windows make trucks wait, or count themselves, that says nothing; nor where time saved is
 // overtime.
-bool is_worth(const World& world, Int k, const Lines& before, double after, double limit) {
-    if ((world.mode[k] & mode_priced) != 0 || before.idle > 0) return true;
+bool is_worth(const ProblemData& data, Int k, const Lines& before, double after, double limit) {
+    if ((data.mode[k] & mode_priced) != 0 || before.idle > 0) return true;
     return after < before.cost + limit && std::abs(after - before.cost) > same_share * before.cost;
 }
 
 // Tell whether the customers between two places of the line are too much for a truck.
 //
 // There may be no room for so many stops and sorties then, so that it has to be known before.
-bool overloads(const World& world, Int k, View<const Line, 1> line, Int begin, Int end) {
+bool overloads(const ProblemData& data, Int k, View<const Line, 1> line, Int begin, Int end) {
     Amount load{};
     for (Int place = begin + 1; place < end; ++place) {
-        load = plus(load, demand_of(world.place[0][line[place].node]));
+        load = plus(load, demand_of(data.place[0][line[place].node]));
     }
-    return !holds(world.type[k], load);
+    return !holds(data.type[k], load);
 }
 
 // Cut a route's places in the line, `begin` to `end`, at least cost; return that. In place; maybe
 // infinite.
-double split_between(const World& world, Searcher& searcher, Int k, Int begin, Int end) {
+double split_between(const ProblemData& data, Searcher& searcher, Int k, Int begin, Int end) {
     if (end <= begin + 1) return 0.0;
-    if (overloads(world, k, searcher.line, begin, end)) return infinite;
+    if (overloads(data, k, searcher.line, begin, end)) return infinite;
     const View<Line, 1> line = behind(searcher.line, begin);
     const Int count = end - begin + 1;
-    measure(world, k, line, count);
-    if (!split(world, k, line, behind(searcher.line_cost, begin), count)) return infinite;
-    return searcher.line_cost[end] + beside(world.rate[k]);
+    measure(data, k, line, count);
+    if (!split(data, k, line, behind(searcher.line_cost, begin), count)) return infinite;
+    return searcher.line_cost[end] + beside(data.rate[k]);
 }
 
 // Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite.
 //
 // `cut` is as `depot_between` says.
-double split_all(const World& world, Searcher& searcher, Int k, Int cut, Int length) {
-    const double cost = split_between(world, searcher, k, 0, cut);
+double split_all(const ProblemData& data, Searcher& searcher, Int k, Int cut, Int length) {
+    const double cost = split_between(data, searcher, k, 0, cut);
     if (cost == infinite) return infinite;
-    return cost + split_between(world, searcher, k, cut, length - 1);
+    return cost + split_between(data, searcher, k, cut, length - 1);
 }
 
 // Let the places where operations end tell where the next does, not where they began. In place.
@@ -266,8 +266,8 @@ void write_operations(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties
 
 // Write places `begin` to `end` of the line into the part of a route that is kept aside. In place;
 // false if that breaks a rule.
-bool write_between(const World& world, Searcher& searcher, Int k, Int slot, Part part, Int begin,
-                   Int end) {
+bool write_between(const ProblemData& data, Searcher& searcher, Int k, Int slot, Part part,
+                   Int begin, Int end) {
     const Fleet& now = searcher.now;
     const Int spare = now.route.size() - 2;
     Route& route = now.route[slot];
@@ -281,54 +281,54 @@ bool write_between(const World& world, Searcher& searcher, Int k, Int slot, Part
     write_operations(route, now.stop[slot], now.sortie[slot], behind(searcher.line, begin),
                      end - begin + 1, now.stop(spare, part.first).kind);
     append(now, spare, part.last, now.route[spare].length, slot);
-    const bool done = refresh(world, now, slot, *searcher.acc);
+    const bool done = refresh(data, now, slot, *searcher.acc);
     locate(now, slot);
     return done;
 }
 
 // Write what the line says into a part of a route, and into the other, if any. In place; false if
 // that breaks a rule.
-bool write_all(const World& world, Searcher& searcher, Int slot, Int other, Part part, Int cut,
+bool write_all(const ProblemData& data, Searcher& searcher, Int slot, Int other, Part part, Int cut,
                Int length) {
     Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
     touch(searcher, slot);
     if (other >= 0) touch(searcher, other);
     keep_aside(now, slot, now.route.size() - 2);
-    bool done = write_between(world, searcher, k, slot, part, 0, cut);
+    bool done = write_between(data, searcher, k, slot, part, 0, cut);
     if (other >= 0) {
-        done = write_between(world, searcher, k, other, part, cut, length - 1) && done;
+        done = write_between(data, searcher, k, other, part, cut, length - 1) && done;
     }
     return done;
 }
 
 }  // namespace
 
-bool resplit(const World& world, Searcher& searcher, double limit) {
+bool resplit(const ProblemData& data, Searcher& searcher, double limit) {
     const Fleet& now = searcher.now;
     const View<std::uint64_t, 1> rng = searcher.rng;
-    const Int node = draw_customer(world, now, searcher.count->focus, rng);
+    const Int node = draw_customer(data, now, searcher.count->focus, rng);
     const Int slot = now.where[node].slot;
-    if (slot < 0 || world.type[now.route[slot].type].drones != 1) return false;
+    if (slot < 0 || data.type[now.route[slot].type].drones != 1) return false;
     const Int k = now.route[slot].type;
     Int other = nowhere;
-    if (uniform(rng) < together_share) other = partner(world, searcher, slot, node);
+    if (uniform(rng) < together_share) other = partner(data, searcher, slot, node);
     Part part{0, now.route[slot].length - 1};
     if (other < 0) part = window(now, slot, stop_beside(now, node));
-    const Lines lines = line_up_all(world, now, k, slot, other, part, searcher.line);
+    const Lines lines = line_up_all(data, now, k, slot, other, part, searcher.line);
     if (lines.length < 4) return false;
     if (other >= 0 && uniform(rng) < cut_elsewhere_share) {
-        const Int between = depot_between(world, searcher.line, lines.length);
+        const Int between = depot_between(data, searcher.line, lines.length);
         shift(searcher.line, between, 1 + below(rng, lines.length - 2));
     } else {
-        shuffle(world, searcher.line, lines.length, rng);
+        shuffle(data, searcher.line, lines.length, rng);
     }
-    const Int cut = depot_between(world, searcher.line, lines.length);
-    const double after = split_all(world, searcher, k, cut, lines.length);
-    if (after == infinite || (lines.exact && !is_worth(world, k, lines, after, limit))) {
+    const Int cut = depot_between(data, searcher.line, lines.length);
+    const double after = split_all(data, searcher, k, cut, lines.length);
+    if (after == infinite || (lines.exact && !is_worth(data, k, lines, after, limit))) {
         return false;
     }
-    return write_all(world, searcher, slot, other, part, cut, lines.length);
+    return write_all(data, searcher, slot, other, part, cut, lines.length);
 }
 
 }  // namespace tandem

@@ -12,6 +12,6 @@ namespace tandem {
 //
 // In place; tells whether routes were changed and keep all rules; if not, they may be broken.
 // Nothing is changed that would cost more than `limit`.
-bool resplit(const World& world, Searcher& searcher, double limit);
+bool resplit(const ProblemData& data, Searcher& searcher, double limit);
 
 }  // namespace tandem

@@ -2,9 +2,9 @@
 
 #include "randomness.h"
 #include "rules/drone_types.h"
-#include "search/route/halts.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
+#include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -13,50 +13,50 @@ namespace {
 constexpr double least_saving = 1e-9;  // by less, nothing is cheaper
 
 // Swap vehicles with another route where that is cheaper. In place.
-void trade(const World& world, Searcher& searcher, Int slot) {
+void trade(const ProblemData& data, Searcher& searcher, Int slot) {
     Fleet& now = searcher.now;
     for (Int other : searcher.active.first(searcher.count->active)) {
         const Int k = now.route[slot].type;
         const Int by = now.route[other].type;
-        if (by == k || !world.swap(k, by)) continue;
+        if (by == k || !data.swap(k, by)) continue;
         const double cost =
-            route_cost(world, by, now.trip(slot, 0)) + route_cost(world, k, now.trip(other, 0));
+            route_cost(data, by, now.trip(slot, 0)) + route_cost(data, k, now.trip(other, 0));
         if (cost < now.cost[slot] + now.cost[other] - least_saving &&
-            can_take(world, now, slot, by) && can_take(world, now, other, k)) {
+            can_take(data, now, slot, by) && can_take(data, now, other, k)) {
             touch(searcher, other);
-            change_type(world, now, slot, by);
-            change_type(world, now, other, k);
+            change_type(data, now, slot, by);
+            change_type(data, now, other, k);
         }
     }
 }
 
 // Tell whether the drones of type `k` may fly a sortie of a truck.
-bool may_fly(const World& world, Int k, const Sortie& sortie) {
-    const Int row = row_of_drone(world.type, k, sortie.drone);
-    if (sortie.drone >= world.type[k].drones || sortie.count > world.visits[row] ||
-        !can_carry(world, row, sortie, nowhere, nowhere)) {
+bool may_fly(const ProblemData& data, Int k, const Sortie& sortie) {
+    const Int row = row_of_drone(data.type, k, sortie.drone);
+    if (sortie.drone >= data.type[k].drones || sortie.count > data.visits[row] ||
+        !can_carry(data, row, sortie, nowhere, nowhere)) {
         return false;
     }
     for (Int visit = 0; visit < sortie.count; ++visit) {
-        if (!world.can(row, 1, sortie.nodes[visit])) return false;
+        if (!data.can(row, 1, sortie.nodes[visit])) return false;
     }
     return true;
 }
 
 // Tell whether type `k` has the places, trips, drones and skills that a route needs.
-bool may_drive(const World& world, const Fleet& fleet, Int slot, Int k) {
+bool may_drive(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {
     const Route& route = fleet.route[slot];
-    const VehicleType& former = world.type[route.type];
-    const VehicleType& type = world.type[k];
+    const VehicleType& former = data.type[route.type];
+    const VehicleType& type = data.type[k];
     if (type.begins_at != former.begins_at || type.ends_at != former.ends_at ||
         route.trips > type.max_trips || (route.trips > 1 && type.depot != former.depot)) {
         return false;
     }
     for (const Stop& stop : fleet.stop[slot].first(route.length)) {
-        if (stop.kind == customer_stop && !world.can(k, 0, stop.node)) return false;
+        if (stop.kind == customer_stop && !data.can(k, 0, stop.node)) return false;
     }
     for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        if (!may_fly(world, k, sortie)) return false;
+        if (!may_fly(data, k, sortie)) return false;
     }
     return true;
 }
@@ -64,61 +64,61 @@ bool may_drive(const World& world, const Fleet& fleet, Int slot, Int k) {
 // Let another type drive a touched route, if that keeps all rules. In place.
 //
 // `cheaper`: and only if it costs less.
-void give_type(const World& world, Searcher& searcher, Int slot, Int k, bool cheaper) {
+void give_type(const ProblemData& data, Searcher& searcher, Int slot, Int k, bool cheaper) {
     Fleet& now = searcher.now;
     const Int former = now.route[slot].type;
     const double cost = now.cost[slot];
-    if (k == former || world.swap(former, k) || now.used[k] >= world.type[k].count ||
-        !may_drive(world, now, slot, k)) {
+    if (k == former || data.swap(former, k) || now.used[k] >= data.type[k].count ||
+        !may_drive(data, now, slot, k)) {
         return;
     }
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
     now.route[slot].type = k;
-    if (refresh(world, now, slot, *searcher.acc) &&
+    if (refresh(data, now, slot, *searcher.acc) &&
         !(cheaper && now.cost[slot] >= cost - least_saving)) {
         --now.used[former];
         ++now.used[k];
     } else {
         keep_aside(now, spare, slot);
-        refresh(world, now, slot, *searcher.acc);
+        refresh(data, now, slot, *searcher.acc);
     }
 }
 
 }  // namespace
 
-void improve_types(const World& world, Searcher& searcher) {
+void improve_types(const ProblemData& data, Searcher& searcher) {
     Fleet& now = searcher.now;
     // Trading touches others, which get the cheapest vehicles in their turn.
     for (Int index = 0; index < searcher.count->touched; ++index) {
         const Int slot = searcher.touched[index];
         const Route& route = now.route[slot];
-        if (route.length == 0 || (world.mode[route.type] & mode_lean) == 0) continue;
+        if (route.length == 0 || (data.mode[route.type] & mode_lean) == 0) continue;
         const Trip& trip = now.trip(slot, 0);
-        for (Int k = 0; k < world.num_types; ++k) {
-            if (world.swap(route.type, k) && now.used[k] < world.type[k].count &&
-                route_cost(world, k, trip) < now.cost[slot] - least_saving &&
-                can_take(world, now, slot, k)) {
-                change_type(world, now, slot, k);
+        for (Int k = 0; k < data.num_types; ++k) {
+            if (data.swap(route.type, k) && now.used[k] < data.type[k].count &&
+                route_cost(data, k, trip) < now.cost[slot] - least_saving &&
+                can_take(data, now, slot, k)) {
+                change_type(data, now, slot, k);
             }
         }
-        trade(world, searcher, slot);
+        trade(data, searcher, slot);
     }
 }
 
-void draw_type(const World& world, Searcher& searcher) {
+void draw_type(const ProblemData& data, Searcher& searcher) {
     const Int slot = searcher.touched[below(searcher.rng, searcher.count->touched)];
     if (searcher.now.route[slot].length > 0) {
-        give_type(world, searcher, slot, below(searcher.rng, world.num_types), false);
+        give_type(data, searcher, slot, below(searcher.rng, data.num_types), false);
     }
 }
 
-void cheapen_types(const World& world, Searcher& searcher) {
+void cheapen_types(const ProblemData& data, Searcher& searcher) {
     for (Int slot : searcher.touched.first(searcher.count->touched)) {
         if (searcher.now.route[slot].length == 0) continue;
-        for (Int k = 0; k < world.num_types; ++k) {
-            if (world.deadline.passed()) return;
-            give_type(world, searcher, slot, k, true);
+        for (Int k = 0; k < data.num_types; ++k) {
+            if (data.deadline.passed()) return;
+            give_type(data, searcher, slot, k, true);
         }
     }
 }

@@ -105,17 +105,17 @@ Int draw_strings(double longest, View<std::uint64_t, 1> rng) {
     return 1 + static_cast<Int>(uniform(rng) * (4 * removed / (1 + longest) - 1));
 }
 
-Chosen choose(const World& world, Searcher& searcher, double longest, View<Int, 1> absent,
+Chosen choose(const ProblemData& data, Searcher& searcher, double longest, View<Int, 1> absent,
               Int num_absent, View<Int, 1> touched) {
     const Fleet& fleet = searcher.now;
     const Int turn = searcher.count->turn;
     Int num_touched = 0;
     Int strings = draw_strings(longest, searcher.rng);
-    Int seed = draw_customer(world, fleet, searcher.count->focus, searcher.rng);
+    Int seed = draw_customer(data, fleet, searcher.count->focus, searcher.rng);
     if (num_absent > 0 && uniform(searcher.rng) < make_room_share) {
         seed = absent[below(searcher.rng, num_absent)];
     }
-    const View<const std::int32_t, 1> near = world.near[seed];
+    const View<const std::int32_t, 1> near = data.near[seed];
     Int node = seed;
     for (Int rank = 0; strings > 0 && node >= 0; ++rank) {
         const Int slot = fleet.where[node].slot;
@@ -139,14 +139,14 @@ Chosen choose(const World& world, Searcher& searcher, double longest, View<Int, 
     return {num_absent, num_touched, seed};
 }
 
-Int remove_marked(const World& world, Fleet& fleet, Int slot, View<bool, 1> marked,
+Int remove_marked(const ProblemData& data, Fleet& fleet, Int slot, View<bool, 1> marked,
                   View<Int, 1> absent, Int num_absent, View<Int, 1> moved, BlockSums& acc) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     num_absent = keep_sorties(route, stops, sorties, marked, absent, num_absent);
     close_ranks(route, stops, sorties, marked, moved);
-    if (route.length > 0 && !refresh(world, fleet, slot, acc)) {
+    if (route.length > 0 && !refresh(data, fleet, slot, acc)) {
         num_absent = mark_all(fleet, slot, marked, absent, num_absent);
         route.length = 0;
     }

@@ -29,12 +29,12 @@ struct Chosen {
 
 // Mark strings near a random customer, at most one a trip, and list their routes in `touched`. In
 // place.
-Chosen choose(const World& world, Searcher& searcher, double longest, View<Int, 1> absent,
+Chosen choose(const ProblemData& data, Searcher& searcher, double longest, View<Int, 1> absent,
               Int num_absent, View<Int, 1> touched);
 
 // Take the marked customers out of a route; all, if the rest breaks a rule. In place; return how
 // many are absent then.
-Int remove_marked(const World& world, Fleet& fleet, Int slot, View<bool, 1> marked,
+Int remove_marked(const ProblemData& data, Fleet& fleet, Int slot, View<bool, 1> marked,
                   View<Int, 1> absent, Int num_absent, View<Int, 1> moved, BlockSums& acc);
 
 }  // namespace tandem

@@ -30,10 +30,10 @@ constexpr std::array changes{Change::swap, Change::swap,    Change::move,    Cha
 double cost_of(Int amount, double rate) { return static_cast<double>(amount) * rate; }
 
 // Return a random place in the line, most often that of a near neighbour of place `one`.
-Int place_near(const World& world, View<const Line, 1> line, Int count, Int one,
+Int place_near(const ProblemData& data, View<const Line, 1> line, Int count, Int one,
                View<std::uint64_t, 1> rng) {
     if (uniform(rng) < neighbourly_share) {
-        const View<const std::int32_t, 1> near = world.near[line[one].node];
+        const View<const std::int32_t, 1> near = data.near[line[one].node];
         const Int wanted = near[below(rng, std::min(near_places, near.size()))];
         for (Int place = 1; place <= count; ++place) {
             if (line[place].node == wanted) return place;
@@ -48,10 +48,10 @@ struct WayByAir {
     Leg home;
     Int duration;
 
-    WayByAir(const World& world, const VehicleType& type, NodeRows place, Int from, Int customer,
-             Int to)
-        : out(leg(legs_of(world.leg, type.drone_travel), from, customer)),
-          home(leg(legs_of(world.leg, type.home_travel), customer, to)),
+    WayByAir(const ProblemData& data, const VehicleType& type, NodeRows place, Int from,
+             Int customer, Int to)
+        : out(leg(legs_of(data.leg, type.drone_travel), from, customer)),
+          home(leg(legs_of(data.leg, type.home_travel), customer, to)),
           duration(out.duration + service_duration(place) + home.duration) {}
 
     double distance_cost(const Rate& rate) const {
@@ -63,15 +63,15 @@ struct WayByAir {
 // between while the truck serves the others.
 class Crossing {
 public:
-    Crossing(const World& world, Int k, View<const Line, 1> line, Int i)
-        : world_(world),
-          type_(world.type[k]),
-          rate_(world.rate[k]),
-          places_(places_by_air(world.place, type_)),
+    Crossing(const ProblemData& data, Int k, View<const Line, 1> line, Int i)
+        : data_(data),
+          type_(data.type[k]),
+          rate_(data.rate[k]),
+          places_(places_by_air(data.place, type_)),
           line_(line),
           i_(i),
           handled_(handling_duration(type_)) {
-        const Int here = service_duration(places_of(world.place, type_)[line[i].node]);
+        const Int here = service_duration(places_of(data.place, type_)[line[i].node]);
         launched_ = std::max(Int{0}, here - launch_duration(type_, 1)) - here;
     }
 
@@ -84,7 +84,7 @@ public:
         const double alone = ground(j, spared.spared_distance);
         if (cost_of(handled_ + drive, rate_.time) + alone >= most) return infinite;
         const NodeRows place = places_[spared.node];
-        const WayByAir flight(world_, type_, place, line_[i_].node, spared.node, line_[j].node);
+        const WayByAir flight(data_, type_, place, line_[i_].node, spared.node, line_[j].node);
         const Int airborne = std::max(flight.duration, drive);
         if (!within_endurance(type_, 0, flight.duration, airborne) ||
             !can_wait(type_, place, flight.out.duration, flight.home.duration,
@@ -105,7 +105,7 @@ private:
                cost_of(j - i_ - 1, rate_.stop);
     }
 
-    const World& world_;
+    const ProblemData& data_;
     const VehicleType& type_;
     Rate rate_;
     NodesRows places_;
@@ -116,12 +116,12 @@ private:
 };
 
 // Return what a flight costs for which the truck waits at a stop.
-double loop_cost(const World& world, Int k, Int node, Int customer) {
-    const VehicleType& type = world.type[k];
-    const Rate& rate = world.rate[k];
-    const NodeRows place = places_by_air(world.place, type)[customer];
-    const WayByAir flight(world, type, place, node, customer, node);
-    if (!world.loops || !can_serve(type, place, flight.out.duration, flight.home.duration)) {
+double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
+    const VehicleType& type = data.type[k];
+    const Rate& rate = data.rate[k];
+    const NodeRows place = places_by_air(data.place, type)[customer];
+    const WayByAir flight(data, type, place, node, customer, node);
+    if (!data.loops || !can_serve(type, place, flight.out.duration, flight.home.duration)) {
         return infinite;
     }
     return cost_of(flight.duration + handling_duration(type), rate.time) +
@@ -158,14 +158,14 @@ void cross(View<const bool, 1> drives, const Crossing& crossing, const Flyable& 
 }
 
 // Try all operations that begin at place `i`. In place.
-void extend(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length,
+void extend(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> cost, Int length,
             Int i) {
-    const Rate& rate = world.rate[k];
-    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
-    const View<const bool, 1> drives = world.can[k][0], flies = world.can[k][1];
+    const Rate& rate = data.rate[k];
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+    const View<const bool, 1> drives = data.can[k][0], flies = data.can[k][1];
     const Int here = line[i].node;
-    const Int service = service_duration(places_of(world.place, world.type[k])[here]);
-    const Crossing crossing(world, k, line, i);
+    const Int service = service_duration(places_of(data.place, data.type[k])[here]);
+    const Crossing crossing(data, k, line, i);
     Flyable flyable;
     double loops = 0.0;
     for (Int j = i + 1; j < std::min(length, i + longest_operation + 1); ++j) {
@@ -177,11 +177,11 @@ void extend(const World& world, Int k, View<Line, 1> line, View<double, 1> cost,
                 line[j].before = i;
                 line[j].flight = no_flight;
             }
-            if (world.crossings) cross(drives, crossing, flyable, line, cost, i, j);
+            if (data.crossings) cross(drives, crossing, flyable, line, cost, i, j);
         }
         if (flies[to]) flyable.place[static_cast<std::size_t>(flyable.count++)] = j;
         if (loops < infinite) {
-            loops = flies[to] ? loops + loop_cost(world, k, here, to) : infinite;
+            loops = flies[to] ? loops + loop_cost(data, k, here, to) : infinite;
         }
     }
 }
@@ -195,12 +195,12 @@ void shift(View<Line, 1> line, Int one, Int to) {
     line[to].node = node;
 }
 
-void shuffle(const World& world, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng) {
+void shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng) {
     const Int count = length - 2;
     const Change change =
         changes[static_cast<std::size_t>(below(rng, static_cast<Int>(changes.size())))];
     const Int one = 1 + below(rng, count);
-    const Int other = place_near(world, line, count, one, rng);
+    const Int other = place_near(data, line, count, one, rng);
     if (change == Change::keep || other == one) return;
     if (change == Change::move) {
         shift(line, one, other);
@@ -216,9 +216,9 @@ void shuffle(const World& world, View<Line, 1> line, Int length, View<std::uint6
     for (; low < high; ++low, --high) std::swap(line[low].node, line[high].node);
 }
 
-void measure(const World& world, Int k, View<Line, 1> line, Int length) {
-    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
-    const NodesRows places = places_of(world.place, world.type[k]);
+void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length) {
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+    const NodesRows places = places_of(data.place, data.type[k]);
     line[0].drive = line[0].distance = line[0].grounded = 0;
     for (Int j = 1; j < length; ++j) {
         const Line& last = line[j - 1];
@@ -227,7 +227,7 @@ void measure(const World& world, Int k, View<Line, 1> line, Int length) {
         next.drive = last.drive + service_duration(places[last.node]) + way.duration;
         next.distance = last.distance + way.distance;
         next.grounded = last.grounded;
-        if (j < length - 1 && !world.can(k, 0, next.node)) ++next.grounded;
+        if (j < length - 1 && !data.can(k, 0, next.node)) ++next.grounded;
     }
     for (Int j = 1; j < length - 1; ++j) {
         const Line& last = line[j - 1];
@@ -239,24 +239,24 @@ void measure(const World& world, Int k, View<Line, 1> line, Int length) {
     }
 }
 
-bool split(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length) {
+bool split(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> cost, Int length) {
     std::fill_n(cost.begin(), length, infinite);
     cost[0] = 0.0;
     for (Int i = 0; i < length - 1; ++i) {
-        if (cost[i] < infinite) extend(world, k, line, cost, length, i);
+        if (cost[i] < infinite) extend(data, k, line, cost, length, i);
     }
     return cost[length - 1] < infinite;
 }
 
-double present_cost(const World& world, Int k, View<const Line, 1> line, Int length) {
-    const Rate& rate = world.rate[k];
-    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
-    const NodesRows places = places_of(world.place, world.type[k]);
+double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, Int length) {
+    const Rate& rate = data.rate[k];
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+    const NodesRows places = places_of(data.place, data.type[k]);
     double cost = 0.0;
     for (Int j = length - 1; j > 0; j = line[j].before) {
         const Int i = line[j].before;
         if (line[j].flight != no_flight) {
-            cost += Crossing(world, k, line, i).cost(j, line[j].flight, infinite);
+            cost += Crossing(data, k, line, i).cost(j, line[j].flight, infinite);
             continue;
         }
         const Int here = line[i].node;
@@ -265,7 +265,7 @@ double present_cost(const World& world, Int k, View<const Line, 1> line, Int len
                 cost_of(way.distance, rate.distance);
         cost += rate.stop;
         for (Int place = i + 1; place < j; ++place) {
-            cost += loop_cost(world, k, here, line[place].node);
+            cost += loop_cost(data, k, here, line[place].node);
         }
     }
     return cost;

@@ -18,15 +18,15 @@ constexpr Int near_places = 8;  // among how many nearest neighbours of a place 
 void shift(View<Line, 1> line, Int one, Int to);
 
 // Change the order of the customers in the line a little. In place.
-void shuffle(const World& world, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng);
+void shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng);
 
 // Write what a truck that served the whole line would drive. In place.
-void measure(const World& world, Int k, View<Line, 1> line, Int length);
+void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length);
 
 // Cut the line into operations at least cost. In place; false if it can't be cut.
-bool split(const World& world, Int k, View<Line, 1> line, View<double, 1> cost, Int length);
+bool split(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> cost, Int length);
 
 // Return what the operations that are noted in the line cost.
-double present_cost(const World& world, Int k, View<const Line, 1> line, Int length);
+double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, Int length);
 
 }  // namespace tandem

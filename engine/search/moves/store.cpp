@@ -26,40 +26,40 @@ constexpr Int resplits = 30;  // trips with one drone planned anew from their or
 // Routes in rows of stops, with all that `Fleet` knows of them.
 class RouteStore {
 public:
-    RouteStore(const World& world, Searcher& searcher) : world_(world), searcher_(searcher) {}
+    RouteStore(const ProblemData& data, Searcher& searcher) : data_(data), searcher_(searcher) {}
 
     void ruin(Int first) {
         remove_strings(first);
         SearchCounts& count = *searcher_.count;
-        if (world_.mixed && count.touched > 0 && uniform(searcher_.rng) < retyped_share) {
-            draw_type(world_, searcher_);
+        if (data_.mixed && count.touched > 0 && uniform(searcher_.rng) < retyped_share) {
+            draw_type(data_, searcher_);
         }
     }
 
     bool recreate(Int first, double spare) {
-        return tandem::recreate(world_, searcher_, first, world_.scan_all, spare);
+        return tandem::recreate(data_, searcher_, first, data_.scan_all, spare);
     }
 
     // Inserts who is absent, from a number on, whatever that costs.
     void insert_all(Int first) {
-        const bool scan_all = world_.scan_all || world_.num_nodes < built_beside_from;
-        tandem::recreate(world_, searcher_, first, scan_all,
+        const bool scan_all = data_.scan_all || data_.num_nodes < built_beside_from;
+        tandem::recreate(data_, searcher_, first, scan_all,
                          std::numeric_limits<double>::infinity());
     }
 
     void retype() {
-        if (world_.traded) improve_types(world_, searcher_);
-        if (world_.mixed) cheapen_types(world_, searcher_);
+        if (data_.traded) improve_types(data_, searcher_);
+        if (data_.mixed) cheapen_types(data_, searcher_);
     }
 
-    Int parts() const { return world_.single_drones ? 1 + resplits : 1; }
+    Int parts() const { return data_.single_drones ? 1 + resplits : 1; }
 
     // Swaps tails of routes first, then plans a trip anew.
     bool move_part(Int part, double rise) {
         SearchCounts& count = *searcher_.count;
         count.touched = 0;
         const bool is_moved =
-            part == 0 ? exchange_tails(world_, searcher_, rise) : resplit(world_, searcher_, rise);
+            part == 0 ? two_opt_star(data_, searcher_, rise) : resplit(data_, searcher_, rise);
         if (!is_moved) return false;
         // Who is left out stays the same, and isn't listed as absent yet.
         count.absent = count.missing;
@@ -67,7 +67,7 @@ public:
         return true;
     }
 
-    void trade() { improve_types(world_, searcher_); }
+    void trade() { improve_types(data_, searcher_); }
 
     bool is_worth(double rise) const { return served_cost() < searcher_.value->cost + rise; }
 
@@ -105,11 +105,11 @@ private:
         const View<Int, 1> absent = searcher_.absent;
         const Int before = searcher_.count->absent;
         auto [total, num_touched, seed] =
-            choose(world_, searcher_, longest_string(searcher_), absent, before, searcher_.moved);
-        if (first > 0) try_near(world_, searcher_, seed, first, before);
+            choose(data_, searcher_, longest_string(searcher_), absent, before, searcher_.moved);
+        if (first > 0) try_near(data_, searcher_, seed, first, before);
         for (Int slot : searcher_.moved.first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {
-            total = remove_marked(world_, now, slot, searcher_.marked, absent, total,
+            total = remove_marked(data_, now, slot, searcher_.marked, absent, total,
                                   searcher_.moved, *searcher_.acc);
             if (now.route[slot].length > 0) locate(now, slot);
         }
@@ -121,25 +121,25 @@ private:
         list_touched(searcher_);
     }
 
-    const World& world_;
+    const ProblemData& data_;
     Searcher& searcher_;
 };
 
 }  // namespace
 
-void anneal_routes(const World& world, Searcher& searcher, Int turns) {
-    RouteStore routes(world, searcher);
-    anneal(world, searcher, routes, turns);
+void anneal_routes(const ProblemData& data, Searcher& searcher, Int turns) {
+    RouteStore routes(data, searcher);
+    anneal(data, searcher, routes, turns);
 }
 
-void insert_all(const World& world, Searcher& searcher, Int turns, Int order) {
-    RouteStore routes(world, searcher);
+void insert_all(const ProblemData& data, Searcher& searcher, Int turns, Int order) {
+    RouteStore routes(data, searcher);
     for (Int turn = 0; turn < turns; ++turn) {
-        const Int first = begin_turn(world, searcher, searcher.count->missing);
-        sort_absent(world, searcher, first, order);
+        const Int first = begin_turn(data, searcher, searcher.count->missing);
+        sort_absent(data, searcher, first, order);
         uniform(searcher.rng);  // As a turn draws that may be taken back.
         routes.insert_all(first);
-        go_on(searcher, routes, turn_cost(world, searcher, routes.served_cost()));
+        go_on(searcher, routes, turn_cost(data, searcher, routes.served_cost()));
         searcher.value->temperature *= searcher.value->cooling;
     }
 }
@@ -148,10 +148,10 @@ void insert_all(const World& world, Searcher& searcher, Int turns, Int order) {
 
 using namespace tandem;
 
-extern "C" int tandem_anneal(const tandem_world* world, const tandem_searcher* searcher,
+extern "C" int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher,
                              int64_t turns, int64_t order) {
     return guarded([&] {
-        const World problem = world_of(*world);
+        const ProblemData problem = data_of(*data);
         Searcher working = searcher_of(*searcher);
         if (order == any_order) {
             anneal_routes(problem, working, turns);

@@ -35,9 +35,9 @@ Int longer_home(const TravelLegs& legs, const Fleet& fleet, Int slot, Int home) 
 }
 
 // Tell whether type `k` may serve all customers of a route of one trip behind a cut.
-bool may_serve_tail(const World& world, const Fleet& fleet, Int k, Cut cut) {
+bool may_serve_tail(const ProblemData& data, const Fleet& fleet, Int k, Cut cut) {
     for (Int p = cut.stop + 1; p < fleet.route[cut.slot].length - 1; ++p) {
-        if (!world.can(k, 0, fleet.stop(cut.slot, p).node)) return false;
+        if (!data.can(k, 0, fleet.stop(cut.slot, p).node)) return false;
     }
     return true;
 }
@@ -45,18 +45,18 @@ bool may_serve_tail(const World& world, const Fleet& fleet, Int k, Cut cut) {
 // Return what it costs to swap the tails behind two cuts.
 //
 // By distance alone; infinite where a tail would be reached too late.
-double tail_saving(const World& world, const Fleet& fleet, Cut a, Cut b) {
+double tail_saving(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     const Int k = fleet.route[a.slot].type;
     const Int by = fleet.route[b.slot].type;
-    const TravelLegs legs = legs_of(world.leg, world.type[k].travel);
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
     const Stop& here = fleet.stop(a.slot, a.stop);
     const Stop& there = fleet.stop(b.slot, b.stop);
     const Stop& behind_here = fleet.stop(a.slot, a.stop + 1);
     const Stop& behind_there = fleet.stop(b.slot, b.stop + 1);
     Int after_here = behind_here.node;
     Int after_there = behind_there.node;
-    const Int home = world.type[k].ends_at;
-    const Int home_by = world.type[by].ends_at;
+    const Int home = data.type[k].ends_at;
+    const Int home_by = data.type[by].ends_at;
     if (home != home_by) {
         if (behind_here.kind == end_stop) after_here = home_by;
         if (behind_there.kind == end_stop) after_there = home;
@@ -67,8 +67,8 @@ double tail_saving(const World& world, const Fleet& fleet, Cut a, Cut b) {
         there.leave + to_one.duration > behind_here.latest) {
         return infinite;
     }
-    const Rate& rate = world.rate[k];
-    const Rate& rate_by = world.rate[by];
+    const Rate& rate = data.rate[k];
+    const Rate& rate_by = data.rate[by];
     double cost = static_cast<double>(to_other.distance - here.leg) * rate.distance +
                   static_cast<double>(to_one.distance - there.leg) * rate_by.distance;
     if (home != home_by) {
@@ -90,27 +90,27 @@ double tail_saving(const World& world, const Fleet& fleet, Cut a, Cut b) {
 }
 
 // Tell whether a trip up to cut `a`, which goes on behind cut `b`, may carry all.
-bool is_cargo(const World& world, const Fleet& fleet, Cut a, Cut b, Int tier) {
-    const VehicleType& type = world.type[fleet.route[a.slot].type];
+bool is_cargo(const ProblemData& data, const Fleet& fleet, Cut a, Cut b, Int tier) {
+    const VehicleType& type = data.type[fleet.route[a.slot].type];
     Cargo front{};
     for (Int p = fleet.trip(a.slot, fleet.stop(a.slot, a.stop).trip).first; p <= a.stop; ++p) {
-        front = followed(front, cargo_at(fleet.halt(a.slot, tier, p)));
+        front = followed(front, cargo_at(fleet.stop_load(a.slot, tier, p)));
     }
     Cargo rest{};
     for (Int p = b.stop + 1;
          p < fleet.route[b.slot].length && fleet.stop(b.slot, p).kind != start_stop; ++p) {
-        rest = followed(rest, cargo_at(fleet.halt(b.slot, tier, p)));
+        rest = followed(rest, cargo_at(fleet.stop_load(b.slot, tier, p)));
     }
     return may_follow(type, front, rest) && may_be_all(type, followed(front, rest), tier);
 }
 
 // Tell whether the trip that begins before cut `a` and goes on behind cut `b` carries too much.
 // Stops of the truck alone are counted, but where more than loads tells.
-bool overloads(const World& world, const Fleet& fleet, Cut a, Cut b) {
+bool overloads(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     Amount load{};
     Int count = 0;
     const auto add = [&](const Stop& stop) {
-        load = plus(load, demand_of(world.place[0][stop.node]));
+        load = plus(load, demand_of(data.place[0][stop.node]));
         ++count;
     };
     for (Int p = a.stop; fleet.stop(a.slot, p).kind == customer_stop; --p)
@@ -118,34 +118,34 @@ bool overloads(const World& world, const Fleet& fleet, Cut a, Cut b) {
     for (Int p = b.stop + 1; fleet.stop(b.slot, p).kind == customer_stop; ++p) {
         add(fleet.stop(b.slot, p));
     }
-    const VehicleType& type = world.type[fleet.route[a.slot].type];
+    const VehicleType& type = data.type[fleet.route[a.slot].type];
     if (!holds(type, load) || !allows_stops(type, count)) return true;
-    for (Int tier = 0; tier < fleet.halt.shape(1); ++tier) {
-        if (!is_cargo(world, fleet, a, b, tier)) return true;
+    for (Int tier = 0; tier < fleet.stop_load.shape(1); ++tier) {
+        if (!is_cargo(data, fleet, a, b, tier)) return true;
     }
     return false;
 }
 
 // Tell whether goods clash on the trip that `overloads` is asked of.
-bool clashes(const World& world, const Fleet& fleet, Cut a, Cut b) {
-    if (world.goods.empty()) return false;
+bool clashes(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
+    if (data.goods.empty()) return false;
     Int barred = 0;
     for (Int p = a.stop; fleet.stop(a.slot, p).kind == customer_stop; --p) {
-        barred |= barred_on_trip(world.goods[fleet.stop(a.slot, p).node]);
+        barred |= barred_on_trip(data.goods[fleet.stop(a.slot, p).node]);
     }
     for (Int p = b.stop + 1; fleet.stop(b.slot, p).kind == customer_stop; ++p) {
-        if (!go_together(world.goods[fleet.stop(b.slot, p).node], barred, 0)) return true;
+        if (!go_together(data.goods[fleet.stop(b.slot, p).node], barred, 0)) return true;
     }
     return false;
 }
 
 // Tell whether the route up to cut `a`, then on behind cut `b`, has too many trips.
-bool too_long(const World& world, const Fleet& fleet, Cut a, Cut b) {
+bool too_long(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     const Route& front = fleet.route[a.slot];
     const Route& rest = fleet.route[b.slot];
     const Int trips =
         fleet.stop(a.slot, a.stop).trip + rest.trips - fleet.stop(b.slot, b.stop).trip;
-    return trips > world.type[front.type].max_trips ||
+    return trips > data.type[front.type].max_trips ||
            front.sorties + rest.sorties > fleet.sortie.shape(1);
 }
 
@@ -157,31 +157,31 @@ bool leaves_nothing(const Fleet& fleet, Cut a, Cut b) {
 }
 
 // Tell whether tails may be swapped, by what trips carry, how many there are, and to whom.
-bool may_swap(const World& world, const Fleet& fleet, Cut a, Cut b) {
-    return !(leaves_nothing(fleet, a, b) || overloads(world, fleet, a, b) ||
-             overloads(world, fleet, b, a) || clashes(world, fleet, a, b) ||
-             clashes(world, fleet, b, a) || too_long(world, fleet, a, b) ||
-             too_long(world, fleet, b, a));
+bool may_swap(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
+    return !(leaves_nothing(fleet, a, b) || overloads(data, fleet, a, b) ||
+             overloads(data, fleet, b, a) || clashes(data, fleet, a, b) ||
+             clashes(data, fleet, b, a) || too_long(data, fleet, a, b) ||
+             too_long(data, fleet, b, a));
 }
 
 // Return what it costs to serve a tail by a new route.
-double cost_apart(const World& world, const Fleet& fleet, Cut a) {
+double cost_apart(const ProblemData& data, const Fleet& fleet, Cut a) {
     const Int k = fleet.route[a.slot].type;
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     const Stop& stop = fleet.stop(a.slot, a.stop);
     const Int detour = leg(legs, stop.node, type.ends_at).distance - stop.leg +
                        leg(legs, type.begins_at, fleet.stop(a.slot, a.stop + 1).node).distance;
-    return world.rate[k].fixed + static_cast<double>(detour) * world.rate[k].distance;
+    return data.rate[k].fixed + static_cast<double>(detour) * data.rate[k].distance;
 }
 
 // Return the cut behind which a tail is best swapped with that behind `a`.
 //
 // Its route is `nowhere` if none is worth less than `limit`, or an empty slot for a new route.
-Cut find_tail(const World& world, const Searcher& searcher, Cut a, double limit) {
+Cut find_tail(const ProblemData& data, const Searcher& searcher, Cut a, double limit) {
     const Fleet& now = searcher.now;
     const Int k = now.route[a.slot].type;
-    const View<const std::int32_t, 1> near = world.near[now.stop(a.slot, a.stop).node];
+    const View<const std::int32_t, 1> near = data.near[now.stop(a.slot, a.stop).node];
     Cut chosen{nowhere, 0};
     double best = limit;
     for (Int node : near.first(std::min(tail_neighbours, near.size()))) {
@@ -191,20 +191,20 @@ Cut find_tail(const World& world, const Searcher& searcher, Cut a, double limit)
             continue;
         }
         const Int by = now.route[b.slot].type;
-        if (by != k && !world.splice(k, by)) continue;
-        const double cost = tail_saving(world, now, a, b);
+        if (by != k && !data.splice(k, by)) continue;
+        const double cost = tail_saving(data, now, a, b);
         if (cost >= best) continue;
-        if (by != k && !world.swap(k, by) &&
-            !(may_serve_tail(world, now, k, b) && may_serve_tail(world, now, by, a))) {
+        if (by != k && !data.swap(k, by) &&
+            !(may_serve_tail(data, now, k, b) && may_serve_tail(data, now, by, a))) {
             continue;
         }
         // Where it matters who comes when, few tails fit: look for one that does.
-        if (now.halt.shape(1) > 0 && !may_swap(world, now, a, b)) continue;
+        if (now.stop_load.shape(1) > 0 && !may_swap(data, now, a, b)) continue;
         chosen = b;
         best = cost;
     }
-    if (now.stop(a.slot, a.stop + 1).kind == customer_stop && cost_apart(world, now, a) < best) {
-        const Int slot = free_slot(world, searcher, k);
+    if (now.stop(a.slot, a.stop + 1).kind == customer_stop && cost_apart(data, now, a) < best) {
+        const Int slot = free_slot(data, searcher, k);
         if (slot >= 0) return {slot, 0};
     }
     return chosen;
@@ -212,19 +212,19 @@ Cut find_tail(const World& world, const Searcher& searcher, Cut a, double limit)
 
 // Write a route up to cut `a`, then another's rest behind cut `b`, both kept aside, into a slot. In
 // place.
-void join(const World& world, Fleet& now, Int slot, Cut a, Cut b) {
+void join(const ProblemData& data, Fleet& now, Int slot, Cut a, Cut b) {
     Route& route = now.route[slot];
     route.length = route.sorties = 0;
     append(now, a.slot, 0, a.stop + 1, slot);
     append(now, b.slot, b.stop + 1, now.route[b.slot].length, slot);
     // Whoever ends another's route still ends where its own type does.
-    if (world.splice(route.type, route.type)) {
-        now.stop(slot, route.length - 1).node = world.type[route.type].ends_at;
+    if (data.splice(route.type, route.type)) {
+        now.stop(slot, route.length - 1).node = data.type[route.type].ends_at;
     }
 }
 
 // Swap tails; `b` may be in an empty slot. In place; false if that breaks a rule.
-bool swap_tails(const World& world, Searcher& searcher, Cut a, Cut b) {
+bool swap_tails(const ProblemData& data, Searcher& searcher, Cut a, Cut b) {
     Fleet& now = searcher.now;
     touch(searcher, a.slot);
     touch(searcher, b.slot);
@@ -234,16 +234,16 @@ bool swap_tails(const World& world, Searcher& searcher, Cut a, Cut b) {
         other.type = k;
         other.length = 2;
         other.sorties = 0;
-        put(now.stop[b.slot], 0, world.type[k].begins_at, start_stop);
-        put(now.stop[b.slot], 1, world.type[k].ends_at, end_stop);
+        put(now.stop[b.slot], 0, data.type[k].begins_at, start_stop);
+        put(now.stop[b.slot], 1, data.type[k].ends_at, end_stop);
         ++now.used[k];
     }
     const Cut one{now.route.size() - 2, a.stop};
     const Cut two{now.route.size() - 1, b.stop};
     keep_aside(now, a.slot, one.slot);
     keep_aside(now, b.slot, two.slot);
-    join(world, now, a.slot, one, two);
-    join(world, now, b.slot, two, one);
+    join(data, now, a.slot, one, two);
+    join(data, now, b.slot, two, one);
     bool done = true;
     for (Int slot : {a.slot, b.slot}) {
         Route& route = now.route[slot];
@@ -252,7 +252,7 @@ bool swap_tails(const World& world, Searcher& searcher, Cut a, Cut b) {
             now.cost[slot] = 0.0;
             --now.used[route.type];
         } else if (done) {
-            done = refresh(world, now, slot, *searcher.acc);
+            done = refresh(data, now, slot, *searcher.acc);
             locate(now, slot);
         }
     }
@@ -279,15 +279,15 @@ void append(const Fleet& source, Int slot, Int first, Int behind, Int to) {
     }
 }
 
-bool exchange_tails(const World& world, Searcher& searcher, double limit) {
+bool two_opt_star(const ProblemData& data, Searcher& searcher, double limit) {
     const Fleet& now = searcher.now;
-    const Int node = draw_customer(world, now, searcher.count->focus, searcher.rng);
+    const Int node = draw_customer(data, now, searcher.count->focus, searcher.rng);
     const Cut a{now.where[node].slot, now.where[node].position};
     if (a.slot < 0 || a.stop < 0 || now.stop(a.slot, a.stop).flying > 0) return false;
-    const Cut b = find_tail(world, searcher, a, limit);
+    const Cut b = find_tail(data, searcher, a, limit);
     if (b.slot < 0) return false;
-    if (now.route[b.slot].length > 0 && !may_swap(world, now, a, b)) return false;
-    return swap_tails(world, searcher, a, b);
+    if (now.route[b.slot].length > 0 && !may_swap(data, now, a, b)) return false;
+    return swap_tails(data, searcher, a, b);
 }
 
 }  // namespace tandem

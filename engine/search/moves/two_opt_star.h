@@ -13,6 +13,6 @@ void append(const Fleet& source, Int slot, Int first, Int behind, Int to);
 // Swap the tail behind a random stop if that may cost less than `limit`.
 //
 // In place; tells whether routes were changed and keep all rules; if not, they may be broken.
-bool exchange_tails(const World& world, Searcher& searcher, double limit);
+bool two_opt_star(const ProblemData& data, Searcher& searcher, double limit);
 
 }  // namespace tandem

@@ -10,29 +10,29 @@ namespace tandem {
 namespace {
 
 // Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`.
-Int held_by_windows(const SortieCraft& craft, const Sortie& sortie, Int node, Int takeoff) {
+Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
     Int time = takeoff, back = none, here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
-        const NodeRows place = craft.places[next];
-        const Int flight = leg(craft.legs, here, next).duration;
+        const NodeRows place = drone_data.places[next];
+        const Int flight = leg(drone_data.legs, here, next).duration;
         back = std::max(back + flight + service_duration(place),
                         earliest_back(place, time + flight, 0));
         time = end_of_service(place, time + flight);
         here = next;
     }
-    return held_until(back + leg(craft.homeward, here, sortie.home).duration, sortie.limit);
+    return held_until(back + leg(drone_data.homeward, here, sortie.home).duration, sortie.limit);
 }
 
 // Return when a sortie takes off at `node` that can at `takeoff`: then, or held back.
-Int soonest_takeoff(const SortieCraft& craft, const Sortie& sortie, Int node, Int takeoff) {
+Int soonest_takeoff(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
     takeoff = std::max(takeoff, sortie.held);
-    if (charges_aboard(craft.type)) takeoff = std::max(takeoff, sortie.charged);
-    if (are_single(craft.places[0])) return takeoff;
-    Int held = held_by_windows(craft, sortie, node, takeoff);
+    if (charges_aboard(drone_data.type)) takeoff = std::max(takeoff, sortie.charged);
+    if (are_single(drone_data.places[0])) return takeoff;
+    Int held = held_by_windows(drone_data, sortie, node, takeoff);
     while (held > takeoff) {
         takeoff = held;
-        held = held_by_windows(craft, sortie, node, takeoff);
+        held = held_by_windows(drone_data, sortie, node, takeoff);
     }
     return takeoff;
 }
@@ -54,12 +54,12 @@ inline bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& acc) {
 }
 
 // Launch a sortie from `node` once the truck's crew is free. In place; false if not allowed.
-bool fly_out(const SortieCraft& craft, Sortie& sortie, Int node, BlockSums& acc) {
-    const VehicleType& type = craft.type;
+bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& acc) {
+    const VehicleType& type = drone_data.type;
     Int d = take_off(type, acc.free_d, acc.launched);
     Int c = take_off(type, acc.free_c, acc.launched);
     const Int takeoff = std::max(acc.time + d, c);
-    const Int held = soonest_takeoff(craft, sortie, node, takeoff);
+    const Int held = soonest_takeoff(drone_data, sortie, node, takeoff);
     if (held > takeoff) c = held;
     if (charges_aboard(type)) {
         const Int free = d;
@@ -72,8 +72,8 @@ bool fly_out(const SortieCraft& craft, Sortie& sortie, Int node, BlockSums& acc)
     Int here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
-        const NodeRows place = craft.places[next];
-        const Int flight = leg(craft.legs, here, next).duration;
+        const NodeRows place = drone_data.places[next];
+        const Int flight = leg(drone_data.legs, here, next).duration;
         d += flight;
         c += flight;
         const Int arrival = std::max(acc.time + d, c);
@@ -89,14 +89,14 @@ bool fly_out(const SortieCraft& craft, Sortie& sortie, Int node, BlockSums& acc)
     sortie.state = sortie_flies;
     ++acc.flying;
     ++acc.launched;
-    if (hovers_at_customers(type)) hover(craft.places, type, sortie, acc);
+    if (hovers_at_customers(type)) hover(drone_data.places, type, sortie, acc);
     return !is_limited(type) || sortie.left >= 0;
 }
 
 // Recover a sortie at `node`. In place; false if endurance or energy forbids it.
-bool bring_home(const SortieCraft& craft, Sortie& sortie, Int node, BlockSums& acc) {
-    const VehicleType& type = craft.type;
-    const Int flight = leg(craft.homeward, sortie.nodes[sortie.count - 1], node).duration;
+bool bring_home(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& acc) {
+    const VehicleType& type = drone_data.type;
+    const Int flight = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
     const Int back_d = sortie.ready_d + flight, back_c = sortie.ready_c + flight;
     const Int begin_d = std::max(acc.free_d, back_d), begin_c = std::max(acc.free_c, back_c);
     if (unreachable(flight)) return false;
@@ -146,16 +146,16 @@ bool is_due(View<const Sortie, 1> sorties, Int index, Int p, Int oldest) {
 //
 // A drone that is there is recovered before another is launched.
 Int twice_begin(const Truck& truck, const Sortie& sortie, Int node, const BlockSums& acc) {
-    const SortieCraft craft = truck.craft(sortie);
+    const DroneData drone_data = truck.drone_data(sortie);
     const Int free = std::max(acc.time + acc.free_d, acc.free_c);
     if (sortie.state == sortie_flies) {
-        const Int flight = leg(craft.homeward, sortie.nodes[sortie.count - 1], node).duration;
+        const Int flight = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
         const Int ready = std::max(acc.time + sortie.ready_d, sortie.ready_c);
         return 2 * std::max(free, ready + flight);
     }
     const Int takeoff =
-        soonest_takeoff(craft, sortie, node, take_off(craft.type, free, acc.launched));
-    return 2 * launch_begin(craft.type, takeoff, acc.launched) + 1;
+        soonest_takeoff(drone_data, sortie, node, take_off(drone_data.type, free, acc.launched));
+    return 2 * launch_begin(drone_data.type, takeoff, acc.launched) + 1;
 }
 
 // Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
@@ -166,9 +166,9 @@ Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p
         Sortie& sortie = sorties[index];
         if (!is_due(sorties, index, p, acc.oldest)) continue;
         if (sortie.state == sortie_waits) {
-            const SortieCraft craft = truck.craft(sortie);
-            if (charges_aboard(craft.type)) {
-                note_charge(craft.type, sorties, index, acc.first_sortie);
+            const DroneData drone_data = truck.drone_data(sortie);
+            if (charges_aboard(drone_data.type)) {
+                note_charge(drone_data.type, sorties, index, acc.first_sortie);
             }
         }
         if (chosen < 0) {
@@ -193,9 +193,10 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int 
         const Int index = next_operation(truck, sorties, count, p, node, acc);
         if (index < 0) break;
         Sortie& sortie = sorties[index];
-        const SortieCraft craft = truck.craft(sortie);
-        const bool allowed = sortie.state == sortie_flies ? bring_home(craft, sortie, node, acc)
-                                                          : fly_out(craft, sortie, node, acc);
+        const DroneData drone_data = truck.drone_data(sortie);
+        const bool allowed = sortie.state == sortie_flies
+                                 ? bring_home(drone_data, sortie, node, acc)
+                                 : fly_out(drone_data, sortie, node, acc);
         if (!allowed) return false;
     }
     for (Int index = acc.oldest; index < count && sorties[index].launch <= p; ++index) {
@@ -221,24 +222,24 @@ void note_idle(NodesRows places, View<Stop, 1> stops, Int first, Int last) {
 void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count) {
     const bool single = are_single(truck.own[0]);
     for (Sortie& sortie : sorties.first(count)) {
-        const SortieCraft craft = truck.craft(sortie);
+        const DroneData drone_data = truck.drone_data(sortie);
         const Int node = sortie.home = stops[sortie.recovery].node;
         sortie.state = sortie_waits;
         sortie.held = none;
-        sortie.limit = endurance_of(craft.type);
-        if (is_limited(craft.type)) {
-            charge(craft.places, craft.legs, craft.homeward, craft.type, sortie,
+        sortie.limit = endurance_of(drone_data.type);
+        if (is_limited(drone_data.type)) {
+            charge(drone_data.places, drone_data.legs, drone_data.homeward, drone_data.type, sortie,
                    stops[sortie.launch].node);
         }
         if (!single) continue;
         Int back = 0;
-        Int home = leg(craft.homeward, sortie.nodes[sortie.count - 1], node).duration;
+        Int home = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
         for (Int index = sortie.count - 1; index >= 0; --index) {
             const Int here = sortie.nodes[index];
-            const NodeRows place = craft.places[here];
+            const NodeRows place = drone_data.places[here];
             back = std::max(back, earliest_back(place, none, home));
             home += service_duration(place);
-            if (index > 0) home += leg(craft.legs, sortie.nodes[index - 1], here).duration;
+            if (index > 0) home += leg(drone_data.legs, sortie.nodes[index - 1], here).duration;
         }
         sortie.held = held_until(back, sortie.limit);
     }
@@ -247,7 +248,7 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
 Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
                Int count, Int first, Int oldest, Int time, BlockSums& acc) {
     const VehicleType& type = truck.type;
-    const TravelLegs legs = legs_of(truck.world.leg, type.travel);
+    const TravelLegs legs = legs_of(truck.data.leg, type.travel);
     auto [d, c] = truck.origin(time);
     acc.time = time;
     acc.hi = acc.dep = far;

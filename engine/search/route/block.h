@@ -9,35 +9,35 @@
 #include "rules/leg.h"
 #include "rules/start.h"
 #include "rules/window.h"
-#include "search/route/craft.h"
+#include "search/route/drone_data.h"
 #include "search/route/layout.h"
 
 namespace tandem {
 
 // A truck of a type, and what it meets on its way, looked up once for a route.
 struct Truck {
-    Truck(const World& world_of_it, Int row)
-        : world(world_of_it),
+    Truck(const ProblemData& data_of_it, Int row)
+        : data(data_of_it),
           k(row),
-          type(world_of_it.type[row]),
-          places(places_of(world_of_it.place, type)),
-          own(world_of_it.place[0]),
-          drones(craft_at(world_of_it, first_drone_row(world_of_it.type, row))),
+          type(data_of_it.type[row]),
+          places(places_of(data_of_it.place, type)),
+          own(data_of_it.place[0]),
+          drones(drone_data_at(data_of_it, first_drone_row(data_of_it.type, row))),
           alike(!are_several(type)),
           steady(is_steady(type)) {}
 
-    const World& world;
+    const ProblemData& data;
     Int k;
     const VehicleType& type;
-    NodesRows places;    // as this type meets them
-    NodesRows own;       // by the service durations that are customers' own
-    SortieCraft drones;  // what its first drones meet
-    bool alike;          // all of them
+    NodesRows places;  // as this type meets them
+    NodesRows own;     // by the service durations that are customers' own
+    DroneData drones;  // what its first drones meet
+    bool alike;        // all of them
     bool steady;
 
     // Return what the drone of a sortie meets.
-    SortieCraft craft(const Sortie& sortie) const {
-        return alike ? drones : craft_at(world, row_of_drone(world.type, k, sortie.drone));
+    DroneData drone_data(const Sortie& sortie) const {
+        return alike ? drones : drone_data_at(data, row_of_drone(data.type, k, sortie.drone));
     }
 
     // Return the pair of an arrival at `time`, at the beginning of a block.
@@ -47,8 +47,8 @@ struct Truck {
     Pair travel(Int node, Int to, Int duration, Pair leave) const {
         if (steady) return {leave.d + duration, leave.c + duration};
         const Int arrival =
-            leg_end(type, world.profile_time[k], world.profile_factor[k], duration, leave.c);
-        return {none, arrival + setup_beside(type, world.setup, node, to)};
+            leg_end(type, data.profile_time[k], data.profile_factor[k], duration, leave.c);
+        return {none, arrival + setup_beside(type, data.setup, node, to)};
     }
 
     // Return the pair at the end of what it does at a stop by itself, reached at a pair.

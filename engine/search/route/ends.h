@@ -6,12 +6,12 @@
 namespace tandem {
 
 // Tell whether trips of a type don't all begin and end at one place.
-inline bool is_apart(const World& world, Int k) { return (world.mode[k] & mode_apart) != 0; }
+inline bool is_apart(const ProblemData& data, Int k) { return (data.mode[k] & mode_apart) != 0; }
 
 // Let each trip begin and end where it may. In place.
 //
 // Where one ends and the next begins stays as it is, if it may be there.
-void place_ends(const World& world, Int k, const Route& route, View<Stop, 1> stops);
+void place_ends(const ProblemData& data, Int k, const Route& route, View<Stop, 1> stops);
 
 // A place to reload at, and how far it is by it.
 struct Reload {
@@ -20,11 +20,11 @@ struct Reload {
 };
 
 // Return how far it is from a node to another by a place to reload at, and which.
-Reload nearest_reload(const World& world, Int k, Int before, Int behind);
+Reload nearest_reload(const ProblemData& data, Int k, Int before, Int behind);
 
 // Return how much further it is by a customer and a place to reload at.
 //
 // `first` tells that the customer comes first.
-Int detour_by_reload(const World& world, Int k, Int before, Int node, Int behind, bool first);
+Int detour_by_reload(const ProblemData& data, Int k, Int before, Int node, Int behind, bool first);
 
 }  // namespace tandem

@@ -12,14 +12,14 @@ namespace tandem {
 namespace {
 
 // Return by how much a parcel is too long aboard on a timed trip; at most 0 if none is.
-Int most_excess(const World& world, const Route& route, View<const Stop, 1> stops, const Trip& trip,
-                View<const Sortie, 1> sorties) {
-    const Int departure = departure_of(world, route, stops, sorties, trip.first);
-    const NodesRows places = world.place[0];
+Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                const Trip& trip, View<const Sortie, 1> sorties) {
+    const Int departure = departure_of(data, route, stops, sorties, trip.first);
+    const NodesRows places = data.place[0];
     Int most = -far;
     const auto serve = [&](Int node, Int arrival) {
         const Int start = start_of_service(places[node], arrival);
-        most = std::max(most, excess_aboard(world.fresh_for, node, departure, start));
+        most = std::max(most, excess_aboard(data.max_time_aboard, node, departure, start));
     };
     for (Int p = trip.first; p <= trip.last; ++p) {
         if (stops[p].kind == customer_stop) serve(stops[p].node, stops[p].arrival);
@@ -35,7 +35,7 @@ Int most_excess(const World& world, const Route& route, View<const Stop, 1> stop
 
 }  // namespace
 
-Int departure_of(const World& world, const Route& route, View<const Stop, 1> stops,
+Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties, Int first) {
     Int departure = far;
     for (const Sortie& sortie : sorties.first(route.sorties)) {
@@ -43,28 +43,28 @@ Int departure_of(const World& world, const Route& route, View<const Stop, 1> sto
     }
     if (departure != far) return departure;
     const Stop& stop = stops[first];
-    return leaves_first(world.type[route.type],
+    return leaves_first(data.type[route.type],
                         std::max(stop.arrival, std::max(stop.release, stop.hold)));
 }
 
-bool any_too_long(const World& world, const Route& route, View<const Stop, 1> stops,
+bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
-    if (!time_aboard_counts(world)) return false;
+    if (!time_aboard_counts(data)) return false;
     const View<const Trip, 1> made = trips.first(route.trips);
     return std::any_of(made.begin(), made.end(), [&](const Trip& trip) {
-        return most_excess(world, route, stops, trip, sorties) > 0;
+        return most_excess(data, route, stops, trip, sorties) > 0;
     });
 }
 
-bool hold_trips(const World& world, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-                View<Sortie, 1> sorties, BlockSums& acc) {
+bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                View<const Trip, 1> trips, View<Sortie, 1> sorties, BlockSums& acc) {
     for (const Trip& trip : trips.first(route.trips)) {
-        Int excess = most_excess(world, route, stops, trip, sorties);
+        Int excess = most_excess(data, route, stops, trip, sorties);
         while (excess > 0) {
             Stop& stop = stops[trip.first];
             stop.release = std::max(stop.arrival, stop.release) + excess;
-            if (!drive_forward(world, route, stops, sorties, acc)) return false;
-            const Int left = most_excess(world, route, stops, trip, sorties);
+            if (!drive_forward(data, route, stops, sorties, acc)) return false;
+            const Int left = most_excess(data, route, stops, trip, sorties);
             if (left >= excess) return false;
             excess = left;
         }

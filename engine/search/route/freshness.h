@@ -6,17 +6,17 @@
 namespace tandem {
 
 // Return when truck or drone first leaves the depot on the timed trip from stop `first` on.
-Int departure_of(const World& world, const Route& route, View<const Stop, 1> stops,
+Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties, Int first);
 
 // Tell whether somebody's parcel is too long aboard on a timed route.
-bool any_too_long(const World& world, const Route& route, View<const Stop, 1> stops,
+bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties);
 
 // Let each trip of a timed route begin as soon as nobody's parcel is too long aboard.
 //
 // In place; false if that helps nobody, or a rule is broken.
-bool hold_trips(const World& world, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-                View<Sortie, 1> sorties, BlockSums& acc);
+bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                View<const Trip, 1> trips, View<Sortie, 1> sorties, BlockSums& acc);
 
 }  // namespace tandem

@@ -17,7 +17,7 @@
 
 namespace tandem {
 
-using Halt = tandem_halt;
+using StopLoad = tandem_stop_load;
 using Stop = tandem_stop;
 using Sortie = tandem_sortie;
 using Trip = tandem_trip;
@@ -54,7 +54,7 @@ constexpr Int elsewhere = -2;
 // `SearchCounts.changed` where any slot may have changed since the best.
 constexpr Int all_slots = -1;
 
-// Flags of a type, in `World.mode`.
+// Flags of a type, in `ProblemData.mode`.
 constexpr Int mode_timed = 1;    // working time costs or is limited
 constexpr Int mode_priced = 2;   // lateness, waiting or what is aboard cost, or all is retimed
 constexpr Int mode_settled = 4;  // trips must be held back to know the cost
@@ -66,7 +66,7 @@ constexpr Int mode_lean = 32;     // as that, with one trip of any distance, no 
 constexpr Int mode_apart = 64;    // several trips don't all begin and end at one place
 constexpr Int mode_loaded = 128;  // what is aboard costs by the way that it is driven
 
-struct World {
+struct ProblemData {
     std::int64_t num_depots;
     std::int64_t num_nodes;
     std::int64_t num_types;
@@ -90,17 +90,17 @@ struct World {
     View<const Node, 3> place;       // (variant, node, row)
     View<const std::int64_t, 3>
         amount;  // (node, tier, entry); no tiers where the demand of nodes tells all
-    View<const Price, 1> price;             // (node,) per ms
-    View<const Goods, 1> goods;             // (node,) none where all go together
-    View<const Setup, 1> setup;             // (node,) none where nobody sets up
-    View<const std::int64_t, 1> fresh_for;  // (node,) ms, none where nothing is limited
-    View<const VehicleType, 1> type;        // (row,)
-    View<const Rate, 1> rate;               // (row,) per mm and per ms
-    View<const std::int64_t, 1> mode;       // (row,) `mode_` flags
-    View<const bool, 2> reload;             // (type, node) where a trip may end and the next begin
-    View<const std::int64_t, 1> visits;     // (row,) customers on a sortie
-    View<const bool, 3> can;                // (row, 2, node) by truck, by drone
-    View<const bool, 2> splice;             // (type, type) vehicles may end each other's routes
+    View<const Price, 1> price;                   // (node,) per ms
+    View<const Goods, 1> goods;                   // (node,) none where all go together
+    View<const Setup, 1> setup;                   // (node,) none where nobody sets up
+    View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
+    View<const VehicleType, 1> type;              // (row,)
+    View<const Rate, 1> rate;                     // (row,) per mm and per ms
+    View<const std::int64_t, 1> mode;             // (row,) `mode_` flags
+    View<const bool, 2> reload;          // (type, node) where a trip may end and the next begin
+    View<const std::int64_t, 1> visits;  // (row,) customers on a sortie
+    View<const bool, 3> can;             // (row, 2, node) by truck, by drone
+    View<const bool, 2> splice;          // (type, type) vehicles may end each other's routes
     View<const bool, 2>
         swap;   // (type, type) may drive each other's routes at a cost by distance alone
     Legs leg;   // duration, distance
@@ -110,10 +110,10 @@ struct World {
     View<const std::int32_t, 2> near;  // (node, rank) customers, nearest first, -1 behind the last
     View<const std::int32_t, 2>
         fit;            // (node, rank) customers whom a truck would visit before or after
-    Deadline deadline;  // of the thread whose world it is
+    Deadline deadline;  // of the thread whose data it is
 };
 
-inline World world_of(const tandem_world& from) {
+inline ProblemData data_of(const tandem_problem_data& from) {
     return {from.num_depots,
             from.num_nodes,
             from.num_types,
@@ -139,7 +139,7 @@ inline World world_of(const tandem_world& from) {
             from.price,
             from.goods,
             from.setup,
-            from.fresh_for,
+            from.max_time_aboard,
             from.type,
             from.rate,
             from.mode,
@@ -158,19 +158,19 @@ inline World world_of(const tandem_world& from) {
 }
 
 struct Fleet {
-    View<Route, 1> route;        // (slot,)
-    View<double, 1> cost;        // (slot,)
-    View<double, 1> early;       // (slot,) of it, what waiting costs where trips are held back
-    View<Stop, 2> stop;          // (slot, position)
-    View<Halt, 3> halt;          // (slot, tier, position); no tiers where loads of trips tell all
-    View<Trip, 2> trip;          // (slot, trip)
-    View<Sortie, 2> sortie;      // (slot, sortie)
-    View<Place, 1> where;        // (node,)
-    View<std::int64_t, 1> used;  // (type,) routes
+    View<Route, 1> route;         // (slot,)
+    View<double, 1> cost;         // (slot,)
+    View<double, 1> early;        // (slot,) of it, what waiting costs where trips are held back
+    View<Stop, 2> stop;           // (slot, position)
+    View<StopLoad, 3> stop_load;  // (slot, tier, position); no tiers where loads of trips tell all
+    View<Trip, 2> trip;           // (slot, trip)
+    View<Sortie, 2> sortie;       // (slot, sortie)
+    View<Place, 1> where;         // (node,)
+    View<std::int64_t, 1> used;   // (type,) routes
 };
 
 inline Fleet fleet_of(const tandem_fleet& from) {
-    return {from.route, from.cost,   from.early, from.stop, from.halt,
+    return {from.route, from.cost,   from.early, from.stop, from.stop_load,
             from.trip,  from.sortie, from.where, from.used};
 }
 

@@ -4,8 +4,8 @@
 #include "rules/load.h"
 #include "rules/start.h"
 #include "rules/window.h"
-#include "search/route/halts.h"
 #include "search/route/rarer.h"
+#include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -41,14 +41,14 @@ void spread(NodesRows places, View<Stop, 1> stops, Int last, Int p) {
 
 }  // namespace
 
-bool refresh_lean(const World& world, const Fleet& fleet, Int slot) {
+bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     Trip& trip = fleet.trip(slot, 0);
     const Int k = route.type, last = route.length - 1;
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
-    const NodesRows places = places_of(world.place, type);
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
+    const NodesRows places = places_of(data.place, type);
     clear_trip(trip);
     route.trips = 1;
     trip.last = last;
@@ -80,18 +80,18 @@ bool refresh_lean(const World& world, const Fleet& fleet, Int slot) {
         stops[p].latest = latest;
     }
     stops[0].latest = latest - stops[0].gap;
-    fleet.cost[slot] = route_cost(world, k, trip);
-    if (tiers_aboard(fleet) > 0 && !weigh(world, fleet, slot)) return false;
+    fleet.cost[slot] = route_cost(data, k, trip);
+    if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     return time <= type.shift_latest;
 }
 
-void insert_lean(const World& world, const Fleet& fleet, Int slot, Int p, Int node) {
+void insert_lean(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
     shift_lean(fleet, slot, p + 1);
     const View<Stop, 1> stops = fleet.stop[slot];
     Trip& trip = fleet.trip(slot, 0);
     const Int k = fleet.route[slot].type;
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     Stop &before = stops[p], &stop = stops[p + 1];
     stop.node = node;
     stop.kind = customer_stop;
@@ -105,10 +105,10 @@ void insert_lean(const World& world, const Fleet& fleet, Int slot, Int p, Int no
     stop.leg = on.distance;
     ++trip.last;
     trip.distance += detour;
-    fleet.cost[slot] += static_cast<double>(detour) * world.rate[k].distance + world.rate[k].stop;
-    add_load(trip, demand_of(world.place[0][node]));
-    spread(places_of(world.place, type), stops, trip.last, p + 1);
-    if (tiers_aboard(fleet) > 0) weigh(world, fleet, slot);
+    fleet.cost[slot] += static_cast<double>(detour) * data.rate[k].distance + data.rate[k].stop;
+    add_load(trip, demand_of(data.place[0][node]));
+    spread(places_of(data.place, type), stops, trip.last, p + 1);
+    if (tiers_aboard(fleet) > 0) weigh(data, fleet, slot);
 }
 
 }  // namespace tandem

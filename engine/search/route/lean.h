@@ -6,9 +6,9 @@
 namespace tandem {
 
 // Write what a lean route needs. In place; false if it breaks a rule.
-bool refresh_lean(const World& world, const Fleet& fleet, Int slot);
+bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // Insert a customer behind stop `p` where that is known to keep all rules. In place.
-void insert_lean(const World& world, const Fleet& fleet, Int slot, Int p, Int node);
+void insert_lean(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node);
 
 }  // namespace tandem

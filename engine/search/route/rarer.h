@@ -6,21 +6,21 @@
 namespace tandem {
 
 // Return how many tiers loads have to be looked at in at each stop; 0 if that isn't needed.
-inline Int tiers_of(const World& world) { return world.amount.shape(1); }
+inline Int tiers_of(const ProblemData& data) { return data.amount.shape(1); }
 
 // As `tiers_of`, by the routes.
-inline Int tiers_aboard(const Fleet& fleet) { return fleet.halt.shape(1); }
+inline Int tiers_aboard(const Fleet& fleet) { return fleet.stop_load.shape(1); }
 
 // Tell whether some goods must not go with others.
-inline bool goods_count(const World& world) { return !world.goods.empty(); }
+inline bool goods_count(const ProblemData& data) { return !data.goods.empty(); }
 
 // Tell whether some parcels may be aboard for so long and no longer.
-inline bool time_aboard_counts(const World& world) { return !world.fresh_for.empty(); }
+inline bool time_aboard_counts(const ProblemData& data) { return !data.max_time_aboard.empty(); }
 
 // Tell whether what a vehicle of type `k` has aboard costs by the way that it is driven.
-inline bool loads_cost(const World& world, Int k) { return (world.mode[k] & mode_loaded) != 0; }
+inline bool loads_cost(const ProblemData& data, Int k) { return (data.mode[k] & mode_loaded) != 0; }
 
 // Tell whether leaving out some costs more than leaving out others.
-inline bool is_dearer_to_some(const World& world) { return world.unequal; }
+inline bool is_dearer_to_some(const ProblemData& data) { return data.unequal; }
 
 }  // namespace tandem

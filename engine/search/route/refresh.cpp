@@ -9,10 +9,10 @@
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
-#include "search/route/halts.h"
 #include "search/route/lean.h"
 #include "search/route/rarer.h"
 #include "search/route/routes.h"
+#include "search/route/stop_loads.h"
 
 namespace tandem {
 namespace {
@@ -31,11 +31,11 @@ bool has_sortie(View<const Sortie, 1> sorties, Int p) {
 }
 
 // Return the latest start of a trip that costs nothing, by each stop's last arrival.
-Int latest_by_stops(const World& world, const Route& route, View<const Stop, 1> stops,
+Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                     View<const Sortie, 1> sorties, Int first) {
     const Int k = route.type, last = route.length - 1;
-    const VehicleType& type = world.type[k];
-    const NodesRows places = places_of(world.place, type);
+    const VehicleType& type = data.type[k];
+    const NodesRows places = places_of(data.place, type);
     Int leave = far;
     for (Int p = last; p >= first; --p) {
         const Stop& stop = stops[p];
@@ -53,9 +53,9 @@ Int latest_by_stops(const World& world, const Route& route, View<const Stop, 1> 
         if (stop.kind == start_stop) {
             leave = arrival - before.gap;
         } else {
-            arrival -= setup_beside(type, world.setup, before.node, stop.node);
-            leave = leg_start(type, world.profile_time[k], world.profile_factor[k], before.gap,
-                              arrival);
+            arrival -= setup_beside(type, data.setup, before.node, stop.node);
+            leave =
+                leg_start(type, data.profile_time[k], data.profile_factor[k], before.gap, arrival);
         }
     }
     return leave;
@@ -65,92 +65,93 @@ Int latest_by_stops(const World& world, const Route& route, View<const Stop, 1> 
 //
 // If all is retimed, either by moving the whole trip within the windows that are met, or stop by
 // stop, which may reach others but leaves blocks with sorties as they are.
-Int latest_hold(const World& world, const Route& route, View<const Stop, 1> stops,
+Int latest_hold(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 View<const Sortie, 1> sorties, Int first) {
     Int hold = none;
-    if (is_steady(world.type[route.type])) {
+    if (is_steady(data.type[route.type])) {
         const Int base = stops[first].before;
         hold = route.end - (route.cum - base);
         for (Int p = first; p < route.length; p = stops[p].last + 1) {
             hold = std::min(hold, stops[p].dep - (stops[p].before - base));
         }
     }
-    if ((world.mode[route.type] & mode_retimed) != 0) {
-        hold = std::max(hold, latest_by_stops(world, route, stops, sorties, first));
+    if ((data.mode[route.type] & mode_retimed) != 0) {
+        hold = std::max(hold, latest_by_stops(data, route, stops, sorties, first));
     }
     return hold;
 }
 
 // Return when truck or drone first leaves the depot on a settled route.
-Int settled_departure(const World& world, const Route& route, View<const Stop, 1> stops,
+Int settled_departure(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                       View<const Sortie, 1> sorties) {
-    return counted_from(world.type[route.type], departure_of(world, route, stops, sorties, 0));
+    return counted_from(data.type[route.type], departure_of(data, route, stops, sorties, 0));
 }
 
 // Tell whether a route with drones works too long unless it begins later than it could.
 //
 // Whether they then come in the order that its times were found by has to be seen.
-bool has_to_wait(const World& world, const Route& route, View<const Stop, 1> stops,
+bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties) {
     if (route.sorties == 0) return false;
-    const Int soonest = settled_departure(world, route, stops, sorties);
-    return route.end - soonest > world.type[route.type].max_working_duration;
+    const Int soonest = settled_departure(data, route, stops, sorties);
+    return route.end - soonest > data.type[route.type].max_working_duration;
 }
 
 // Write times and cost of a route that isn't lean, with trips that end where they do. In place;
 // false if it breaks a rule.
 //
 // Where that costs less, its trips are held back; `settled` tells.
-bool price_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& acc, bool& settled) {
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc,
+                 bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
-    const VehicleType& type = world.type[route.type];
-    const Int mode = world.mode[route.type];
-    if (!load_trips(world, route, stops, trips, sorties)) return false;
-    if (goods_count(world) && !take_goods(world.goods, route, stops, trips, sorties)) return false;
-    if (tiers_aboard(fleet) > 0 && !weigh(world, fleet, slot)) return false;
+    const VehicleType& type = data.type[route.type];
+    const Int mode = data.mode[route.type];
+    if (!load_trips(data, route, stops, trips, sorties)) return false;
+    if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
+    if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     clear_holds(route, stops, trips);
-    if (!drive_forward(world, route, stops, sorties, acc)) return false;
-    if (time_aboard_counts(world) && !hold_trips(world, route, stops, trips, sorties, acc)) {
+    if (!drive_forward(data, route, stops, sorties, acc)) return false;
+    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties, acc)) {
         return false;
     }
-    Int departure = first_departure(world, route, stops, sorties);
-    settled = (mode & mode_settled) != 0 || has_to_wait(world, route, stops, sorties);
+    Int departure = first_departure(data, route, stops, sorties);
+    settled = (mode & mode_settled) != 0 || has_to_wait(data, route, stops, sorties);
     if (settled) {
-        if (!settle(world, route, stops, trips, sorties, acc)) return false;
-        departure = settled_departure(world, route, stops, sorties);
+        if (!settle(data, route, stops, trips, sorties, acc)) return false;
+        departure = settled_departure(data, route, stops, sorties);
     }
     route.working = route.end - departure;
     if (route.working > type.max_working_duration) return false;
-    const auto [cost, early] = price_route(world, route, stops, trips, sorties);
+    const auto [cost, early] = price_route(data, route, stops, trips, sorties);
     fleet.cost[slot] = cost;
-    if (loads_cost(world, route.type)) fleet.cost[slot] += load_cost(world, fleet, slot);
+    if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);
     fleet.early[slot] = (mode & mode_settled) != 0 ? early : 0.0;
     return true;
 }
 
 // As `refresh`, of a route that isn't lean, with trips that end where they do.
-bool refresh_as_is(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
     bool settled = false;
-    if (!price_as_is(world, fleet, slot, acc, settled)) return false;
+    if (!price_as_is(data, fleet, slot, acc, settled)) return false;
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     if (settled) {
         clear_holds(route, stops, fleet.trip[slot]);
-        drive_forward(world, route, stops, fleet.sortie[slot], acc);
+        drive_forward(data, route, stops, fleet.sortie[slot], acc);
     }
-    if ((world.mode[route.type] & mode_retimed) != 0) {
+    if ((data.mode[route.type] & mode_retimed) != 0) {
         open_up(route, stops);
     } else {
-        look_back(world, route, stops);
+        look_back(data, route, stops);
     }
     return true;
 }
 
 // Let the trips of a route end, and the next begin, where that costs least. In place.
-void choose_reloads(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
     const Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     for (Int p = 1; p < route.length - 1; ++p) {
@@ -158,11 +159,11 @@ void choose_reloads(const World& world, const Fleet& fleet, Int slot, BlockSums&
         const Int node = stops[p].node;
         const double cost = fleet.cost[slot];
         const Int place =
-            nearest_reload(world, route.type, stops[p - 1].node, stops[p + 2].node).node;
+            nearest_reload(data, route.type, stops[p - 1].node, stops[p + 2].node).node;
         if (place == node) continue;
         for (const Int end : {place, node}) {
             stops[p].node = end;
-            if (refresh_as_is(world, fleet, slot, acc) && fleet.cost[slot] < cost) break;
+            if (refresh_as_is(data, fleet, slot, acc) && fleet.cost[slot] < cost) break;
         }
     }
 }
@@ -173,19 +174,19 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
     for (const Trip& trip : trips.first(route.trips)) stops[trip.first].hold = none;
 }
 
-bool settle(const World& world, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
+bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties, BlockSums& acc) {
     for (const Trip& trip : trips.first(route.trips)) {
         Stop& stop = stops[trip.first];
-        const Int hold = latest_hold(world, route, stops, sorties, trip.first);
+        const Int hold = latest_hold(data, route, stops, sorties, trip.first);
         const Int soonest = std::max(stop.arrival, stop.release);
         if (hold <= soonest) continue;
         const Int end = route.end;
         Int found = none, failed = hold, tried = hold;
         for (Int attempt = 0; attempt <= halvings && found != hold; ++attempt) {
             stop.hold = tried;
-            if (drive_forward(world, route, stops, sorties, acc) && route.end <= end &&
-                !any_too_long(world, route, stops, trips, sorties)) {
+            if (drive_forward(data, route, stops, sorties, acc) && route.end <= end &&
+                !any_too_long(data, route, stops, trips, sorties)) {
                 found = tried;
             } else {
                 // Drones in another order of arrival took longer.
@@ -195,46 +196,47 @@ bool settle(const World& world, Route& route, View<Stop, 1> stops, View<const Tr
         }
         if (stop.hold != found) {
             stop.hold = found;
-            if (!drive_forward(world, route, stops, sorties, acc)) return false;
+            if (!drive_forward(data, route, stops, sorties, acc)) return false;
         }
     }
     return true;
 }
 
-bool refresh(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+bool refresh(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
     const Route& route = fleet.route[slot];
-    if ((world.mode[route.type] & mode_lean) != 0) return refresh_lean(world, fleet, slot);
-    if (!refresh_as_is(world, fleet, slot, acc)) return false;
-    if (is_apart(world, route.type) && route.trips > 1) choose_reloads(world, fleet, slot, acc);
+    if ((data.mode[route.type] & mode_lean) != 0) return refresh_lean(data, fleet, slot);
+    if (!refresh_as_is(data, fleet, slot, acc)) return false;
+    if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot, acc);
     return true;
 }
 
-bool refresh_cost(const World& world, const Fleet& fleet, Int slot, BlockSums& acc) {
+bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
     const Route& route = fleet.route[slot];
-    if (is_apart(world, route.type) || (world.mode[route.type] & mode_lean) != 0) {
-        return refresh(world, fleet, slot, acc);
+    if (is_apart(data, route.type) || (data.mode[route.type] & mode_lean) != 0) {
+        return refresh(data, fleet, slot, acc);
     }
     bool settled = false;
-    return price_as_is(world, fleet, slot, acc, settled);
+    return price_as_is(data, fleet, slot, acc, settled);
 }
 
-Int any_customer(const World& world, const Fleet& fleet, View<std::uint64_t, 1> rng) {
-    const Int number = world.num_nodes - world.num_depots;
-    Int node = world.num_depots;
+Int any_customer(const ProblemData& data, const Fleet& fleet, View<std::uint64_t, 1> rng) {
+    const Int number = data.num_nodes - data.num_depots;
+    Int node = data.num_depots;
     for (Int draw = 0; draw < most_draws; ++draw) {
-        node = world.num_depots + below(rng, number);
+        node = data.num_depots + below(rng, number);
         if (fleet.where[node].slot != elsewhere) break;
     }
     return node;
 }
 
-Int draw_customer(const World& world, const Fleet& fleet, Int focus, View<std::uint64_t, 1> rng) {
+Int draw_customer(const ProblemData& data, const Fleet& fleet, Int focus,
+                  View<std::uint64_t, 1> rng) {
     if (focus >= 0) {
-        const Int rank = below(rng, world.near.shape(1) + 1);
-        const Int node = rank > 0 ? world.near(focus, rank - 1) : focus;
+        const Int rank = below(rng, data.near.shape(1) + 1);
+        const Int node = rank > 0 ? data.near(focus, rank - 1) : focus;
         if (node >= 0 && fleet.where[node].slot != elsewhere) return node;
     }
-    return any_customer(world, fleet, rng);
+    return any_customer(data, fleet, rng);
 }
 
 void note_places(View<Place, 1> places, const Route& route, View<const Stop, 1> stops,

@@ -10,16 +10,16 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 
 // Let each trip of a timed route begin as late as costs nothing. In place; false if a rule is
 // broken.
-bool settle(const World& world, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
+bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties, BlockSums& acc);
 
 // Write all that follows from the sequence of a route. In place; false if it breaks a rule.
 //
 // Where trips may end at several places, that which costs least is chosen between two.
-bool refresh(const World& world, const Fleet& fleet, Int slot, BlockSums& acc);
+bool refresh(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc);
 
 // As `refresh`, of a route whose cost is all that is asked.
-bool refresh_cost(const World& world, const Fleet& fleet, Int slot, BlockSums& acc);
+bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc);
 
 // Return how much of the time that a route works is waiting, which a change may use up.
 //
@@ -31,10 +31,11 @@ inline Int idle_time(const Route& route) {
 // Return a random customer whom this thread deals with, served or left out.
 //
 // Whoever comes last if this thread deals with too few to be found.
-Int any_customer(const World& world, const Fleet& fleet, View<std::uint64_t, 1> rng);
+Int any_customer(const ProblemData& data, const Fleet& fleet, View<std::uint64_t, 1> rng);
 
 // Return a random customer near `focus`, or anywhere if that is `nowhere`. As `any_customer`.
-Int draw_customer(const World& world, const Fleet& fleet, Int focus, View<std::uint64_t, 1> rng);
+Int draw_customer(const ProblemData& data, const Fleet& fleet, Int focus,
+                  View<std::uint64_t, 1> rng);
 
 // Return the stop at a customer, or the one from where a drone flies there.
 inline Int stop_beside(const Fleet& fleet, Int node) {

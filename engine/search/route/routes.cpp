@@ -11,13 +11,13 @@
 
 namespace tandem {
 
-bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
+bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
                 View<const Sortie, 1> sorties) {
     const Int k = route.type;
-    const VehicleType& type = world.type[k];
-    const TravelLegs legs = legs_of(world.leg, type.travel);
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int most_trips = std::min(type.max_trips, trips.size());
-    if (is_apart(world, k)) place_ends(world, k, route, stops);
+    if (is_apart(data, k)) place_ends(data, k, route, stops);
     Int index = -1, s = 0, flown = 0;
     for (Int p = 0; p < route.length; ++p) {
         Stop& stop = stops[p];
@@ -29,10 +29,10 @@ bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip
         }
         Trip& trip = trips[index];
         stop.trip = index;
-        if (stop.kind == customer_stop) carry(world, trip, stop.node);
+        if (stop.kind == customer_stop) carry(data, trip, stop.node);
         for (; s < route.sorties && sorties[s].launch == p; ++s) {
             for (Int visit = 0; visit < sorties[s].count; ++visit) {
-                carry(world, trip, sorties[s].nodes[visit]);
+                carry(data, trip, sorties[s].nodes[visit]);
             }
         }
         if (stop.kind == end_stop) {
@@ -40,7 +40,7 @@ bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip
             stops[trip.first].release = trip.release;
             if (trip.distance > type.max_trip_distance || !may_make(type, trip) ||
                 !allows_sorties(type, s - flown) ||
-                !have_batteries(world.type, k, sorties, flown, s)) {
+                !have_batteries(data.type, k, sorties, flown, s)) {
                 return false;
             }
             stop.leg = 0;
@@ -56,9 +56,9 @@ bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip
     return true;
 }
 
-bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-                   BlockSums& acc) {
-    const Truck truck(world, route.type);
+bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                   View<Sortie, 1> sorties, BlockSums& acc) {
+    const Truck truck(data, route.type);
     const Int length = route.length, count = route.sorties;
     Int time = truck.type.shift_earliest, cum = 0, depart = far;
     acc.awaited = 0;
@@ -105,8 +105,8 @@ bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<S
     return true;
 }
 
-void look_back(const World& world, const Route& route, View<Stop, 1> stops) {
-    const NodesRows places = places_of(world.place, world.type[route.type]);
+void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
+    const NodesRows places = places_of(data.place, data.type[route.type]);
     const bool single = are_single(places[0]);
     Int latest = far, earliest = none, rest = 0, end = none, gap = 0;
     for (Int q = route.length - 1; q >= 0;) {
@@ -138,13 +138,13 @@ void open_up(const Route& route, View<Stop, 1> stops) {
     }
 }
 
-WindowCosts price_windows(const World& world, const Route& route, View<Stop, 1> stops,
+WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                           View<const Sortie, 1> sorties) {
     WindowCosts costs{0.0, 0.0};
     for (Stop& stop : stops.first(route.length)) {
         if (stop.kind != customer_stop) continue;
-        const double late = lateness_cost(world, stop.node, stop.arrival);
-        const double early = waiting_cost(world, stop.node, stop.arrival);
+        const double late = lateness_cost(data, stop.node, stop.arrival);
+        const double early = waiting_cost(data, stop.node, stop.arrival);
         stop.window_cost = late + early;
         costs.late += late;
         costs.early += early;
@@ -152,16 +152,17 @@ WindowCosts price_windows(const World& world, const Route& route, View<Stop, 1> 
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         for (Int visit = 0; visit < sortie.count; ++visit) {
             const Int node = sortie.nodes[visit], arrival = sortie.arrivals[visit];
-            costs.late += lateness_cost(world, node, arrival);
-            costs.early += waiting_cost(world, node, arrival);
+            costs.late += lateness_cost(data, node, arrival);
+            costs.early += waiting_cost(data, node, arrival);
         }
     }
     return costs;
 }
 
-double sortie_cost(const World& world, Int k, View<const Stop, 1> stops, const Sortie& sortie) {
-    const Int row = row_of_drone(world.type, k, sortie.drone);
-    const TravelLegs flights = legs_of(world.leg, world.type[row].drone_travel);
+double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops,
+                   const Sortie& sortie) {
+    const Int row = row_of_drone(data.type, k, sortie.drone);
+    const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
     Int node = stops[sortie.launch].node, flown = 0;
     for (Int visit = 0; visit < sortie.count; ++visit) {
         const Int following = sortie.nodes[visit];
@@ -169,14 +170,14 @@ double sortie_cost(const World& world, Int k, View<const Stop, 1> stops, const S
         node = following;
     }
     flown += leg(flights, node, stops[sortie.recovery].node).distance;
-    const Int airborne = recovery_end(world.type[row], sortie.begin) - sortie.takeoff;
-    return static_cast<double>(flown) * world.rate[row].drone_distance +
-           static_cast<double>(airborne) * world.rate[row].drone_time;
+    const Int airborne = recovery_end(data.type[row], sortie.begin) - sortie.takeoff;
+    return static_cast<double>(flown) * data.rate[row].drone_distance +
+           static_cast<double>(airborne) * data.rate[row].drone_time;
 }
 
-Int first_departure(const World& world, Route& route, View<const Stop, 1> stops,
+Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,
                     View<const Sortie, 1> sorties) {
-    const VehicleType& type = world.type[route.type];
+    const VehicleType& type = data.type[route.type];
     const Int depart = std::min(stops[route.length - 1].depart, route.end - route.cum);
     route.offset = 0;
     if (route.sorties > 0 && sorties[0].launch == 0 && !has_begun(type)) {
@@ -188,16 +189,16 @@ Int first_departure(const World& world, Route& route, View<const Stop, 1> stops,
                 }
             }
         }
-        const Int row = row_of_drone(world.type, route.type, sorties[first].drone);
-        route.offset = launch_duration(world.type[row], 0);
+        const Int row = row_of_drone(data.type, route.type, sorties[first].drone);
+        route.offset = launch_duration(data.type[row], 0);
     }
     return counted_from(type, depart + route.offset);
 }
 
-RoutePrice price_route(const World& world, const Route& route, View<Stop, 1> stops,
+RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                        View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
     const Int k = route.type;
-    const Rate& rate = world.rate[k];
+    const Rate& rate = data.rate[k];
     RoutePrice price{rate.fixed, 0.0};
     for (const Trip& trip : trips.first(route.trips)) {
         price.cost += static_cast<double>(trip.distance) * rate.distance;
@@ -206,13 +207,13 @@ RoutePrice price_route(const World& world, const Route& route, View<Stop, 1> sto
     price.cost += static_cast<double>(route.working) * rate.time;
     if (rate.overtime > 0.0) {
         price.cost +=
-            static_cast<double>(overtime(world.type[k], route.end, route.working)) * rate.overtime;
+            static_cast<double>(overtime(data.type[k], route.end, route.working)) * rate.overtime;
     }
     for (const Sortie& sortie : sorties.first(route.sorties)) {
-        price.cost += sortie_cost(world, k, stops, sortie);
+        price.cost += sortie_cost(data, k, stops, sortie);
     }
-    if ((world.mode[k] & mode_priced) != 0) {
-        const auto [late, early] = price_windows(world, route, stops, sorties);
+    if ((data.mode[k] & mode_priced) != 0) {
+        const auto [late, early] = price_windows(data, route, stops, sorties);
         price.cost += late + early;
         price.early = early;
     }

@@ -12,42 +12,41 @@
 namespace tandem {
 
 // Put a customer's parcel on a trip. In place.
-inline void carry(const World& world, Trip& trip, Int node) {
-    const NodeRows place = world.place[0][node];
+inline void carry(const ProblemData& data, Trip& trip, Int node) {
+    const NodeRows place = data.place[0][node];
     trip.release = std::max(trip.release, release_of(place));
     add_load(trip, demand_of(place));
 }
 
 // Write loads, releases and distances of the trips. In place; false if one is too much.
-bool load_trips(const World& world, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
+bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
                 View<const Sortie, 1> sorties);
 
 // Write times as soon as possible, stop after stop. In place; false if a rule is broken.
-bool drive_forward(const World& world, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-                   BlockSums& acc);
+bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                   View<Sortie, 1> sorties, BlockSums& acc);
 
 // Write how late, and how early, each block may be reached, and what follows it. In place.
 //
 // As docs/search.md derives under "Times on a route".
-void look_back(const World& world, const Route& route, View<Stop, 1> stops);
+void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops);
 
 // Mark a route whose legs change with time: nothing is known of later arrivals. In place.
 void open_up(const Route& route, View<Stop, 1> stops);
 
 // Return what being late at a customer costs; nothing at a depot.
-inline double lateness_cost(const World& world, Int node, Int arrival) {
-    return static_cast<double>(lateness(world.place[0][node], arrival)) *
-           world.price[node].lateness;
+inline double lateness_cost(const ProblemData& data, Int node, Int arrival) {
+    return static_cast<double>(lateness(data.place[0][node], arrival)) * data.price[node].lateness;
 }
 
 // Return what being early at a customer costs.
-inline double waiting_cost(const World& world, Int node, Int arrival) {
-    return static_cast<double>(waiting(world.place[0][node], arrival)) * world.price[node].waiting;
+inline double waiting_cost(const ProblemData& data, Int node, Int arrival) {
+    return static_cast<double>(waiting(data.place[0][node], arrival)) * data.price[node].waiting;
 }
 
 // Return what being late, or early, at a customer costs.
-inline double window_cost(const World& world, Int node, Int arrival) {
-    return lateness_cost(world, node, arrival) + waiting_cost(world, node, arrival);
+inline double window_cost(const ProblemData& data, Int node, Int arrival) {
+    return lateness_cost(data, node, arrival) + waiting_cost(data, node, arrival);
 }
 
 // What lateness and what waiting cost.
@@ -59,16 +58,16 @@ struct WindowCosts {
 // Return what lateness and what waiting cost on a timed route.
 //
 // And write it for each stop. In place.
-WindowCosts price_windows(const World& world, const Route& route, View<Stop, 1> stops,
+WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                           View<const Sortie, 1> sorties);
 
 // Return what the flight of a sortie costs.
-double sortie_cost(const World& world, Int k, View<const Stop, 1> stops, const Sortie& sortie);
+double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, const Sortie& sortie);
 
 // Return when truck or drone first leaves the depot, as late as costs nothing.
 //
 // And write how long before the truck a drone does. In place.
-Int first_departure(const World& world, Route& route, View<const Stop, 1> stops,
+Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,
                     View<const Sortie, 1> sorties);
 
 // Return what it costs more that a route ends at `end` and works so long.
@@ -89,7 +88,7 @@ struct RoutePrice {
 };
 
 // Return the cost of a timed route, and what waiting for windows costs of it.
-RoutePrice price_route(const World& world, const Route& route, View<Stop, 1> stops,
+RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                        View<const Trip, 1> trips, View<const Sortie, 1> sorties);
 
 }  // namespace tandem

@@ -14,7 +14,7 @@ void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to, bool
     target.route[to] = route;
     target.cost[to] = source.cost[slot];
     for (Int tier = 0; tier < tiers_aboard(source); ++tier) {
-        std::copy_n(&source.halt(slot, tier, 0), route.length, &target.halt(to, tier, 0));
+        std::copy_n(&source.stop_load(slot, tier, 0), route.length, &target.stop_load(to, tier, 0));
     }
     if (lean) {
         for (Int p = 0; p < route.length; ++p) copy_lean(stops[p], copies[p]);
@@ -123,19 +123,18 @@ double served_cost(const Searcher& searcher) {
     return cost;
 }
 
-double unassigned_more(const World& world, View<const Int, 1> nodes, Int count) {
+double unassigned_more(const ProblemData& data, View<const Int, 1> nodes, Int count) {
     double more = 0.0;
-    for (const Int node : nodes.first(count)) more += world.unassigned_more[node];
+    for (const Int node : nodes.first(count)) more += data.unassigned_more[node];
     return more;
 }
 
-double left_out_cost(const World& world, View<const Int, 1> nodes, Int count) {
-    return static_cast<double>(count) * world.unassigned_cost +
-           unassigned_more(world, nodes, count);
+double left_out_cost(const ProblemData& data, View<const Int, 1> nodes, Int count) {
+    return static_cast<double>(count) * data.unassigned_cost + unassigned_more(data, nodes, count);
 }
 
-double missing_cost(const World& world, const Searcher& searcher) {
-    return left_out_cost(world, searcher.missing, searcher.count->missing);
+double missing_cost(const ProblemData& data, const Searcher& searcher) {
+    return left_out_cost(data, searcher.missing, searcher.count->missing);
 }
 
 void accept(const Searcher& searcher, double cost) {
@@ -175,9 +174,10 @@ void go_back(const Searcher& searcher) {
 
 }  // namespace tandem
 
-int tandem_missing_cost(const tandem_world* world, const tandem_searcher* searcher, double* cost) {
+int tandem_missing_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
+                        double* cost) {
     using namespace tandem;
-    return guarded([&] { *cost = missing_cost(world_of(*world), searcher_of(*searcher)); });
+    return guarded([&] { *cost = missing_cost(data_of(*data), searcher_of(*searcher)); });
 }
 
 int tandem_go_back(const tandem_searcher* searcher) {

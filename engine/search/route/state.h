@@ -23,8 +23,8 @@ void list_anew(const Searcher& searcher, Int slot, bool used);
 void list_touched(const Searcher& searcher);
 
 // Return an empty slot for a route more by type `k`; `nowhere` if there is none.
-inline Int free_slot(const World& world, const Searcher& searcher, Int k) {
-    const bool is_left = searcher.now.used[k] < world.type[k].count &&
+inline Int free_slot(const ProblemData& data, const Searcher& searcher, Int k) {
+    const bool is_left = searcher.now.used[k] < data.type[k].count &&
                          searcher.count->active < searcher.active.size();
     return is_left ? searcher.active[searcher.count->active] : nowhere;
 }
@@ -56,13 +56,13 @@ void keep_totals(const Searcher& searcher);
 double served_cost(const Searcher& searcher);
 
 // Return what leaving out the first customers of a list costs above the least for each.
-double unassigned_more(const World& world, View<const Int, 1> nodes, Int count);
+double unassigned_more(const ProblemData& data, View<const Int, 1> nodes, Int count);
 
 // Return what leaving out the first customers of a list costs.
-double left_out_cost(const World& world, View<const Int, 1> nodes, Int count);
+double left_out_cost(const ProblemData& data, View<const Int, 1> nodes, Int count);
 
 // Return what the customers left out cost.
-double missing_cost(const World& world, const Searcher& searcher);
+double missing_cost(const ProblemData& data, const Searcher& searcher);
 
 // Go on from this turn's routes. In place.
 void accept(const Searcher& searcher, double cost);

@@ -55,33 +55,34 @@ Int launch_changed(const VehicleType& type, const Route& route, View<const Sorti
     return nowhere;
 }
 
-bool may_fit_in_tiers(const World& world, const Fleet& fleet, Int slot, Int index, Int k,
+bool may_fit_in_tiers(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int k,
                       Int node) {
-    const VehicleType& type = world.type[k];
+    const VehicleType& type = data.type[k];
     const Trip& trip = fleet.trip(slot, index);
     for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
-        const View<const Halt, 1> halts = fleet.halt[slot][tier];
+        const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
         const Amount taken =
-            plus(amount_of(halts[trip.last].behind), picked_of(world.amount, node, tier));
-        if (!holds_in(type, taken, tier) || !holds_in(type, most_of(halts[trip.first]), tier)) {
+            plus(amount_of(stop_loads[trip.last].behind), picked_of(data.amount, node, tier));
+        if (!holds_in(type, taken, tier) ||
+            !holds_in(type, most_of(stop_loads[trip.first]), tier)) {
             return false;
         }
     }
     return true;
 }
 
-Int larger_type(const World& world, const Fleet& fleet, Int slot, Int node) {
+Int larger_type(const ProblemData& data, const Fleet& fleet, Int slot, Int node) {
     const Int k = fleet.route[slot].type;
     const Trip& trip = fleet.trip(slot, 0);
     Int chosen = nowhere;
     double best = std::numeric_limits<double>::infinity();
-    for (Int other = 0; other < world.num_types; ++other) {
-        if (!world.swap(k, other) || other == k || !world.can(other, 0, node) ||
-            fleet.used[other] >= world.type[other].count) {
+    for (Int other = 0; other < data.num_types; ++other) {
+        if (!data.swap(k, other) || other == k || !data.can(other, 0, node) ||
+            fleet.used[other] >= data.type[other].count) {
             continue;
         }
-        const double cost = route_cost(world, other, trip) + world.rate[other].stop;
-        if (cost < best && takes(world, fleet, slot, 0, other, node)) {
+        const double cost = route_cost(data, other, trip) + data.rate[other].stop;
+        if (cost < best && takes(data, fleet, slot, 0, other, node)) {
             chosen = other;
             best = cost;
         }
@@ -89,11 +90,11 @@ Int larger_type(const World& world, const Fleet& fleet, Int slot, Int node) {
     return chosen;
 }
 
-void change_type(const World& world, const Fleet& fleet, Int slot, Int k) {
+void change_type(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {
     --fleet.used[fleet.route[slot].type];
     ++fleet.used[k];
     fleet.route[slot].type = k;
-    fleet.cost[slot] = route_cost(world, k, fleet.trip(slot, 0));
+    fleet.cost[slot] = route_cost(data, k, fleet.trip(slot, 0));
 }
 
 }  // namespace tandem

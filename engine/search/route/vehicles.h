@@ -53,8 +53,8 @@ Int launch_changed(const VehicleType& type, const Route& route, View<const Sorti
                    const Trip& trip, Int p, bool is_sortie);
 
 // Return what a lean route's only trip costs by a vehicle of type `k`.
-inline double route_cost(const World& world, Int k, const Trip& trip) {
-    const Rate& rate = world.rate[k];
+inline double route_cost(const ProblemData& data, Int k, const Trip& trip) {
+    const Rate& rate = data.rate[k];
     return rate.fixed + static_cast<double>(trip.distance) * rate.distance +
            static_cast<double>(stops_on(trip)) * rate.stop;
 }
@@ -75,28 +75,31 @@ inline void add_load(Trip& trip, const Amount& amount) {
 }
 
 // Tell, as `may_fit` does, by what is aboard at the stops of a trip, where that is looked at.
-bool may_fit_in_tiers(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node);
+bool may_fit_in_tiers(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int k,
+                      Int node);
 
 // Tell whether a vehicle of type `k` may hold what a trip does and a customer's amounts.
 //
 // Where more than its load tells, that hangs on where the customer is served: see `has_room`.
-inline bool may_fit(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
-    return fits(world.type[k], load_of(fleet.trip(slot, index)), world.place[0][node]) &&
-           (tiers_aboard(fleet) == 0 || may_fit_in_tiers(world, fleet, slot, index, k, node));
+inline bool may_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int k,
+                    Int node) {
+    return fits(data.type[k], load_of(fleet.trip(slot, index)), data.place[0][node]) &&
+           (tiers_aboard(fleet) == 0 || may_fit_in_tiers(data, fleet, slot, index, k, node));
 }
 
 // Tell whether a vehicle of type `k` may fit a customer in as well, and stop once more.
-inline bool takes(const World& world, const Fleet& fleet, Int slot, Int index, Int k, Int node) {
-    return may_fit(world, fleet, slot, index, k, node) &&
-           allows_stops(world.type[k], stops_on(fleet.trip(slot, index)) + 1);
+inline bool takes(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int k,
+                  Int node) {
+    return may_fit(data, fleet, slot, index, k, node) &&
+           allows_stops(data.type[k], stops_on(fleet.trip(slot, index)) + 1);
 }
 
 // Return the type for which a route would be exchanged to take a customer more.
 //
 // The cheapest that is left and holds them all; `nowhere` if there is none.
-Int larger_type(const World& world, const Fleet& fleet, Int slot, Int node);
+Int larger_type(const ProblemData& data, const Fleet& fleet, Int slot, Int node);
 
 // Let a vehicle of another type drive a lean route. In place.
-void change_type(const World& world, const Fleet& fleet, Int slot, Int k);
+void change_type(const ProblemData& data, const Fleet& fleet, Int slot, Int k);
 
 }  // namespace tandem

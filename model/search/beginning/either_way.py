@@ -12,10 +12,10 @@ from model.kernel.records import Records
 from model.search.beginning.savings import (
     cargo_of, chains_of, cost_of, joined, ranked_pairs, routes_of,
 )
-from model.search.route.layout import NOWHERE, World
+from model.search.route.layout import NOWHERE, ProblemData
 
 
-def shortest_routes(world: World, k: int) -> list[list[int]]:
+def shortest_routes(data: ProblemData, k: int) -> list[list[int]]:
     """Join the customers that a truck of type `k` may serve to routes, in both ways.
 
     Legs are as long there as back; loads alone limit a route, and what is picked up comes from
@@ -26,13 +26,13 @@ def shortest_routes(world: World, k: int) -> list[list[int]]:
     The customers of each route, in order, by the way that leaves fewer routes without a vehicle or,
     if both leave as few, is shorter.
     """
-    ranks, count = world.near.shape[1], int(world.type[k].count)
-    keys = ranked_pairs(world, k, ranks)
-    chains = [joined(world, k, ranks, keys), chains_of(world)]
-    call("tandem_join_either_way", world, k, ranks, keys, chains[1], cargo_of(world))
+    ranks, count = data.near.shape[1], int(data.type[k].count)
+    keys = ranked_pairs(data, k, ranks)
+    chains = [joined(data, k, ranks, keys), chains_of(data)]
+    call("tandem_join_either_way", data, k, ranks, keys, chains[1], cargo_of(data))
 
     def cost(chain: Records) -> tuple[int, float]:
-        routes = int(np.count_nonzero(chain["before"][world.num_depots:] == NOWHERE))
-        return max(0, routes - count), cost_of(world, k, chain)
+        routes = int(np.count_nonzero(chain["before"][data.num_depots:] == NOWHERE))
+        return max(0, routes - count), cost_of(data, k, chain)
 
-    return routes_of(world, k, min(chains, key=cost))
+    return routes_of(data, k, min(chains, key=cost))

@@ -13,7 +13,7 @@ import numpy as np
 from model.engine.library import call, dtype_of
 from model.kernel.records import Records
 from model.problem import BoolArray, IntArray
-from model.search.route.layout import NOWHERE, World
+from model.search.route.layout import NOWHERE, ProblemData
 
 NEIGHBOURS = 64
 """With how many neighbours each customer's route may be joined."""
@@ -22,7 +22,7 @@ KEY_BITS = 62
 """Of a key at most."""
 
 
-def savings_routes(world: World, k: int) -> list[list[int]]:
+def savings_routes(data: ProblemData, k: int) -> list[list[int]]:
     """Join the customers that a truck of type `k` may serve to routes.
 
     Loads, stops, hard windows, the shift and the working duration are kept; what else is asked for
@@ -32,75 +32,75 @@ def savings_routes(world: World, k: int) -> list[list[int]]:
     -------
     The customers of each route, in order.
     """
-    ranks = min(NEIGHBOURS, world.near.shape[1])
-    return routes_of(world, k, joined(world, k, ranks, ranked_pairs(world, k, ranks)))
+    ranks = min(NEIGHBOURS, data.near.shape[1])
+    return routes_of(data, k, joined(data, k, ranks, ranked_pairs(data, k, ranks)))
 
 
-def ranked_pairs(world: World, k: int, ranks: int) -> IntArray:
+def ranked_pairs(data: ProblemData, k: int, ranks: int) -> IntArray:
     """Return keys of customers and their nearest `ranks` neighbours, what saves most first.
 
     Equal savings come in the order of the pairs. `pair` tells what a key stands for.
     """
-    keys = np.empty((world.num_nodes - world.num_depots) * ranks, np.int64)
-    call("tandem_write_excess", world, k, ranks, keys)
+    keys = np.empty((data.num_nodes - data.num_depots) * ranks, np.int64)
+    call("tandem_write_excess", data, k, ranks, keys)
     largest = max(abs(int(keys.min(initial=0))), int(keys.max(initial=0)))
     coarse = max(0, largest.bit_length() + len(keys).bit_length() - KEY_BITS)
     call("tandem_number_pairs", keys, coarse)
     return np.sort(keys[keys < 0])
 
 
-def joined(world: World, k: int, ranks: int, keys: IntArray) -> Records:
+def joined(data: ProblemData, k: int, ranks: int, keys: IntArray) -> Records:
     """Return chains (node,) of customers, one behind the other, joined by such keys in order."""
-    chain = chains_of(world)
-    call("tandem_join", world, k, ranks, keys, chain, cargo_of(world))
+    chain = chains_of(data)
+    call("tandem_join", data, k, ranks, keys, chain, cargo_of(data))
     return chain
 
 
-def chains_of(world: World) -> Records:
+def chains_of(data: ProblemData) -> Records:
     """Return room for chains, (node,)."""
-    return np.zeros(world.num_nodes, dtype_of("tandem_chain"))
+    return np.zeros(data.num_nodes, dtype_of("tandem_chain"))
 
 
-def cargo_of(world: World) -> Records:
+def cargo_of(data: ProblemData) -> Records:
     """Return room for what chains carry, (node, tier)."""
-    return np.zeros((world.num_nodes, max(1, world.amount.shape[1])),
+    return np.zeros((data.num_nodes, max(1, data.amount.shape[1])),
                     dtype_of("tandem_chain_cargo"))
 
 
-def routes_of(world: World, k: int, chain: Records) -> list[list[int]]:
+def routes_of(data: ProblemData, k: int, chain: Records) -> list[list[int]]:
     """Return the customers of each route, in order."""
-    first, behind = world.num_depots, chain["behind"].tolist()
-    heads = first + np.flatnonzero(world.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
+    first, behind = data.num_depots, chain["behind"].tolist()
+    heads = first + np.flatnonzero(data.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
     return [_customers(behind, head) for head in heads.tolist()]
 
 
-def cost_of(world: World, k: int, chain: Records) -> float:
+def cost_of(data: ProblemData, k: int, chain: Records) -> float:
     """Return what routes of a type cost but for their stops."""
-    first = world.num_depots
-    routes = np.count_nonzero(world.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
-    rate = world.rate[k]
-    return float(routes * rate.fixed + call("tandem_length_of", world, k, chain) * rate.distance)
+    first = data.num_depots
+    routes = np.count_nonzero(data.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
+    rate = data.rate[k]
+    return float(routes * rate.fixed + call("tandem_length_of", data, k, chain) * rate.distance)
 
 
-def cost_by_savings(world: World, k: int) -> float:
+def cost_by_savings(data: ProblemData, k: int) -> float:
     """Return what each customer costs by routes of a type, however many there may be."""
-    customers = int(np.count_nonzero(world.can[k, 0, world.num_depots:]))
+    customers = int(np.count_nonzero(data.can[k, 0, data.num_depots:]))
     if customers == 0:
         return math.inf
-    ranks = min(NEIGHBOURS, world.near.shape[1])
-    chain = joined(world, k, ranks, ranked_pairs(world, k, ranks))
-    return cost_of(world, k, chain) / customers + float(world.rate[k].stop)
+    ranks = min(NEIGHBOURS, data.near.shape[1])
+    chain = joined(data, k, ranks, ranked_pairs(data, k, ranks))
+    return cost_of(data, k, chain) / customers + float(data.rate[k].stop)
 
 
-def by_nearest(world: World) -> BoolArray:
+def by_nearest(data: ProblemData) -> BoolArray:
     """Return whom each type may serve, (row, 2, node), if each customer is one type's alone.
 
     It is that from whose depots the way there and back is shortest, the first of equals.
     """
-    nearest = np.zeros(world.num_nodes, np.int64)
-    call("tandem_write_nearest_types", world, nearest)
-    can = world.can.copy()
-    can[:world.num_types, 0] &= nearest == np.arange(world.num_types)[:, None]
+    nearest = np.zeros(data.num_nodes, np.int64)
+    call("tandem_write_nearest_types", data, nearest)
+    can = data.can.copy()
+    can[:data.num_types, 0] &= nearest == np.arange(data.num_types)[:, None]
     return can
 
 

@@ -12,7 +12,7 @@ from model.kernel.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
 from model.search.route.engine import AT_ONE_STOP, INFEASIBLE
 from model.search.route.layout import (
-    CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, World, empty_fleet,
+    CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
 from model.search.route.state import Searcher
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
@@ -22,33 +22,33 @@ STOPS_OPENED = 4
 """Stops that one insertion adds at most, and one more."""
 
 
-def make_searcher(problem: Problem, world: World, solution: Solution,
+def make_searcher(problem: Problem, data: ProblemData, solution: Solution,
                   seed: np.random.SeedSequence) -> Searcher:
     """Begin a search from a plan; routes that it can't read are left to be planned anew."""
-    alone = np.full(world.can.shape, INFEASIBLE)
-    searcher = empty_searcher(world, _sizes(problem, world, solution), alone, seed)
-    call("tandem_alone_costs", world, searcher.now, searcher.acc, alone)
+    alone = np.full(data.can.shape, INFEASIBLE)
+    searcher = empty_searcher(data, _sizes(problem, data, solution), alone, seed)
+    call("tandem_alone_costs", data, searcher.now, searcher.acc, alone)
     for slot, route in enumerate(solution.routes):
         write_route(searcher.now, slot, route)
-    call("tandem_begin", world, searcher, len(solution.routes))
+    call("tandem_begin", data, searcher, len(solution.routes))
     return searcher
 
 
-def empty_searcher(world: World, sizes: tuple[int, ...], alone: FloatArray,
+def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
                    seed: np.random.SeedSequence) -> Searcher:
     """Make room for a search: for so many routes, and stops, trips and sorties of one."""
     slots, stops, trips, sorties = sizes
-    nodes, count = world.num_nodes, one(dtype_of("tandem_search_counts"))
-    now, before, best = (empty_fleet(world, slots, stops, trips, sorties, noted)
+    nodes, count = data.num_nodes, one(dtype_of("tandem_search_counts"))
+    now, before, best = (empty_fleet(data, slots, stops, trips, sorties, noted)
                          for noted in (nodes, 0, 0))
-    count.lean, count.focus = not world.general, NOWHERE
-    room = (nodes, slots) if world.keeps else (0, 0)
-    of_moves = room if world.general else (0, 0)
+    count.lean, count.focus = not data.general, NOWHERE
+    room = (nodes, slots) if data.keeps else (0, 0)
+    of_moves = room if data.general else (0, 0)
     # On one route, by a trip more on any, beside neighbours.
-    at_one_stop = AT_ONE_STOP * most_drone_rows(world.type)
-    offers = max(at_one_stop * stops + sorties * (world.max_visits + 1),
-                 nodes + slots * (2 + most_drone_rows(world.type)) * (trips + 1),
-                 2 * at_one_stop * world.fit.shape[1])
+    at_one_stop = AT_ONE_STOP * most_drone_rows(data.type)
+    offers = max(at_one_stop * stops + sorties * (data.max_visits + 1),
+                 nodes + slots * (2 + most_drone_rows(data.type)) * (trips + 1),
+                 2 * at_one_stop * data.fit.shape[1])
     return Searcher(
         now=now, before=before, best=best, count=count, value=one(dtype_of("tandem_search_values")),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
@@ -68,9 +68,9 @@ def _row(length: int) -> IntArray:
     return np.zeros(length, np.int64)
 
 
-def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int, int, int]:
+def _sizes(problem: Problem, data: ProblemData, solution: Solution) -> tuple[int, int, int, int]:
     """Return how many routes, and stops, trips and sorties of one, are provided for."""
-    types, number = world.type[:world.num_types], problem.num_customers
+    types, number = data.type[:data.num_types], problem.num_customers
     delivered, picked = (np.array(amounts, np.int64).reshape(number, problem.num_dimensions)
                          for amounts in ([customer.demand for customer in problem.customers],
                                          [customer.taken_in for customer in problem.customers]))
@@ -94,7 +94,7 @@ def _sizes(problem: Problem, world: World, solution: Solution) -> tuple[int, int
     if not solution.routes:
         wanted = number
     trips = min(int(types["max_trips"].max()), max(1, most)) + 1
-    flown = most if world.visits.any() else 0
+    flown = most if data.visits.any() else 0
     return (max(1, min(count, number, wanted), len(solution.routes)),
             most + 2 * trips + STOPS_OPENED, trips, flown + 1)
 
@@ -145,16 +145,16 @@ def left_out(searcher: Searcher) -> tuple[int, ...]:
     return tuple(sorted(searcher.best_missing[: searcher.count.best_missing].tolist()))
 
 
-def read_routes(world: World, searcher: Searcher) -> Iterator[Route]:
+def read_routes(data: ProblemData, searcher: Searcher) -> Iterator[Route]:
     """Yield the routes of the best plan found, each trip begun as late as costs nothing."""
     best = searcher.best
-    given = packed(world), packed(best)
+    given = packed(data), packed(best)
     slots = np.flatnonzero(best.route["length"][: len(searcher.active)]).tolist()
     for slot in slots:
         call("tandem_finish_route", *given, slot, searcher.acc)
-    numbers = [0] * world.num_types
+    numbers = [0] * data.num_types
     for slot, row in zip(slots, read_rows(best.route[slots]), strict=True):
-        yield Route(row.type, numbers[row.type], _trips(world, best, slot, row))
+        yield Route(row.type, numbers[row.type], _trips(data, best, slot, row))
         numbers[row.type] += 1
 
 
@@ -174,18 +174,18 @@ def setups_of(setup: Records, origins: IntArray, nodes: IntArray) -> IntArray:
     return setups
 
 
-def _trips(world: World, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...]:
+def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...]:
     """Return the trips of a timed route, whose own row is given."""
     rows, trips = fleet.stop[slot, : route.length], fleet.trip[slot, : route.trips]
-    starts = service_starts(world.place[0], rows["node"].copy(), rows["arrival"].copy())
+    starts = service_starts(data.place[0], rows["node"].copy(), rows["arrival"].copy())
     columns = (rows[name].tolist() for name in (
         "node", "kind", "arrival", "release", "hold", "leave"))
-    setups = setups_of(world.setup, np.roll(rows["node"], 1), rows["node"].copy())
+    setups = setups_of(data.setup, np.roll(rows["node"], 1), rows["node"].copy())
     halts = [_stop(*row) for row in zip(*columns, starts.tolist(), setups.tolist(), strict=True)]
     sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
     return tuple(
         Trip(tuple(halts[first:last + 1]),
-             tuple(_sortie(world, route.type, row, halts[row.launch].node, first)
+             tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last))
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
 
@@ -203,14 +203,14 @@ def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: in
     return Stop(node, arrival, begin, leave, setup if kind == CUSTOMER else 0)
 
 
-def _sortie(world: World, k: int, row: Any, launch_node: int, first: int) -> Sortie:
+def _sortie(data: ProblemData, k: int, row: Any, launch_node: int, first: int) -> Sortie:
     nodes = np.array(row.nodes[: row.count], np.int64)
     arrivals = np.array(row.arrivals[: row.count], np.int64)
-    starts = service_starts(world.place[0], nodes, arrivals)
+    starts = service_starts(data.place[0], nodes, arrivals)
     ends = np.empty_like(nodes)
-    aboard = call("tandem_sortie_ends", world.place, world.type, k, row.drone, nodes, arrivals,
+    aboard = call("tandem_sortie_ends", data.place, data.type, k, row.drone, nodes, arrivals,
                   row.begin, ends)
-    setups = setups_of(world.setup, np.array([launch_node, *nodes[:-1]], np.int64), nodes)
+    setups = setups_of(data.setup, np.array([launch_node, *nodes[:-1]], np.int64), nodes)
     visits = tuple(Visit(*visit) for visit in zip(
         nodes.tolist(), (arrivals - setups).tolist(), starts.tolist(), ends.tolist(),
         setups.tolist(), strict=True))

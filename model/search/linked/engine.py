@@ -3,26 +3,27 @@
 from model.engine.library import call
 from model.engine.packing import Packed
 from model.search.linked.layout import Linked
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
 
-def measure_near(world: World | Packed, linked: Linked | Packed) -> None:
+def measure_near(data: ProblemData | Packed, linked: Linked | Packed) -> None:
     """Write how near neighbours are. In place."""
-    call("tandem_measure_near", world, linked)
+    call("tandem_measure_near", data, linked)
 
 
-def tie(world: World | Packed, searcher: Searcher | Packed, linked: Linked | Packed) -> None:
+def tie(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed) -> None:
     """Link the routes of a search as they are, and of its best plan. In place."""
-    call("tandem_tie", world, searcher, linked)
+    call("tandem_tie", data, searcher, linked)
 
 
-def anneal_linked(world: World | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
+def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
                   turns: int) -> None:
     """Ruin and recreate `turns` times among linked stops. In place. As `anneal`."""
-    call("tandem_anneal_linked", world, searcher, linked, turns)
+    call("tandem_anneal_linked", data, searcher, linked, turns)
 
 
-def write_back(world: World | Packed, searcher: Searcher | Packed, linked: Linked | Packed) -> None:
+def write_back(data: ProblemData | Packed, searcher: Searcher | Packed,
+               linked: Linked | Packed) -> None:
     """Let the routes of a search, and of its best plan, be those that are linked. In place."""
-    call("tandem_write_back", world, searcher, linked)
+    call("tandem_write_back", data, searcher, linked)

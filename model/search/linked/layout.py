@@ -14,7 +14,7 @@ import numpy as np
 from model.engine.library import dtype_of
 from model.kernel.records import Record, Records, one
 from model.problem import Int32Array, IntArray
-from model.search.route.layout import NOWHERE, World
+from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 
 MOST_REMOVED = 512
@@ -42,7 +42,7 @@ class Linked(NamedTuple):
     former: IntArray  # (slot,) the type that did before, else NOWHERE
     noted: Record
     hit: IntArray  # (slot,) turn of the last string
-    near: Int32Array  # (node, rank) mm to or from those that `World.fit` lists, or what fits
+    near: Int32Array  # (node, rank) mm to or from those that `ProblemData.fit` lists, or what fits
     best_first: IntArray  # (slot,) first customer of the best plan's route, else NOWHERE
     best_type: IntArray  # (slot,)
     best_behind: IntArray  # (node,)
@@ -51,13 +51,13 @@ class Linked(NamedTuple):
     reach: IntArray  # (node,) mm of the longer of a customer's legs; `layout.h` says more
 
 
-def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
+def make_linked(data: ProblemData, searcher: Searcher, timed: bool) -> Linked:
     """Make room for the routes of a search; `timed` if something limits when customers are served.
     """
-    nodes, slots = world.num_nodes, len(searcher.active)
+    nodes, slots = data.num_nodes, len(searcher.active)
     removed = min(nodes, 2 * MOST_REMOVED)
     cheapest = one(dtype_of("tandem_least"))
-    cheapest.distance, cheapest.stop = (world.rate[:world.num_types][field].min()
+    cheapest.distance, cheapest.stop = (data.rate[:data.num_types][field].min()
                                         for field in ("distance", "stop"))
     return Linked(
         link=_in_lines(nodes, dtype_of("tandem_link")),
@@ -69,7 +69,7 @@ def make_linked(world: World, searcher: Searcher, timed: bool) -> Linked:
         moment=np.zeros(MOMENTS + 2 * nodes if timed else 0, dtype_of("tandem_moment")),
         retyped=np.zeros(slots, np.int64), former=np.full(slots, NOWHERE),
         noted=one(dtype_of("tandem_noted")),
-        hit=np.zeros(slots, np.int64), near=np.zeros(world.fit.shape, np.int32),
+        hit=np.zeros(slots, np.int64), near=np.zeros(data.fit.shape, np.int32),
         best_first=np.full(slots, NOWHERE), best_type=np.zeros(slots, np.int64),
         best_behind=np.zeros(nodes, np.int64), cheapest=cheapest, timed=timed,
         reach=np.zeros(nodes, np.int64))

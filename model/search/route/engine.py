@@ -6,7 +6,7 @@ search takes as long as some of its turns.
 
 from model.engine.library import call
 from model.engine.packing import Packed
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
 ANY = -1
@@ -25,7 +25,7 @@ LONGEST_STRING = 10
 """How many stops a string has at most, but where `Searcher.value` allows more on long routes."""
 
 
-def anneal(world: World | Packed, searcher: Searcher | Packed, turns: int, order: int) -> None:
+def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, order: int) -> None:
     """Ruin and recreate `turns` times. In place.
 
     Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
@@ -33,12 +33,12 @@ def anneal(world: World | Packed, searcher: Searcher | Packed, turns: int, order
     Once the search must end, a turn is given up as if it had not begun, and an insertion of all
     leaves out whoever is not inserted yet.
     """
-    call("tandem_anneal", world, searcher, turns, order)
+    call("tandem_anneal", data, searcher, turns, order)
 
 
-def missing_cost(world: World | Packed, searcher: Searcher | Packed) -> float:
+def missing_cost(data: ProblemData | Packed, searcher: Searcher | Packed) -> float:
     """Return what the customers left out cost."""
-    return float(call("tandem_missing_cost", world, searcher))
+    return float(call("tandem_missing_cost", data, searcher))
 
 
 def go_back(searcher: Searcher | Packed) -> None:
@@ -46,9 +46,9 @@ def go_back(searcher: Searcher | Packed) -> None:
     call("tandem_go_back", searcher)
 
 
-def leg_cost(world: World | Packed, searcher: Searcher | Packed) -> float:
+def leg_cost(data: ProblemData | Packed, searcher: Searcher | Packed) -> float:
     """Return what the truck's legs between customers cost on average.
 
     Where there are none, a share of the whole cost; always above zero.
     """
-    return float(call("tandem_leg_cost", world, searcher))
+    return float(call("tandem_leg_cost", data, searcher))

@@ -43,7 +43,7 @@ of its distance alone; as that, with one trip of any distance, no releases and n
 trips don't all begin and end at one place; what is aboard costs by the way that it is driven."""
 
 
-class World(NamedTuple):
+class ProblemData(NamedTuple):
     """The problem, unchanged by the search."""
 
     num_depots: int
@@ -71,7 +71,7 @@ class World(NamedTuple):
     price: Records  # (node,), per ms
     goods: Records  # (node,), none where all go together
     setup: Records  # (node,), none where nobody sets up
-    fresh_for: IntArray  # (node,) ms, none where nothing is limited
+    max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
     type: Records  # (row,)
     rate: Records  # (row,), per mm and per ms
     mode: IntArray  # (row,) MODE_ flags
@@ -96,14 +96,14 @@ class Fleet(NamedTuple):
     cost: FloatArray  # (slot,)
     early: FloatArray  # (slot,) of it, what waiting costs where trips are held back
     stop: Records  # (slot, position)
-    halt: Records  # (slot, tier, position); no tiers where the load of trips does
+    stop_load: Records  # (slot, tier, position); no tiers where the load of trips does
     trip: Records  # (slot, trip)
     sortie: Records  # (slot, sortie)
     where: Records  # (node,)
     used: IntArray  # (type,) routes
 
 
-def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int,
+def empty_fleet(data: ProblemData, slots: int, stops: int, trips: int, sorties: int,
                 nodes: int) -> Fleet:
     """Allocate a fleet without routes, which notes where so many nodes are.
 
@@ -117,9 +117,9 @@ def empty_fleet(world: World, slots: int, stops: int, trips: int, sorties: int,
         cost=np.zeros(slots + 2),
         early=np.zeros(slots + 2),
         stop=rows("tandem_stop", stops),
-        halt=rows("tandem_halt", world.amount.shape[1], stops),
+        stop_load=rows("tandem_stop_load", data.amount.shape[1], stops),
         trip=rows("tandem_trip", trips),
         sortie=rows("tandem_sortie", sorties),
         where=np.full(nodes, np.array((NOWHERE,) * 3, dtype_of("tandem_place"))),
-        used=np.zeros(world.num_types, np.int64),
+        used=np.zeros(data.num_types, np.int64),
     )

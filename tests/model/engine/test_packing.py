@@ -14,7 +14,7 @@ from model.travel.ways import Sights
 CELLS = cells_of(np.random.default_rng(0).random((100, 2)))
 
 
-class World(NamedTuple):
+class ProblemData(NamedTuple):
     """None of the search's."""
 
     num_depots: int
@@ -63,8 +63,8 @@ def test_other_arrays_are_refused(field: str, array: Any, found: str) -> None:
 
 
 def test_other_fields_are_refused() -> None:
-    with pytest.raises(TypeError, match="not a World of num_depots"):
-        packed(World(1), "tandem_cells")
+    with pytest.raises(TypeError, match="not a ProblemData of num_depots"):
+        packed(ProblemData(1), "tandem_cells")
     with pytest.raises(TypeError, match="not a ndarray"):
         packed(CELLS.low, "tandem_cells")
 

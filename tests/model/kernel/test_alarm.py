@@ -21,7 +21,7 @@ from model.search.first_plan import first_plan
 from model.search.improve import Improved, SearchConfig, improve
 from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.conftest import soon
 from tests.model.search.found import read_plan
@@ -50,9 +50,9 @@ def problem_of(variant: str, num_customers: int = 60) -> Problem:
 def begun(problem: Problem) -> tuple[Searcher, np.ndarray]:
     """Return a search that has begun, and the setting of the alarm that ends it."""
     setting = Alarm().setting
-    world = make_world(problem, pack([problem]), deadline=setting)
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
-    begin_anew(world, searcher, True)
+    data = make_data(problem, pack([problem]), deadline=setting)
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(data, searcher, True)
     return searcher, setting
 
 
@@ -124,8 +124,8 @@ def test_the_engine_ends_turns_by_its_own_clock(variant: str) -> None:
 
     def late() -> float:
         deadline = time.perf_counter() + 0.02
-        world = make_world(problem, pack([problem]), deadline=Alarm(deadline).setting)
-        anneal(world, searcher, NEVER, ANY)
+        data = make_data(problem, pack([problem]), deadline=Alarm(deadline).setting)
+        anneal(data, searcher, NEVER, ANY)
         return time.perf_counter() - deadline
 
     assert 0.0 <= min(late() for _ in range(TRIES)) < MOST_LATE
@@ -135,20 +135,20 @@ def test_the_engine_ends_turns_by_its_own_clock(variant: str) -> None:
 def test_turns_end_soon_after_another_thread_cancels(variant: str) -> None:
     problem = problem_of(variant)
     searcher, setting = begun(problem)
-    world = make_world(problem, pack([problem]), deadline=setting)
+    data = make_data(problem, pack([problem]), deadline=setting)
     assert late_after_cancelling(
-        setting, 0.02, lambda: anneal(world, searcher, NEVER, ANY)) < MOST_LATE
+        setting, 0.02, lambda: anneal(data, searcher, NEVER, ANY)) < MOST_LATE
 
 
 def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
         endless: Problem) -> None:
     setting = Alarm().setting
-    world = make_world(endless, pack([endless], legs=False), deadline=setting)
-    searcher = make_searcher(endless, world, Solution((), ()), np.random.SeedSequence(0))
+    data = make_data(endless, pack([endless], legs=False), deadline=setting)
+    searcher = make_searcher(endless, data, Solution((), ()), np.random.SeedSequence(0))
 
     def insert() -> None:
         call("tandem_disband", searcher)
-        insert_missing(world, searcher, BY_FAR)
+        insert_missing(data, searcher, BY_FAR)
 
     # Quick machines have inserted all after a tenth of a second.
     assert late_after_cancelling(setting, 0.04, insert) < MOST_LATE
@@ -158,7 +158,7 @@ def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
 def test_a_first_plan_is_given_up_if_nobody_wants_it_and_made_however_late() -> None:
     problem = problem_of("cvrp", 2500)
     instance = pack([problem], legs=False)
-    late = make_world(problem, instance, deadline=Alarm(0.0).setting)
+    late = make_data(problem, instance, deadline=Alarm(0.0).setting)
     assert len(first_plan(problem, late).routes) > 0
     late.deadline[CANCELLED] = 1
     with pytest.raises(EndedError):
@@ -168,26 +168,26 @@ def test_a_first_plan_is_given_up_if_nobody_wants_it_and_made_however_late() -> 
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_turns_end_while_the_engine_runs(variant: str) -> None:
     problem = problem_of(variant)
-    world = make_world(problem, pack([problem]))
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
-    begin_anew(world, searcher, True)
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(data, searcher, True)
     began = time.thread_time()
     with Alarm(math.inf, lambda: bool(searcher.count.turn > 0)) as alarm:
-        anneal(world._replace(deadline=alarm.setting), searcher, NEVER, ANY)
+        anneal(data._replace(deadline=alarm.setting), searcher, NEVER, ANY)
     assert time.thread_time() - began < MOST_SECONDS
     assert 0 < searcher.count.turn < NEVER
-    assert check(problem, read_plan(world, searcher)).violations == ()
+    assert check(problem, read_plan(data, searcher)).violations == ()
 
 
 @pytest.mark.parametrize("variant", ["cvrp", "drone", "mixed"])
 def test_nothing_changes_after_the_alarm(variant: str) -> None:
     problem = problem_of(variant)
     searcher, setting = begun(problem)
-    world = make_world(problem, pack([problem]), deadline=setting)
-    anneal(world, searcher, 50, ANY)
+    data = make_data(problem, pack([problem]), deadline=setting)
+    anneal(data, searcher, 50, ANY)
     turns, costs = int(searcher.count.turn), searcher.value.copy()
     setting[CANCELLED] = 1
-    anneal(world, searcher, 50, ANY)
+    anneal(data, searcher, 50, ANY)
     assert searcher.count.turn == turns
     assert (searcher.value.cost, searcher.value.best) == (costs.cost, costs.best)
 
@@ -195,36 +195,36 @@ def test_nothing_changes_after_the_alarm(variant: str) -> None:
 def test_an_insertion_of_all_leaves_out_whom_there_is_no_time_for() -> None:
     problem = problem_of("vrptw")
     setting = Alarm().setting
-    world = make_world(problem, pack([problem]), deadline=setting)
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    data = make_data(problem, pack([problem]), deadline=setting)
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
     setting[CANCELLED] = 1
-    insert_missing(world, searcher, BY_FAR)
-    nobody = read_plan(world, searcher)
+    insert_missing(data, searcher, BY_FAR)
+    nobody = read_plan(data, searcher)
     assert nobody.routes == ()
     assert len(nobody.unassigned) == problem.num_customers
     setting[CANCELLED] = 0
-    insert_missing(world, searcher, BY_FAR)
-    assert read_plan(world, searcher).unassigned == ()
+    insert_missing(data, searcher, BY_FAR)
+    assert read_plan(data, searcher).unassigned == ()
 
 
 @pytest.mark.parametrize("rings", [False, True])
 def test_no_other_plan_is_begun_once_there_is_no_time(rings: bool) -> None:
     problem = problem_of("vrptw")
-    world = make_world(problem, pack([problem]))
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
     alarm = Alarm(0.0 if rings else math.inf)
-    begin_anew(world, searcher, True, world._replace(deadline=alarm.setting))
-    assert read_plan(world, searcher).unassigned == ()
+    begin_anew(data, searcher, True, data._replace(deadline=alarm.setting))
+    assert read_plan(data, searcher).unassigned == ()
     assert (searcher.count.turn == 1) == rings
 
 
 def test_a_plan_for_few_is_begun_however_late_where_nobody_has_to_be_served() -> None:
     problem = problem_of("cvrp")
     problem = replace(problem, unassigned_cost=1e-3)
-    world = make_world(problem, pack([problem]))
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
     searcher.value.best = math.inf  # as if there were a dear plan for all
-    begin_anew(world, searcher, True, world._replace(deadline=Alarm(0.0).setting))
+    begin_anew(data, searcher, True, data._replace(deadline=Alarm(0.0).setting))
     assert searcher.count.turn > 1
 
 

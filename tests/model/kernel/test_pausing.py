@@ -14,7 +14,7 @@ from model.kernel.pausing import EndedError, pausing
 from model.planner import Listener, Planner, PlanOptions
 from model.problem import Problem, Travel
 from model.search.improve import SearchConfig, improve
-from model.search.ground.lay import lay_ground
+from model.search.neighbourhood.neighbourhood import make_neighbourhood
 from model.solution import Solution
 from training.instances import generate
 
@@ -82,16 +82,16 @@ def test_a_large_problem_is_packed_in_parts(large: Problem) -> None:
         pack([large], pause=Looks(looks.number // 2))
 
 
-def test_a_large_ground_is_laid_in_parts(large: Problem) -> None:
+def test_a_large_neighbourhood_is_made_in_parts(large: Problem) -> None:
     instance, looks = pack([large], legs=False), Looks()
-    ground = lay_ground(large, instance, looks)
+    neighbourhood = make_neighbourhood(large, instance, looks)
     looks()
     assert looks.longest < MOST_SECONDS
-    assert isinstance(ground.leg, np.ndarray)
-    assert isinstance(ground.back, np.ndarray)
-    assert (ground.back == ground.leg.transpose(0, 2, 1, 3)).all()
+    assert isinstance(neighbourhood.leg, np.ndarray)
+    assert isinstance(neighbourhood.back, np.ndarray)
+    assert (neighbourhood.back == neighbourhood.leg.transpose(0, 2, 1, 3)).all()
     with pytest.raises(EndedError):
-        lay_ground(large, instance, Looks(looks.number // 2))
+        make_neighbourhood(large, instance, Looks(looks.number // 2))
 
 
 class Told:

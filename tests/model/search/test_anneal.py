@@ -10,21 +10,21 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.route.engine import ANY, anneal
-from model.search.route.layout import World
-from model.search.world import make_world
+from model.search.route.layout import ProblemData
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
 TURNS, SEEDS = 1500, 6
 
 
-def found(problem: Problem, world: World, seed: int) -> float:
+def found(problem: Problem, data: ProblemData, seed: int) -> float:
     """Return what the best plan of a short search costs."""
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
-    begin_anew(world, searcher, True)
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(seed))
+    begin_anew(data, searcher, True)
     searcher.value.temperature = searcher.value.cost / problem.num_customers
     searcher.value.cooling = 0.03 ** (1 / TURNS)
-    anneal(world, searcher, TURNS, ANY)
+    anneal(data, searcher, TURNS, ANY)
     assert searcher.count.best_missing == 0
     return float(searcher.value.best)
 
@@ -33,11 +33,11 @@ def found(problem: Problem, world: World, seed: int) -> float:
 def test_giving_a_turn_up_loses_nothing(variant: str) -> None:
     """It is given up once it costs too much, which it would in the end."""
     problem = generate(np.random.default_rng(8), 60, variant)
-    world = make_world(problem, pack([problem], legs=False))
-    assert world.adds_up
-    through = world._replace(adds_up=False)
+    data = make_data(problem, pack([problem], legs=False))
+    assert data.adds_up
+    through = data._replace(adds_up=False)
     costs = np.array([[found(problem, each, seed) for seed in range(SEEDS)]
-                      for each in (world, through)])
+                      for each in (data, through)])
     mean, error = costs.mean(axis=1), costs.std(axis=1) / np.sqrt(SEEDS - 1)
     assert mean[0] <= mean[1] + 4 * np.hypot(*error)
 
@@ -46,4 +46,4 @@ def test_waiting_may_get_cheaper_by_a_customer_more() -> None:
     problem = generate(np.random.default_rng(8), 10, "vrptw")
     waited_for = replace(problem.customers[0], early_cost_per_hour=10.0)
     problem = replace(problem, customers=(waited_for, *problem.customers[1:]))
-    assert not make_world(problem, pack([problem], legs=False)).adds_up
+    assert not make_data(problem, pack([problem], legs=False)).adds_up

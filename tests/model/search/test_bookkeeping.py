@@ -11,9 +11,9 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.route.engine import ANY, BY_FAR, anneal
-from model.search.route.layout import NOWHERE, World
+from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
@@ -25,34 +25,34 @@ FEW = 60
 """Customers who are sorted in the simplest way."""
 
 
-def begun(variant: str, size: int) -> tuple[Problem, World, Searcher]:
+def begun(variant: str, size: int) -> tuple[Problem, ProblemData, Searcher]:
     """Return a problem, and a search that has planned it by insertion."""
     problem = generate(np.random.default_rng(17), size, variant)
-    world = make_world(problem, pack([problem]))
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
-    begin_anew(world, searcher, True)
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
+    begin_anew(data, searcher, True)
     searcher.value.temperature = searcher.value.cost / problem.num_customers
-    return problem, world, searcher
+    return problem, data, searcher
 
 
 @pytest.mark.parametrize(("variant", "size", "stay"), [
     ("cvrp", SOME, 20), ("vrptw", 60, 0), ("multitrip", 60, 7), ("drone", 60, 7)])
 def test_routes_in_use_and_the_best_are_known(variant: str, size: int, stay: int) -> None:
-    _, world, searcher = begun(variant, size)
+    _, data, searcher = begun(variant, size)
     searcher.count.stay = stay
     slots = np.arange(len(searcher.active))
     for _ in range(ROUNDS):
-        anneal(world, searcher, TURNS, ANY)
+        anneal(data, searcher, TURNS, ANY)
         used = searcher.now.route["length"][slots] > 0
         count = int(searcher.count.active)
         assert sorted(searcher.active[:count]) == list(slots[used])
         assert sorted(searcher.active) == list(slots)
         assert (searcher.active[searcher.rank] == slots).all()
         best = searcher.best.cost[slots][searcher.best.route["length"][slots] > 0].sum()
-        best += float(searcher.count.best_missing) * world.unassigned_cost
+        best += float(searcher.count.best_missing) * data.unassigned_cost
         assert best == pytest.approx(float(searcher.value.best))
         now = searcher.now.cost[slots][used].sum()
-        now += float(searcher.count.missing) * world.unassigned_cost
+        now += float(searcher.count.missing) * data.unassigned_cost
         assert now == pytest.approx(float(searcher.value.cost))
 
 
@@ -67,11 +67,11 @@ def test_there_is_room_for_the_stops_that_a_vehicle_may_have(most_stops: int | N
     lightest = np.sort([each.demand[0] for each in given.customers]).cumsum()
     most = int((lightest <= kind.capacity[0]).sum()) if most_stops is None else most_stops
     for one in (given, taken):
-        world = make_world(one, pack([one]))
-        searcher = make_searcher(one, world, Solution((), ()), np.random.SeedSequence(3))
+        data = make_data(one, pack([one]))
+        searcher = make_searcher(one, data, Solution((), ()), np.random.SeedSequence(3))
         assert most + 2 <= searcher.now.stop.shape[1] <= most + 10
-        begin_anew(world, searcher, True)
-        anneal(world, searcher, TURNS, ANY)
+        begin_anew(data, searcher, True)
+        anneal(data, searcher, TURNS, ANY)
         assert searcher.now.route["length"].max() <= most + 2
 
 
@@ -80,7 +80,7 @@ def test_there_is_room_for_what_drones_and_trucks_try() -> None:
     kinds = [replace(kind, max_stops=2, max_sorties=1) for kind in problem.vehicle_types]
     few = replace(problem, vehicle_types=tuple(kinds))
     for one in (problem, few):
-        searcher = make_searcher(one, make_world(one, pack([one])), Solution((), ()),
+        searcher = make_searcher(one, make_data(one, pack([one])), Solution((), ()),
                                  np.random.SeedSequence(3))
         largest = max(kind.capacity[0] * kind.max_trips for kind in kinds)
         lightest = np.sort([each.demand[0] for each in one.customers]).cumsum()
@@ -91,23 +91,23 @@ def test_there_is_room_for_what_drones_and_trucks_try() -> None:
 
 
 def test_a_search_that_stays_near_by_gets_everywhere() -> None:
-    problem, world, searcher = begun("cvrp", SOME)
+    problem, data, searcher = begun("cvrp", SOME)
     searcher.count.stay = 5
     seen = set()
     for _ in range(40):
-        anneal(world, searcher, 5, ANY)
+        anneal(data, searcher, 5, ANY)
         seen.add(int(searcher.count.focus))
     assert len(seen) > 20
     assert all(problem.num_depots <= node < problem.num_nodes for node in seen)
 
 
-def beside_neighbours(world: World, searcher: Searcher, node: int) -> float:
+def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:
     """Return the cheapest insertion of a customer beside a neighbour, all of them looked at."""
-    now, kind, rate = searcher.now, world.type[0], world.rate[0]
-    assert isinstance(world.leg, np.ndarray)
-    legs, demand = world.leg[0, :, :, 1], world.place[0, :, 0]["demand"][:, 0]
+    now, kind, rate = searcher.now, data.type[0], data.rate[0]
+    assert isinstance(data.leg, np.ndarray)
+    legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
     least = np.inf
-    for other in world.fit[node].tolist():
+    for other in data.fit[node].tolist():
         slot, p, _ = now.where[other].tolist()
         if slot < 0:
             continue
@@ -119,15 +119,15 @@ def beside_neighbours(world: World, searcher: Searcher, node: int) -> float:
 
 
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
-    _, world, searcher = begun("cvrp", SOME)
-    world, now = world._replace(blink=0.0), searcher.now
+    _, data, searcher = begun("cvrp", SOME)
+    data, now = data._replace(blink=0.0), searcher.now
     found = 0
     for slot in searcher.active[: searcher.count.active].tolist():
         left_out = now.stop[slot, 1: now.route[slot].length - 1]["node"].tolist()
         now.where["slot"][left_out] = NOWHERE
         for node in left_out:
-            cost = call("tandem_scan_beside_lean", world, searcher, node, np.inf, False)
-            assert cost == pytest.approx(beside_neighbours(world, searcher, node))
+            cost = call("tandem_scan_beside_lean", data, searcher, node, np.inf, False)
+            assert cost == pytest.approx(beside_neighbours(data, searcher, node))
             found += cost < np.inf
         now.where["slot"][left_out] = slot
     assert found > SOME / 20
@@ -135,16 +135,16 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
 
 def test_many_customers_are_sorted_as_few_are() -> None:
     problem = generate(np.random.default_rng(17), SOME, "cvrp")
-    world = make_world(problem, pack([problem]))
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
-    world.type["count"] = 0
-    assert isinstance(world.leg, np.ndarray)
-    distance = world.leg[0, 0, :, 1]
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
+    data.type["count"] = 0
+    assert isinstance(data.leg, np.ndarray)
+    distance = data.leg[0, 0, :, 1]
     for count in (FEW, SOME):
         nodes = np.random.default_rng(2).permutation(SOME)[:count] + 1
         searcher.missing[:count] = nodes
         searcher.count.missing = count
-        anneal(world, searcher, 1, BY_FAR)
+        anneal(data, searcher, 1, BY_FAR)
         # Nobody drives, so that those to be inserted stay as they were sorted.
         left_out = searcher.missing[: searcher.count.missing]
         assert (np.diff(distance[left_out]) <= 0).all()

@@ -12,7 +12,7 @@ from model.kernel.instance import pack
 from model.kernel.variants import are_stated, ways_of
 from model.problem import Points, Problem, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW
-from model.search.ground import lay
+from model.search.neighbourhood import neighbourhood
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.mixed_rules import all_rules, all_rules_open, all_rules_setups
@@ -50,7 +50,7 @@ def test_plans_are_the_same_as_by_tables(variant: str, on_globe: bool) -> None:
 def by_64_bits(problem: Problem, monkeypatch: pytest.MonkeyPatch) -> Solution:
     """Return a plan as if some leg of the problem didn't fit 32 bits."""
     with monkeypatch.context() as patched:
-        patched.setattr(lay, "are_stated", lambda *_: False)
+        patched.setattr(neighbourhood, "are_stated", lambda *_: False)
         return plan_of(problem)
 
 

@@ -8,11 +8,11 @@ import pytest
 
 from model.kernel.instance import pack
 from model.problem import UNLIMITED, Points, Problem, StraightLegs, Travel
-from model.search import world as worlds
+from model.search import problem_data as worlds
 from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.savings import joined, ranked_pairs, routes_of
 from model.search.first_plan import first_plan
-from model.search.world import make_world, may_be_turned
+from model.search.problem_data import make_data, may_be_turned
 from tests.model.search.test_moves import TRUCK, on_a_plane
 
 NUMBER, HELD = 300, 30
@@ -36,7 +36,7 @@ def length(problem: Problem, routes: list[list[int]]) -> int:
 @pytest.mark.parametrize("seed", range(3))
 def test_everyone_is_on_one_route_that_holds_him(seed: int) -> None:
     problem = scattered(seed=seed)
-    routes = shortest_routes(make_world(problem, pack([problem])), 0)
+    routes = shortest_routes(make_data(problem, pack([problem])), 0)
     assert sorted(chain.from_iterable(routes)) == list(range(1, NUMBER + 1))
     assert max(map(len, routes)) <= HELD
 
@@ -45,10 +45,10 @@ def test_routes_are_turned_only_where_that_is_shorter() -> None:
     turned = 0
     for seed in range(3):
         problem = scattered(seed=seed)
-        world = make_world(problem, pack([problem]))
-        ranks = world.near.shape[1]
-        one_way = routes_of(world, 0, joined(world, 0, ranks, ranked_pairs(world, 0, ranks)))
-        either_way = shortest_routes(world, 0)
+        data = make_data(problem, pack([problem]))
+        ranks = data.near.shape[1]
+        one_way = routes_of(data, 0, joined(data, 0, ranks, ranked_pairs(data, 0, ranks)))
+        either_way = shortest_routes(data, 0)
         assert len(either_way) <= len(one_way)  # there is a vehicle too few for either
         if len(either_way) == len(one_way):
             assert length(problem, either_way) <= length(problem, one_way)
@@ -59,7 +59,7 @@ def test_routes_are_turned_only_where_that_is_shorter() -> None:
 def test_routes_are_turned_only_where_loads_alone_limit_them(
         monkeypatch: pytest.MonkeyPatch) -> None:
     def may(problem: Problem) -> bool:
-        return may_be_turned(make_world(problem, pack([problem])))
+        return may_be_turned(make_data(problem, pack([problem])))
 
     problem = scattered()
     kind, = problem.vehicle_types
@@ -82,6 +82,6 @@ def test_routes_are_turned_only_where_loads_alone_limit_them(
 def test_first_plan_serves_each_customer_once(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(worlds, "TURNED_FROM", NUMBER)
     problem = scattered(count=NUMBER)
-    plan = first_plan(problem, make_world(problem, pack([problem])))
+    plan = first_plan(problem, make_data(problem, pack([problem])))
     served = [stop.node for route in plan.routes for stop in route.trips[0].stops[1:-1]]
     assert sorted(served) == list(range(1, NUMBER + 1))

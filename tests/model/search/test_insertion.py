@@ -14,8 +14,8 @@ from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.route.layout import World
-from model.search.world import make_world
+from model.search.route.layout import ProblemData
+from model.search.problem_data import make_data
 from model.solution import Route, Solution
 from tests.model.search.found import read_plan
 
@@ -79,7 +79,7 @@ def with_customer(trips: Trips, node: int) -> Iterator[Trips]:
                 yield (*before, front, (node, *rear), *behind)
 
 
-def cost_of(problem: Problem, world: World, trips_by_route: list[Trips]) -> float:
+def cost_of(problem: Problem, data: ProblemData, trips_by_route: list[Trips]) -> float:
     """Return the cost of a plan of trips by vehicle; infinite if it breaks a rule.
 
     With the departures that the search gives its plans, as late as costs nothing.
@@ -90,25 +90,25 @@ def cost_of(problem: Problem, world: World, trips_by_route: list[Trips]) -> floa
         for number, trips in enumerate(trips_by_route))
     if not check(problem, Solution(routes, ())).is_feasible:
         return math.inf
-    whole = read_plan(world, make_searcher(problem, world, Solution(routes),
+    whole = read_plan(data, make_searcher(problem, data, Solution(routes),
                                            np.random.SeedSequence(0)))
     return check(problem, whole).cost.total
 
 
-def least_cost(problem: Problem, world: World, plan: Solution, node: int) -> float:
+def least_cost(problem: Problem, data: ProblemData, plan: Solution, node: int) -> float:
     """Return the least cost of a plan with one customer more."""
     routes = [trips_of(route) for route in plan.routes]
     ways = [[*routes[:index], way, *routes[index + 1:]]
             for index, route in enumerate(routes) for way in with_customer(route, node)]
     if len(routes) < problem.vehicle_types[0].count:
         ways.append([*routes, ((node,),)])
-    return min(cost_of(problem, world, way) for way in ways)
+    return min(cost_of(problem, data, way) for way in ways)
 
 
-def inserted_cost(problem: Problem, world: World, plan: Solution, seed: int) -> float:
+def inserted_cost(problem: Problem, data: ProblemData, plan: Solution, seed: int) -> float:
     """Return the cost after the search inserted who is missing; infinite if it couldn't."""
-    searcher = make_searcher(problem, world, plan, np.random.SeedSequence(seed))
-    begin_anew(world, searcher, False)
+    searcher = make_searcher(problem, data, plan, np.random.SeedSequence(seed))
+    begin_anew(data, searcher, False)
     return math.inf if searcher.count.missing else float(searcher.value.cost)
 
 
@@ -130,9 +130,9 @@ def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
     nobody = Solution((), tuple(range(1, CUSTOMERS + 1)))
     plan = improve(problem, pack([problem]), nobody, SearchConfig(turns=20)).solution
     served = [node for route in plan.routes for trip in trips_of(route) for node in trip]
-    world = make_world(problem, pack([problem]))
+    data = make_data(problem, pack([problem]))
     for node in served:
         rest = without(plan, problem, node)
-        expected = least_cost(problem, world, rest, node)
-        found = min(inserted_cost(problem, world, rest, seed) for seed in range(SEEDS))
+        expected = least_cost(problem, data, rest, node)
+        found = min(inserted_cost(problem, data, rest, seed) for seed in range(SEEDS))
         assert found == pytest.approx(expected)

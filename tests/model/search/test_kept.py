@@ -11,21 +11,21 @@ from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.route.engine import ANY, BY_FAR, INFEASIBLE, anneal
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
 TURNS, ROUNDS = 40, 25
 
 
-def least_costs(world: World, searcher: Searcher, slot: int, nodes: IntArray) -> FloatArray:
+def least_costs(data: ProblemData, searcher: Searcher, slot: int, nodes: IntArray) -> FloatArray:
     """Return what each of some customers more on a route costs at least, kept or not.
 
     All are tried on that route alone, and none is inserted, since it costs less to leave them out.
     """
-    unwanted = world._replace(unassigned_cost=-INFEASIBLE)
+    unwanted = data._replace(unassigned_cost=-INFEASIBLE)
     stamp, rng = searcher.now.route[slot].stamp, searcher.rng.copy()
     while True:
         trial = deepcopy(searcher)._replace(rng=rng)
@@ -39,18 +39,18 @@ def least_costs(world: World, searcher: Searcher, slot: int, nodes: IntArray) ->
             return trial.kept_cost[nodes, slot]
 
 
-def begun(problem: Problem, world: World) -> Searcher:
+def begun(problem: Problem, data: ProblemData) -> Searcher:
     """Return a search that has planned once by insertion."""
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(5))
-    begin_anew(world, searcher, True)
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(5))
+    begin_anew(data, searcher, True)
     searcher.value.temperature = searcher.value.cost / 2000
     return searcher
 
 
-def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, IntArray]]:
+def kept_places(data: ProblemData, searcher: Searcher) -> Iterator[tuple[int, IntArray]]:
     """Search in rounds; yield each route and for whom a place on it is kept after each round."""
     for _ in range(ROUNDS):
-        anneal(world, searcher, TURNS, ANY)
+        anneal(data, searcher, TURNS, ANY)
         for slot in searcher.active[: searcher.count.active]:
             stamp = searcher.now.route[slot].stamp
             assert stamp != 0  # that of a route which changes
@@ -58,11 +58,11 @@ def kept_places(world: World, searcher: Searcher) -> Iterator[tuple[int, IntArra
             yield int(slot), nodes[searcher.now.where[nodes]["slot"] != slot]
 
 
-def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
+def shortest(data: ProblemData, searcher: Searcher, slot: int, node: int) -> dict[int, int]:
     """Return the detour for a customer behind each stop of a route where no rule is broken."""
     stops = searcher.now.stop[slot]
-    legs = world.leg[world.type[searcher.now.route[slot].type].travel]
-    place, detours = world.place[0, node], {}
+    legs = data.leg[data.type[searcher.now.route[slot].type].travel]
+    place, detours = data.place[0, node], {}
     for p in range(searcher.now.route[slot].length - 1):
         here, there = stops[p].node, stops[p + 1].node
         arrival = stops[p].leave + legs[here, node, 0]
@@ -76,14 +76,14 @@ def shortest(world: World, searcher: Searcher, slot: int, node: int) -> dict[int
 @pytest.mark.parametrize("seed", [8, 9])
 def test_places_kept_are_the_shortest_detours_on_routes_as_they_are(seed: int) -> None:
     problem = generate(np.random.default_rng(seed), 80, "vrptw")
-    world = make_world(problem, pack([problem]))
-    assert not world.general
-    searcher = begun(problem, world)
+    data = make_data(problem, pack([problem]))
+    assert not data.general
+    searcher = begun(problem, data)
     found = none = 0
-    for slot, nodes in kept_places(world, searcher):
+    for slot, nodes in kept_places(data, searcher):
         for node in nodes:
             _, detour, p = searcher.kept[node, slot]
-            detours = shortest(world, searcher, slot, node)
+            detours = shortest(data, searcher, slot, node)
             assert min(detours.values(), default=detour) >= detour
             if p >= 0:
                 assert detours[p] == detour
@@ -98,13 +98,13 @@ def test_places_kept_are_the_shortest_detours_on_routes_as_they_are(seed: int) -
 def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: str,
                                                                       seed: int) -> None:
     problem = generate(np.random.default_rng(seed), 50, variant)
-    world = make_world(problem, pack([problem]))
-    assert world.general
-    searcher = begun(problem, world)
+    data = make_data(problem, pack([problem]))
+    assert data.general
+    searcher = begun(problem, data)
     found = none = 0
-    for slot, nodes in kept_places(world, searcher):
+    for slot, nodes in kept_places(data, searcher):
         cost = searcher.kept_cost[nodes, slot]
-        least = least_costs(world, searcher, slot, nodes)
+        least = least_costs(data, searcher, slot, nodes)
         is_found = searcher.kept_move[nodes, slot]["kind"] >= 0
         assert cost[is_found] == pytest.approx(least[is_found])
         assert (cost <= least + 1e-9 * abs(least))[~is_found].all()

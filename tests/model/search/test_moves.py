@@ -12,9 +12,9 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
-from model.search.ground.lay import Ground, lay_ground
+from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.improve import Improved, Progress, SearchConfig, improve
-from model.search.world import Moves
+from model.search.problem_data import Moves
 from model.solution import Solution
 
 MINUTE = 60_000
@@ -294,7 +294,7 @@ def test_thousands_begin_with_a_plan_that_is_not_far_from_good() -> None:
     assert better.cost < begun.cost < 1.35 * better.cost
 
 
-def test_thousands_begin_with_the_same_plan_where_laying_the_ground_took_its_time(
+def test_thousands_begin_with_the_same_plan_where_making_the_neighbourhood_took_its_time(
         monkeypatch: pytest.MonkeyPatch) -> None:
     # A tenth of the time was over: no plan by one type after another was tried any more.
     places = np.random.default_rng(3).uniform(-30.0, 30.0, (THOUSANDS, 2)).tolist()
@@ -304,11 +304,11 @@ def test_thousands_begin_with_the_same_plan_where_laying_the_ground_took_its_tim
     instance, nothing = pack([problem]), Solution((), ())
     begun = improve(problem, instance, nothing, SearchConfig(turns=0))
 
-    def slowly(*args: Any, **options: Any) -> Ground:
+    def slowly(*args: Any, **options: Any) -> Neighbourhood:
         time.sleep(1.0)
-        return lay_ground(*args, **options)
+        return make_neighbourhood(*args, **options)
 
-    monkeypatch.setattr("model.search.improve.lay_ground", slowly)
+    monkeypatch.setattr("model.search.improve.make_neighbourhood", slowly)
     told: list[Progress] = []
     late = improve(problem, instance, nothing, SearchConfig(), time.perf_counter() + 10.0,
                    lambda: bool(told), told.append)

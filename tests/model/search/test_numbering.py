@@ -6,9 +6,9 @@ import pytest
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.search.improve import SearchConfig, improve
-from model.search.ground.lay import lay_ground
-from model.search.ground.numbering import along_neighbours
-from model.search.world import make_world
+from model.search.neighbourhood.neighbourhood import make_neighbourhood
+from model.search.neighbourhood.numbering import along_neighbours
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.rollouts import random_problems
 from training.instances import generate
@@ -34,7 +34,8 @@ def test_neighbours_are_near_in_memory(variant: str) -> None:
     problem = generate(np.random.default_rng(3), 300, variant)
     distances = []
     for along in (False, True):
-        near = lay_ground(problem, pack([problem]), along=along).near[problem.num_depots:, :16]
+        made = make_neighbourhood(problem, pack([problem]), along=along)
+        near = made.near[problem.num_depots:, :16]
         numbers = np.arange(problem.num_depots, problem.num_nodes)[:, None]
         distances.append(float(np.median(np.abs(near - numbers))))
     assert distances[1] < 0.3 * distances[0]
@@ -43,11 +44,12 @@ def test_neighbours_are_near_in_memory(variant: str) -> None:
 def test_every_table_is_in_the_order_of_the_numbers() -> None:
     for problem in random_problems(seed=11, count=60):
         instance = pack([problem])
-        grounds = [lay_ground(problem, instance, along=way) for way in (False, True)]
-        stated, along = (make_world(problem, instance, ground=ground) for ground in grounds)
-        node = grounds[1].numbering.node
+        neighbourhoods = [make_neighbourhood(problem, instance, along=way) for way in (False, True)]
+        stated, along = (make_data(problem, instance, neighbourhood=made)
+                         for made in neighbourhoods)
+        node = neighbourhoods[1].numbering.node
         for name, axes in (("place", (1,)), ("amount", (0,)), ("price", (0,)), ("goods", (0,)),
-                           ("setup", (0,)), ("fresh_for", (0,)), ("must_serve", (0,)),
+                           ("setup", (0,)), ("max_time_aboard", (0,)), ("must_serve", (0,)),
                            ("unassigned_more", (0,)), ("reload", (1,)), ("can", (2,)),
                            ("leg", (1, 2)), ("back", (1, 2))):
             table = getattr(stated, name)

@@ -6,9 +6,9 @@ from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.translate import make_searcher
-from model.search.ground.lay import NEAR_INSERTION
+from model.search.neighbourhood.neighbourhood import NEAR_INSERTION
 from model.search.route.engine import ANY, anneal
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.search.found import read_plan
 
@@ -48,14 +48,14 @@ def test_a_route_to_a_town_serves_a_village_on_the_way() -> None:
     plan = Solution(tuple(
         schedule(problem, RouteDecision(0, number, (TripDecision((0, *trip, 0)),)))
         for number, trip in enumerate(trips)), (alone,))
-    world = make_world(problem, pack([problem]))
-    assert not world.scan_all
+    data = make_data(problem, pack([problem]))
+    assert not data.scan_all
     assert len(plan.routes) >= EACH_DRAWN
-    assert (world.fit[alone, :NEAR_INSERTION] <= NEARER * ON_A_ROUTE).all()
-    searcher = make_searcher(problem, world, plan, np.random.SeedSequence(1))
+    assert (data.fit[alone, :NEAR_INSERTION] <= NEARER * ON_A_ROUTE).all()
+    searcher = make_searcher(problem, data, plan, np.random.SeedSequence(1))
     searcher.value.temperature, searcher.value.cooling = 1e-9, 1.0
-    anneal(world, searcher, TURNS, ANY)
-    found = read_plan(world, searcher)
+    anneal(data, searcher, TURNS, ANY)
+    found = read_plan(data, searcher)
     assert not found.unassigned
     driven = [{stop.node for stop in trip.stops} for route in found.routes for trip in route.trips]
     assert len(driven) == len(trips)

@@ -16,9 +16,9 @@ from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
 from model.search.recombining import take_better_parts
 from model.search.route.engine import ANY, anneal
-from model.search.route.layout import Fleet, World
+from model.search.route.layout import Fleet, ProblemData
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 from tests.model.search.found import read_plan
@@ -28,23 +28,23 @@ Routes = dict[frozenset[int], float]
 VARIANTS = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", "mixed", "appointed")
 
 
-def searched(problem: Problem, seed: int, turns: int) -> tuple[World, Searcher]:
+def searched(problem: Problem, seed: int, turns: int) -> tuple[ProblemData, Searcher]:
     """Return a search that is hot, so that its plan is not its best."""
-    world = make_world(problem, pack([problem]))
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
-    begin_anew(world, searcher, False)
+    data = make_data(problem, pack([problem]))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(seed))
+    begin_anew(data, searcher, False)
     searcher.value.temperature, searcher.value.cooling = searcher.value.cost / 50, 1.0
-    anneal(world, searcher, turns, ANY)
-    return world, searcher
+    anneal(data, searcher, turns, ANY)
+    return data, searcher
 
 
-def routes_of(searcher: Searcher, fleet: Fleet, missing: list[int], world: World) -> Routes:
+def routes_of(searcher: Searcher, fleet: Fleet, missing: list[int], data: ProblemData) -> Routes:
     """Return the customers of each route and what it costs, those left out being routes, too."""
-    routes: Routes = {frozenset([node]): world.unassigned_cost + world.unassigned_more[node]
+    routes: Routes = {frozenset([node]): data.unassigned_cost + data.unassigned_more[node]
                       for node in missing}
     for slot in np.flatnonzero(fleet.route["length"][:len(searcher.active)]):
         nodes = fleet.stop[slot, :fleet.route[slot]["length"]]["node"].tolist()
-        routes[frozenset(node for node in nodes if node >= world.num_depots)] = fleet.cost[slot]
+        routes[frozenset(node for node in nodes if node >= data.num_depots)] = fleet.cost[slot]
     return routes
 
 
@@ -64,14 +64,14 @@ def test_best_plan_is_the_cheapest_of_the_routes_of_two() -> None:
         kind, = problem.vehicle_types
         few = 3 * max(customer.demand[0] for customer in problem.customers)
         problem = replace(problem, vehicle_types=(replace(kind, count=40, capacity=(few,)),))
-        world, searcher = searched(problem, seed, 20)
+        data, searcher = searched(problem, seed, 20)
         count, before = searcher.count, float(searcher.value.best)
-        both, other = (routes_of(searcher, fleet, missing.tolist(), world) for fleet, missing in (
+        both, other = (routes_of(searcher, fleet, missing.tolist(), data) for fleet, missing in (
             (searcher.best, searcher.best_missing[:count.best_missing]),
             (searcher.now, searcher.missing[:count.missing])))
         both |= {route: min(cost, both.get(route, cost)) for route, cost in other.items()}
-        take_better_parts(world, searcher)
-        everyone = frozenset(range(world.num_depots, world.num_nodes))
+        take_better_parts(data, searcher)
+        everyone = frozenset(range(data.num_depots, data.num_nodes))
         assert float(searcher.value.best) == pytest.approx(cheapest(both, everyone), rel=1e-9)
         better += bool(searcher.value.best < before - 1e-9)
     assert better > 3
@@ -81,11 +81,11 @@ def test_best_plan_is_the_cheapest_of_the_routes_of_two() -> None:
 def test_plan_put_together_keeps_all_rules(variant: str) -> None:
     for seed in range(4):
         problem = generate(np.random.default_rng(seed), 40, variant)
-        world, searcher = searched(problem, seed, 20)
+        data, searcher = searched(problem, seed, 20)
         for _ in range(20):
-            anneal(world, searcher, 5, ANY)
-            take_better_parts(world, searcher)
-            evaluation = check(problem, read_plan(world, searcher))
+            anneal(data, searcher, 5, ANY)
+            take_better_parts(data, searcher)
+            evaluation = check(problem, read_plan(data, searcher))
             assert evaluation.violations == ()
             assert evaluation.cost.total <= float(searcher.value.best) * (1 + 1e-9)
 
@@ -125,7 +125,7 @@ def test_search_finds_more_by_putting_parts_together(monkeypatch: pytest.MonkeyP
                 for config in configs]
 
     together = costs()
-    monkeypatch.setattr(worker, "take_better_parts", lambda world, searcher: None)
+    monkeypatch.setattr(worker, "take_better_parts", lambda data, searcher: None)
     alone = costs()
     assert all(one <= other for one, other in zip(together, alone, strict=True))
     assert sum(together) < sum(alone)
@@ -133,7 +133,7 @@ def test_search_finds_more_by_putting_parts_together(monkeypatch: pytest.MonkeyP
 
 def test_nothing_is_put_together_where_no_time_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
     looked: list[int] = []
-    monkeypatch.setattr(worker, "take_better_parts", lambda world, searcher: looked.append(1))
+    monkeypatch.setattr(worker, "take_better_parts", lambda data, searcher: looked.append(1))
     monkeypatch.setattr(worker, "LOOK", 1e6)
     monkeypatch.setattr(worker, "TURNS_A_LOOK", 1)
     problem = generate(np.random.default_rng(5), 30, "cvrp")

@@ -9,7 +9,7 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
 from model.search.sharing import DIVIDED_FROM, regions
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
@@ -30,9 +30,9 @@ def test_regions_are_searched_side_by_side(variant: str, threads: int) -> None:
 @pytest.mark.parametrize("threads", [2, 5])
 def test_regions_have_about_as_many_customers(threads: int) -> None:
     problem = generate(np.random.default_rng(0), 300, "cvrp")
-    world = make_world(problem, pack([problem]))
-    whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(0))
-    begin_anew(world, whole, False)
+    data = make_data(problem, pack([problem]))
+    whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(data, whole, False)
     slot = whole.now.where[1:]["slot"]
     slot = slot[slot >= 0]
     longest = np.bincount(slot).max()

@@ -13,11 +13,11 @@ from model.search.improve import (
     SearchConfig, improve,
 )
 from model.search.route.engine import ANY, BY_FAR, anneal
-from model.search.route.layout import World
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best
 from model.search.starts import Starts
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import VARIANTS, generate
 from tests.model.search.found import read_plan
@@ -26,12 +26,12 @@ TRUCKS = [name for name in VARIANTS
           if name not in ("drone", "table1", "mixed", "various", "particular")]
 
 
-def begun(problem: Problem) -> tuple[World, Searcher]:
+def begun(problem: Problem) -> tuple[ProblemData, Searcher]:
     """Return a search that has planned by insertion."""
-    world = make_world(problem, pack([problem]))
-    whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
-    begin_anew(world, whole, True)
-    return world, whole
+    data = make_data(problem, pack([problem]))
+    whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
+    begin_anew(data, whole, True)
+    return data, whole
 
 
 @pytest.fixture
@@ -51,47 +51,47 @@ def begins(monkeypatch: pytest.MonkeyPatch) -> list[bool]:
 def test_nobody_is_left_out_where_there_are_trucks_enough() -> None:
     problem = generate(np.random.default_rng(1), 100, "vrptw")
     assert problem.vehicle_types[0].count == 100
-    world = make_world(problem, pack([problem]))
+    data = make_data(problem, pack([problem]))
     for seed in range(60):
-        whole = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(seed))
-        insert_missing(world, whole, BY_FAR)
+        whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(seed))
+        insert_missing(data, whole, BY_FAR)
         assert whole.count.missing == 0
 
 
 @pytest.mark.parametrize("variant", TRUCKS)
 def test_every_search_begins_with_a_legal_plan_of_its_own(variant: str) -> None:
     problem = generate(np.random.default_rng(6), 30, variant)
-    world, whole = begun(problem)
-    before = read_plan(world, whole)
-    starts = Starts(world, whole, np.random.SeedSequence(1).spawn(3))
+    data, whole = begun(problem)
+    before = read_plan(data, whole)
+    starts = Starts(data, whole, np.random.SeedSequence(1).spawn(3))
     for anew in (False, True, True):
         starts.begin(anew)
         for room in starts.spread():
-            evaluation = check(problem, read_plan(world, room))
+            evaluation = check(problem, read_plan(data, room))
             assert evaluation.violations == ()
             assert evaluation.cost.total <= room.value.best * (1 + 1e-9)
             if not anew:
                 assert room.value.best == pytest.approx(whole.value.cost)
-    assert read_plan(world, whole) == before
+    assert read_plan(data, whole) == before
 
 
 @pytest.mark.parametrize("variant", TRUCKS)
 def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
     problem = generate(np.random.default_rng(2), 30, variant)
-    world, whole = begun(problem)
-    starts = Starts(world, whole, np.random.SeedSequence(1).spawn(2))
+    data, whole = begun(problem)
+    starts = Starts(data, whole, np.random.SeedSequence(1).spawn(2))
     for anew in (False, True):
         starts.begin(anew)
         for room in starts.spread():
             room.value.temperature = 1e-3
-            anneal(world, room, 300, ANY)
+            anneal(data, room, 300, ANY)
         starts.gather()
         least = min(float(room.value.best) for room in starts.spread())
         assert whole.value.best <= least * (1 + 1e-9)
-    go_on_from_best(world, whole)
+    go_on_from_best(data, whole)
     assert whole.value.cost == pytest.approx(float(whole.value.best))
-    anneal(world, whole, 300, ANY)
-    evaluation = check(problem, read_plan(world, whole))
+    anneal(data, whole, 300, ANY)
+    evaluation = check(problem, read_plan(data, whole))
     assert evaluation.violations == ()
     assert evaluation.cost.total <= whole.value.best * (1 + 1e-9)
 

@@ -11,9 +11,9 @@ from model.kernel.instance import pack
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.route.layout import END, MODE_PRICED, START, World
+from model.search.route.layout import END, MODE_PRICED, START, ProblemData
 from model.search.route.state import Searcher
-from model.search.world import make_world
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.tiny import MINUTE
 from training.instances import generate
@@ -61,24 +61,24 @@ def places(searcher: Searcher, slot: int) -> Iterator[tuple[int, int, int]]:
                 yield from ((TRIP_FROM, p, 0), (TRIP_UNTIL, p, 0))
 
 
-def begun(seed: int) -> tuple[Problem, World, Searcher]:
+def begun(seed: int) -> tuple[Problem, ProblemData, Searcher]:
     """Return a problem and its search, which has planned once by insertion."""
     problem = swapping(seed, 14)
-    world = make_world(problem, pack([problem]))
+    data = make_data(problem, pack([problem]))
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
-    searcher = make_searcher(problem, world, nobody, np.random.SeedSequence(seed))
-    begin_anew(world, searcher, False)
-    return problem, world, searcher
+    searcher = make_searcher(problem, data, nobody, np.random.SeedSequence(seed))
+    begin_anew(data, searcher, False)
+    return problem, data, searcher
 
 
 def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
     compared = dict.fromkeys((BY_SORTIE, AT_STOP, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL), 0)
     refused = 0
     for seed in range(SEEDS):
-        problem, world, searcher = begun(seed)
-        timed = world._replace(mode=world.mode | MODE_PRICED)
+        problem, data, searcher = begun(seed)
+        timed = data._replace(mode=data.mode | MODE_PRICED)
         # How much is aboard is looked at before.
-        world.type["capacity"] *= 100
+        data.type["capacity"] *= 100
         rng, move = np.random.default_rng(seed), searcher.move
         for slot in searcher.active[: searcher.count.active].tolist():
             others = [node for node in range(problem.num_depots, problem.num_nodes)
@@ -87,7 +87,7 @@ def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
                 move.kind, move.slot, move.first, move.last, move.drone = kind, slot, first, last, 1
                 node = int(rng.choice(others))
                 part, whole = (call("tandem_price_move", each, searcher.now, move, node,
-                                    searcher.acc) for each in (world, timed))
+                                    searcher.acc) for each in (data, timed))
                 assert part == pytest.approx(whole), (seed, slot, kind, first, last, node)
                 refused += part > 1e200
                 compared[kind] += part < 1e200

@@ -13,9 +13,9 @@ from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
 from model.search.linked.engine import anneal_linked, measure_near, tie, write_back
 from model.search.linked.layout import Linked, make_linked
-from model.search.route.layout import NOWHERE, World
+from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
-from model.search.world import are_timed, can_be_linked, make_world
+from model.search.problem_data import are_timed, can_be_linked, make_data
 from model.solution import Solution
 from tests.model.search.found import read_plan
 from training.instances import generate
@@ -109,48 +109,48 @@ def on_the_globe(size: int) -> Problem:
     return replace(problem, travel=(Travel.along(legs),))
 
 
-def begun(problem: Problem) -> tuple[World, Searcher, Linked]:
+def begun(problem: Problem) -> tuple[ProblemData, Searcher, Linked]:
     """Return a search that has planned a problem by insertion, its stops linked."""
-    world = make_world(problem, pack([problem], legs=False))
-    assert can_be_linked(world)
-    searcher = make_searcher(problem, world, Solution((), ()), np.random.SeedSequence(3))
-    begin_anew(world, searcher, True)
+    data = make_data(problem, pack([problem], legs=False))
+    assert can_be_linked(data)
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
+    begin_anew(data, searcher, True)
     searcher.value.temperature = searcher.value.cost / problem.num_customers
     searcher.value.cooling = 1.0
-    linked = make_linked(world, searcher, are_timed(world))
-    measure_near(world, linked)
-    tie(world, searcher, linked)
-    return world, searcher, linked
+    linked = make_linked(data, searcher, are_timed(data))
+    measure_near(data, linked)
+    tie(data, searcher, linked)
+    return data, searcher, linked
 
 
-def customers_of(world: World, first: int, behind: np.ndarray) -> list[int]:
+def customers_of(data: ProblemData, first: int, behind: np.ndarray) -> list[int]:
     """Return who comes behind whom, from the first on."""
     found, node = [], first
-    while node >= world.num_depots:
+    while node >= data.num_depots:
         found.append(node)
         node = int(behind[node])
     return found
 
 
-def routes_of(world: World, searcher: Searcher, linked: Linked) -> list[list[int]]:
+def routes_of(data: ProblemData, searcher: Searcher, linked: Linked) -> list[list[int]]:
     """Return the customers of all routes, which each route's ends, counts and links agree on."""
     routes = []
     for slot in searcher.active[:searcher.count.active].tolist():
         run = linked.run[slot]
-        kind = world.type[run.type]
-        nodes = customers_of(world, int(run.first), linked.link["behind"])
+        kind = data.type[run.type]
+        nodes = customers_of(data, int(run.first), linked.link["behind"])
         assert len(nodes) == run.count > 0
         assert nodes[-1] == run.last
         assert linked.link["before"][nodes].tolist() == [kind.begins_at, *nodes[:-1]]
         assert linked.link["behind"][nodes[-1]] == kind.ends_at
         assert (linked.link["slot"][nodes] == slot).all()
-        demand = world.place[0, nodes, 0]["demand"].sum(axis=0)
+        demand = data.place[0, nodes, 0]["demand"].sum(axis=0)
         assert (linked.run["load"][slot] == demand).all()
         home = linked.link["onward"][nodes[-1]]
         assert run.distance == linked.link["inward"][nodes].sum() + home
         routes.append(nodes)
     types = linked.run["type"][searcher.active[:searcher.count.active]]
-    assert (searcher.now.used == np.bincount(types, minlength=world.num_types)).all()
+    assert (searcher.now.used == np.bincount(types, minlength=data.num_types)).all()
     assert (linked.former == NOWHERE).all()
     return routes
 
@@ -161,47 +161,47 @@ def routes_of(world: World, searcher: Searcher, linked: Linked) -> list[list[int
 @pytest.mark.parametrize("size", [40, 420])
 def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-untyped-def]
     problem = make(size)
-    world, searcher, linked = begun(problem)
-    everybody = set(range(world.num_depots, world.num_nodes))
+    data, searcher, linked = begun(problem)
+    everybody = set(range(data.num_depots, data.num_nodes))
     best, left_out, used = float(searcher.value.best), 0, searcher.now.used.copy()
     for _ in range(BATCHES):
-        anneal_linked(world, searcher, linked, TURNS)
-        served = [node for nodes in routes_of(world, searcher, linked) for node in nodes]
+        anneal_linked(data, searcher, linked, TURNS)
+        served = [node for nodes in routes_of(data, searcher, linked) for node in nodes]
         missing = searcher.missing[:searcher.count.missing].tolist()
         assert sorted(served + missing) == sorted(everybody)
         assert float(searcher.value.best) <= best
         best, left_out = float(searcher.value.best), left_out + len(missing)
         cost = float(searcher.value.cost)
-        write_back(world, searcher, linked)
+        write_back(data, searcher, linked)
         # Counted anew from the legs of all routes.
         assert float(searcher.value.cost) == pytest.approx(cost, rel=1e-9)
         assert float(searcher.value.best) == pytest.approx(best, rel=1e-9)
-        tie(world, searcher, linked)
+        tie(data, searcher, linked)
     if make is with_few_vehicles:
         assert left_out > 0
     if make is with_several_types:
         assert (searcher.now.used != used).any()
-    write_back(world, searcher, linked)
-    assert check(problem, read_plan(world, searcher)).violations == ()
+    write_back(data, searcher, linked)
+    assert check(problem, read_plan(data, searcher)).violations == ()
 
 
 @pytest.mark.parametrize("make", [
     loads_alone, with_windows, with_several_types, with_one_way_streets])
 @pytest.mark.parametrize("moments", [None, 3])
 def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore[no-untyped-def]
-    world, searcher, linked = begun(make(120))
+    data, searcher, linked = begun(make(120))
     for _ in range(5):
-        anneal_linked(world, searcher, linked, TURNS)
+        anneal_linked(data, searcher, linked, TURNS)
     if moments is not None:
         # Fewer times can be noted than a turn changes.
         linked = linked._replace(moment=linked.moment[:moments])
-    routes, links = routes_of(world, searcher, linked), linked.link.copy()
+    routes, links = routes_of(data, searcher, linked), linked.link.copy()
     runs = linked.run[["type", "distance"]][searcher.active[:searcher.count.active]]
     served = np.concatenate(routes)
     # No plan is cheaper by so much, and nothing is given up before all are inserted.
     searcher.value.temperature = -1e12
-    anneal_linked(world._replace(adds_up=False), searcher, linked, 200)
-    assert sorted(routes_of(world, searcher, linked)) == sorted(routes)
+    anneal_linked(data._replace(adds_up=False), searcher, linked, 200)
+    assert sorted(routes_of(data, searcher, linked)) == sorted(routes)
     assert (linked.link[served][["before", "behind", "inward", "onward"]]
             == links[served][["before", "behind", "inward", "onward"]]).all()
     now = linked.run[["type", "distance"]][searcher.active[:searcher.count.active]]
@@ -214,10 +214,10 @@ def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore
 def test_turns_by_turns_are_the_same_again() -> None:
     plans = []
     for _ in range(2):
-        world, searcher, linked = begun(with_windows(60))
-        anneal_linked(world, searcher, linked, 500)
-        write_back(world, searcher, linked)
-        plans.append(read_plan(world, searcher))
+        data, searcher, linked = begun(with_windows(60))
+        anneal_linked(data, searcher, linked, 500)
+        write_back(data, searcher, linked)
+        plans.append(read_plan(data, searcher))
     assert plans[0] == plans[1]
 
 
@@ -230,18 +230,18 @@ def test_strings_grow_on_long_routes_alone(stops: int, longer: bool) -> None:
         replace(kind, capacity=(carried * stops // problem.num_customers,)),))
     plans = []
     for longest in (10.0, 20.0):
-        world, searcher, linked = begun(problem)
+        data, searcher, linked = begun(problem)
         searcher.value.longest = longest
-        anneal_linked(world, searcher, linked, 300)
-        write_back(world, searcher, linked)
-        plans.append(read_plan(world, searcher))
+        anneal_linked(data, searcher, linked, 300)
+        write_back(data, searcher, linked)
+        plans.append(read_plan(data, searcher))
     assert (plans[0] != plans[1]) == longer
 
 
 @pytest.mark.parametrize("size", [40, 400])
 def test_routes_that_are_late_without_a_customer_are_not_linked(size: int) -> None:
     def may_be_linked(problem: Problem) -> bool:
-        return can_be_linked(make_world(problem, pack([problem], legs=False)))
+        return can_be_linked(make_data(problem, pack([problem], legs=False)))
 
     problem = with_legs_stated_anyhow(size)
     assert not may_be_linked(problem)

@@ -27,7 +27,7 @@ def along_neighbours(near: Int32Array, num_depots: int) -> Numbering:
 
     An insertion looks at a customer's legs to its neighbours. Where their numbers are close, so are
     these legs, in a few lines of the processor's cache: that is most of the time of large problems.
-    `near` as in `World`.
+    `near` as in `ProblemData`.
     """
     node = np.arange(len(near))
     call("tandem_walk", near, num_depots, node)
@@ -42,6 +42,6 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
         for name, axis in (("node", 2), ("amount", 1), ("price", 1), ("reload", 2),
                            ("can_drive", 2), ("can_fly", 2), ("unassigned_more", 1))}
     by_node |= {name: np.take(table, node, 1)
-                for name in ("goods", "setup", "fresh_for")
+                for name in ("goods", "setup", "max_time_aboard")
                 if (table := getattr(instance, name)).shape[1]}
     return instance._replace(**by_node)

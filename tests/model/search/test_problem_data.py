@@ -11,8 +11,8 @@ import pytest
 
 from model.kernel.instance import pack
 from model.problem import Problem
-from model.search.ground.lay import lay_ground
-from model.search.world import make_world
+from model.search.neighbourhood.neighbourhood import make_neighbourhood
+from model.search.problem_data import make_data
 from training.instances import generate
 
 MANY = 3000
@@ -33,7 +33,7 @@ def with_types(number: int, kinds: int) -> Problem:
 
 
 def test_types_that_drive_alike_for_the_same_customers_may_swap_routes() -> None:
-    swap = make_world(problem := with_types(12, 3), pack([problem])).swap
+    swap = make_data(problem := with_types(12, 3), pack([problem])).swap
     for one, other in product(range(12), repeat=2):
         alike = one % 3 == other % 3 and (one < 6) == (other < 6) and one != other
         assert swap[one, other] == alike
@@ -52,9 +52,9 @@ def seconds_of(work: Callable[[], object]) -> float:
 def test_many_types_take_no_longer_than_a_hundred_comparisons_of_each_with_each() -> None:
     problem = with_types(MANY, 1)
     instance = pack([problem], legs=False)
-    ground = lay_ground(problem, instance)
+    neighbourhood = make_neighbourhood(problem, instance)
     numbers = np.arange(MANY)
-    assert (seconds_of(lambda: make_world(problem, instance, ground=ground))
+    assert (seconds_of(lambda: make_data(problem, instance, neighbourhood=neighbourhood))
             < 100 * seconds_of(lambda: numbers == numbers[:, None]))
 
 
@@ -70,6 +70,6 @@ def test_neighbours_at_one_place_are_ranked_soon(layout: str) -> None:
     spent = []
     for each in (problem, there):
         instance = pack([each], legs=False)
-        assert (lay_ground(each, instance).near[each.num_depots:] >= each.num_depots).all()
-        spent.append(seconds_of(partial(lay_ground, each, instance)))
+        assert (make_neighbourhood(each, instance).near[each.num_depots:] >= each.num_depots).all()
+        spent.append(seconds_of(partial(make_neighbourhood, each, instance)))
     assert spent[1] < 3 * spent[0]

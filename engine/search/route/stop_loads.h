@@ -9,40 +9,41 @@ namespace tandem {
 
 // Tell whether a drone of a row `k` may carry what a sortie does, serving a customer more before
 // its number `place`. `nowhere`: nobody more.
-bool can_carry(const World& world, Int k, const Sortie& sortie, Int place, Int node);
+bool can_carry(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node);
 
 // Write what is aboard at each stop of a route. In place; false if that breaks a rule.
-bool weigh(const World& world, const Fleet& fleet, Int slot);
+bool weigh(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // Return what it costs to drive what is aboard, on a route that was weighed.
-double load_cost(const World& world, const Fleet& fleet, Int slot);
+double load_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // Return what it costs more to drive a customer's amounts, but for legs that are changed.
 //
 // The parcel leaves the truck at stop `left`, what is picked up comes aboard at stop `came`.
-double load_more(const World& world, const Fleet& fleet, Int slot, Int left, Int came, Int node);
+double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left, Int came,
+                 Int node);
 
 // Return what driving loads costs more with a customer behind stop `p`, `out` and `on` away.
-double load_more_behind(const World& world, const Fleet& fleet, Int slot, Int p, Int node, Int out,
-                        Int on);
+double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
+                        Int out, Int on);
 
 // Where a customer may be served on a route by a vehicle of a type.
 struct Room {
     const VehicleType& type;
-    View<const Halt, 2> halts;  // (tier, position) what is aboard
+    View<const StopLoad, 2> stop_loads;  // (tier, position) what is aboard
     View<const Int, 3> amounts;
     Int node;
 
     // Tell whether the parcel may leave the truck at stop `left`, or just before it, and what is
     // picked up come aboard at stop `came`, or just behind it.
     bool allows(Int left, Int came) const {
-        return halts.empty() || has_room(type, halts, left, came, amounts, node);
+        return stop_loads.empty() || has_room(type, stop_loads, left, came, amounts, node);
     }
 };
 
 // Return what says where a customer may be served on a route by a vehicle of type `k`.
-inline Room room_on(const World& world, const Fleet& fleet, Int slot, Int k, Int node) {
-    return {world.type[k], fleet.halt[slot], world.amount, node};
+inline Room room_on(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node) {
+    return {data.type[k], fleet.stop_load[slot], data.amount, node};
 }
 
 // Tell whether a truck may serve the customer behind stop `p`.
@@ -54,6 +55,6 @@ inline bool room_between(const Room& room, Int launch, Int recovery) {
 }
 
 // Tell whether a vehicle of type `k` holds what a lean route carries, and may stop so often.
-bool can_take(const World& world, const Fleet& fleet, Int slot, Int k);
+bool can_take(const ProblemData& data, const Fleet& fleet, Int slot, Int k);
 
 }  // namespace tandem

@@ -15,7 +15,7 @@ from model.kernel.records import Records
 from model.kernel.variants import Way, are_stated, ways_of
 from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
 from model.problem.quantities import NO_LEG
-from model.search.ground.numbering import Numbering, along_neighbours, as_stated
+from model.search.neighbourhood.numbering import Numbering, along_neighbours, as_stated
 
 NEAR_RUIN = 128
 """How many customers a ruin may spread to."""
@@ -34,7 +34,7 @@ NEAR_INSERTION = 40
 Whole = TypeVar("Whole", np.int32, np.int64)
 
 
-class Ground(NamedTuple):
+class Neighbourhood(NamedTuple):
     """What a problem's search sees, whatever it may do."""
 
     leg: AllLegs
@@ -44,8 +44,8 @@ class Ground(NamedTuple):
     numbering: Numbering
 
 
-def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
-               along: bool = False) -> Ground:
+def make_neighbourhood(problem: Problem, instance: Instance, pause: Pause = go_on,
+               along: bool = False) -> Neighbourhood:
     """Lay out the legs of a problem, and rank each customer's neighbours; `pause` may end it.
 
     `along` numbers customers along their neighbours.
@@ -60,7 +60,7 @@ def lay_ground(problem: Problem, instance: Instance, pause: Pause = go_on,
         numbering = along_neighbours(near, problem.num_depots)
         near, fit = (_numbers_of(ranked, numbering, pause) for ranked in (near, fit))
     leg, back = _legs(problem, returns, instance.setup[0], numbering, pause)
-    return Ground(leg, back, near, fit, numbering)
+    return Neighbourhood(leg, back, near, fit, numbering)
 
 
 def _numbers_of(ranked: Int32Array, numbering: Numbering, pause: Pause) -> Int32Array:

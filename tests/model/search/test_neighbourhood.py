@@ -10,7 +10,7 @@ from model.kernel.leg import ComputedLegs
 from model.kernel.variants import index_of, ways_of
 from model.problem import UNREACHABLE, IntArray, Problem, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
-from model.search.ground.lay import NEAR_INSERTION, lay_ground
+from model.search.neighbourhood.neighbourhood import NEAR_INSERTION, make_neighbourhood
 from training.instances import generate
 
 SOME = 90
@@ -34,18 +34,18 @@ def test_legs_are_numbered_like_customers(column_first: bool) -> None:
         problem = replace(problem, travel=tuple(
             Travel(np.asfortranarray(legs.duration[:]), np.asfortranarray(legs.distance[:]))
             for legs in problem.travel))
-    ground = lay_ground(problem, pack([problem]), along=True)
-    node = ground.numbering.node
+    neighbourhood = make_neighbourhood(problem, pack([problem]), along=True)
+    node = neighbourhood.numbering.node
     assert node.tolist() != list(range(problem.num_nodes))
     for index, legs in enumerate(problem.travel):
         stated = np.stack([legs.duration[:], legs.distance[:]], axis=-1)[node][:, node]
-        assert (ground.leg[index] == stated).all()
-        assert (ground.back[index] == stated.transpose(1, 0, 2)).all()
+        assert (neighbourhood.leg[index] == stated).all()
+        assert (neighbourhood.back[index] == stated.transpose(1, 0, 2)).all()
 
 
 def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_lateness() -> None:
     problem = one_way()
-    ground = lay_ground(problem, pack([problem]))
+    neighbourhood = make_neighbourhood(problem, pack([problem]))
     drive, depots = problem.travel[0].duration[:], problem.num_depots
 
     def misfit(origin: int, to: int) -> float:
@@ -57,9 +57,9 @@ def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_latenes
 
     for node in range(depots, problem.num_nodes, 7):
         ranked = sorted(min(misfit(node, int(other)), misfit(int(other), node))
-                        for other in ground.near[node] if other >= 0)
+                        for other in neighbourhood.near[node] if other >= 0)
         found = [min(misfit(node, int(other)), misfit(int(other), node))
-                 for other in ground.fit[node]]
+                 for other in neighbourhood.fit[node]]
         assert found == pytest.approx(ranked[:NEAR_INSERTION])
 
 
@@ -89,7 +89,7 @@ def test_setups_are_added_to_legs_that_there_are(closed: bool) -> None:
     fits = LONGEST_NARROW - longest
     for setup, kind in ((1000, np.int32), (fits, np.int32), (fits + 1, np.int64)):
         large = with_setup(setup)
-        table = lay_ground(large, pack([large])).leg
+        table = make_neighbourhood(large, pack([large])).leg
         if isinstance(table, ComputedLegs):
             table = table.table[0]
         found = table[index_of(ways_of(large), fly, True), :, :, 0]

@@ -9,7 +9,7 @@
 namespace tandem {
 
 // The row and the nodes of a sortie's drones, its legs to customers and those home.
-struct SortieCraft {
+struct DroneData {
     const VehicleType& type;
     NodesRows places;
     TravelLegs legs;
@@ -17,10 +17,10 @@ struct SortieCraft {
 };
 
 // Return what the drones of a row meet.
-inline SortieCraft craft_at(const World& world, Int row) {
-    const VehicleType& type = world.type[row];
-    return {type, places_by_air(world.place, type), legs_of(world.leg, type.drone_travel),
-            legs_of(world.leg, type.home_travel)};
+inline DroneData drone_data_at(const ProblemData& data, Int row) {
+    const VehicleType& type = data.type[row];
+    return {type, places_by_air(data.place, type), legs_of(data.leg, type.drone_travel),
+            legs_of(data.leg, type.home_travel)};
 }
 
 }  // namespace tandem

@@ -13,11 +13,11 @@ from model.kernel.records import Records
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem,
 )
-from model.search.ground.lay import Ground, lay_ground
-from model.search.ground.numbering import renumbered
+from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
+from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import (
     MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
-    MODE_TIMED, MOST_VISITS, World,
+    MODE_TIMED, MOST_VISITS, ProblemData,
 )
 
 SCAN_ALL_BELOW = 400
@@ -57,29 +57,29 @@ class Moves:
 ALL_MOVES = Moves()
 
 
-def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
-               ground: Ground | None = None, deadline: IntArray | None = None) -> World:
+def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
+              neighbourhood: Neighbourhood | None = None,
+              deadline: IntArray | None = None) -> ProblemData:
     """Lay out a problem for the search.
 
-    `ground` is that of the same problem, if it is there already; `deadline` an alarm's
+    `neighbourhood` is that of the same problem, if it is there already; `deadline` an alarm's
     setting.
     """
-    ground = lay_ground(problem, instance) if ground is None else ground
-    instance = renumbered(instance, ground.numbering)
+    if neighbourhood is None:
+        neighbourhood = make_neighbourhood(problem, instance)
+    instance = renumbered(instance, neighbourhood.numbering)
     types, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
     if not (moves.loops or moves.crossings):
         types, can_fly = types.copy(), np.zeros_like(can_fly)
         types["drones"] = 0
-    visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
-                       for kind, _, _ in all_kinds(problem)], np.int64)
-    visits = np.minimum(visits, min(problem.num_customers, MOST_VISITS))
+    visits = _visits(problem)
     most_visits = max(1, int(visits.max()))
     mode = _modes(instance, types, instance.node[0])
     swap = _swaps(problem, types, mode)
     general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
     must_serve = _must_serve(problem, instance)
-    return World(
+    return ProblemData(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
         tails=moves.tails,
@@ -95,13 +95,13 @@ def make_world(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         unequal=bool(instance.unassigned_more[0].any()),
         must_serve=must_serve,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
-        setup=instance.setup[0], fresh_for=instance.fresh_for[0],
+        setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(rates), mode=mode,
         reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
-        swap=swap, splice=_splices(problem, swap), leg=ground.leg, back=ground.back,
+        swap=swap, splice=_splices(problem, swap), leg=neighbourhood.leg, back=neighbourhood.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
-        near=ground.near, fit=ground.fit,
+        near=neighbourhood.near, fit=neighbourhood.fit,
         deadline=Alarm().setting if deadline is None else deadline,
     )
 
@@ -110,6 +110,13 @@ def has_single_drones(problem: Problem, moves: Moves) -> bool:
     """Tell whether trips with one drone may be split anew."""
     return moves.splits and (moves.loops or moves.crossings) and any(
         kind.num_drones == 1 for kind in problem.vehicle_types)
+
+
+def _visits(problem: Problem) -> IntArray:
+    """Return how many customers a sortie may have, (row,)."""
+    visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
+                       for kind, _, _ in all_kinds(problem)], np.int64)
+    return np.minimum(visits, min(problem.num_customers, MOST_VISITS))
 
 
 def _blink(num_customers: int, most_visits: int) -> float:
@@ -148,7 +155,7 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
-    limited = instance.fresh_for.shape[1] > 0
+    limited = instance.max_time_aboard.shape[1] > 0
     settled = np.logical_or(early, (retimed | limited) & timed)
     loaded = rates["load"] > 0
     priced = np.logical_or(soft | limited, settled | retimed | loaded)
@@ -166,50 +173,50 @@ def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
     return mode
 
 
-def are_alike(world: World) -> bool:
+def are_alike(data: ProblemData) -> bool:
     """Tell whether all vehicles hold and cost the same, wherever and whenever they drive."""
-    kinds, rates = world.type[:world.num_types], world.rate[:world.num_types]
+    kinds, rates = data.type[:data.num_types], data.rate[:data.num_types]
     return bool((rates == rates[:1]).all()) and all(
         bool((kinds[field] == kinds[:1][field]).all())
         for field in ("travel", "capacity", "pickup_order"))
 
 
-def from_one_place(world: World) -> bool:
+def from_one_place(data: ProblemData) -> bool:
     """Tell whether all vehicles begin at one place and end at one."""
-    kinds = world.type[:world.num_types]
+    kinds = data.type[:data.num_types]
     return all(bool((kinds[field] == kinds[0][field]).all()) for field in ("begins_at", "ends_at"))
 
 
-def only_loads_limit(world: World) -> bool:
+def only_loads_limit(data: ProblemData) -> bool:
     """Tell whether trucks make one trip each, whenever they like."""
-    served = world.place[0, world.num_depots:, 0]
-    return not (world.general or served["window_earliest"].any()
+    served = data.place[0, data.num_depots:, 0]
+    return not (data.general or served["window_earliest"].any()
                 or (served["window_latest"] < UNLIMITED).any())
 
 
-def can_be_linked(world: World) -> bool:
+def can_be_linked(data: ProblemData) -> bool:
     """Tell whether the search may go by linked stops.
 
     Vehicles then make one trip each by the same legs, distance alone costs, no rarer rule is
     stated, and whoever is left out makes nobody late.
     """
-    travel = world.type["travel"][:world.num_types]
-    return (not (_states_rarer_rules(world) or world.general) and bool((travel == travel[0]).all())
-            and not (are_timed(world) and skipping_delays(world)))
+    travel = data.type["travel"][:data.num_types]
+    return (not (_states_rarer_rules(data) or data.general) and bool((travel == travel[0]).all())
+            and not (are_timed(data) and skipping_delays(data)))
 
 
-def skipping_delays(world: World) -> bool:
+def skipping_delays(data: ProblemData) -> bool:
     """Tell whether vehicles may come later to a place if they skip a customer on the way.
 
     Where streets are one-way or legs are stated anyhow, the direct leg may be the longer one. Of
     many customers all are looked at on the way from depots and back, elsewhere those nearest to
     where a leg begins.
     """
-    duration = _durations(world)
+    duration = _durations(data)
     if duration is None:
         return False
-    first, number = world.num_depots, world.num_nodes
-    service = world.place["service_duration"][0, :, 0]
+    first, number = data.num_depots, data.num_nodes
+    service = data.place["service_duration"][0, :, 0]
     looked_at = LEGS_LOOKED_AT // number**2
     if looked_at >= number - first:
         return any(bool((_by_way_of(duration, service, k) < duration).any())
@@ -222,8 +229,8 @@ def skipping_delays(world: World) -> bool:
                 or ((among + (stay + home)).min(axis=1) < home).any()):
             return True
     origins = np.arange(first, number)
-    for rank in range(min(max(1, looked_at), world.near.shape[1])):
-        k = world.near[first:, rank]
+    for rank in range(min(max(1, looked_at), data.near.shape[1])):
+        k = data.near[first:, rank]
         way = duration[origins, k] + service[k] + ROUNDED
         if bool(((way[:, None] + duration[k] < duration[first:]) & (k >= 0)[:, None]).any()):
             return True
@@ -236,29 +243,29 @@ def _by_way_of(duration: IntArray, service: IntArray, k: int) -> IntArray:
     return ways
 
 
-def _durations(world: World) -> IntArray | None:
+def _durations(data: ProblemData) -> IntArray | None:
     """Return (origin, to) how long legs take; None if they are straight, so that none is longer
     than a way through others."""
-    legs, m = world.leg, int(world.type["travel"][0])
+    legs, m = data.leg, int(data.type["travel"][0])
     if isinstance(legs, ComputedLegs):
         table = int(legs.law["table"][m])
         return None if table < 0 else legs.table[0, table, :, :, LEG_DURATION]
     return legs[m, :, :, LEG_DURATION].astype(np.int64)
 
 
-def are_timed(world: World) -> bool:
+def are_timed(data: ProblemData) -> bool:
     """Tell whether windows or shifts limit when vehicles that can be linked serve anybody."""
-    shifts = world.type["shift_latest"][:world.num_types]
-    return not only_loads_limit(world) or bool((shifts < UNLIMITED).any())
+    shifts = data.type["shift_latest"][:data.num_types]
+    return not only_loads_limit(data) or bool((shifts < UNLIMITED).any())
 
 
-def may_be_turned(world: World) -> bool:
+def may_be_turned(data: ProblemData) -> bool:
     """Tell whether routes may as well be driven the other way, where so many are served."""
-    kind = world.type[0]
-    return (world.num_nodes - world.num_depots >= TURNED_FROM and only_loads_limit(world)
-            and world.num_types == 1 and len(world.amount[0]) == 0
+    kind = data.type[0]
+    return (data.num_nodes - data.num_depots >= TURNED_FROM and only_loads_limit(data)
+            and data.num_types == 1 and len(data.amount[0]) == 0
             and kind.begins_at == kind.ends_at and kind.shift_latest >= UNLIMITED
-            and are_the_same_back(world.leg, world.back))
+            and are_the_same_back(data.leg, data.back))
 
 
 def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
@@ -273,16 +280,16 @@ def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
     return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
 
 
-def _states_rarer_rules(world: World) -> bool:
+def _states_rarer_rules(data: ProblemData) -> bool:
     """Tell whether a rule is stated that linked stops don't know."""
-    types, rate, number = world.type, world.rate, world.num_nodes - world.num_depots
-    tables = (world.place[0, :, 1:], world.amount[:, :, 0], world.goods, world.setup,
-              world.fresh_for)
+    types, rate, number = data.type, data.rate, data.num_nodes - data.num_depots
+    tables = (data.place[0, :, 1:], data.amount[:, :, 0], data.goods, data.setup,
+              data.max_time_aboard)
     rarer = (types["variant"] > 0) | (types["changes_ends"] > 0) | (types["points"] > 0)
     rarer |= (types["max_stops"] < number) | (types["max_sorties"] < number)
     rarer |= (types["relaunch_duration"] != types["launch_duration"]) | (types["drone_row"] >= 0)
     rarer |= (rate["overtime"] > 0) | (rate["load"] > 0)
-    return bool(any(table.size for table in tables) or world.unequal or rarer.any())
+    return bool(any(table.size for table in tables) or data.unequal or rarer.any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:

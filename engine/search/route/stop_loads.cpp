@@ -1,0 +1,147 @@
+#include "search/route/stop_loads.h"
+
+#include "rules/drone_types.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+// What a sortie carries, and whether its drone may.
+struct Flown {
+    Cargo cargo;
+    bool may;
+};
+
+// Return the cargo of a sortie that serves a customer more before its number `place`.
+//
+// And whether a drone of a row `k` may carry it. `nowhere`: nobody more.
+Flown flown(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node, Int tier) {
+    const VehicleType& type = data.type[k];
+    Cargo cargo = no_cargo;
+    bool in_order = true;
+    const auto visit = [&](Int next) {
+        const Cargo more = cargo_for(data.amount, next, tier);
+        in_order = in_order && may_follow(type, cargo, more);
+        cargo = followed(cargo, more);
+    };
+    for (Int index = 0; index < sortie.count; ++index) {
+        if (index == place) visit(node);
+        visit(sortie.nodes[index]);
+    }
+    if (place == sortie.count) visit(node);
+    return {cargo, in_order && lifts(type, cargo.most, tier)};
+}
+
+// Write what leaves and comes aboard at each stop. In place; false if a drone may not fly.
+bool note_amounts(const ProblemData& data, const Fleet& fleet, Int slot, Int tier) {
+    const Route& route = fleet.route[slot];
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const View<StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
+    for (Int p = 0; p < route.length; ++p) {
+        StopLoad& stop_load = stop_loads[p];
+        stop_load.leaves = stop_load.comes = 0;
+        write_amount(nothing, stop_load.leaving);
+        write_amount(nothing, stop_load.coming);
+        if (stops[p].kind != customer_stop) continue;
+        const Int node = stops[p].node;
+        add_left(stop_load, delivered_of(data.amount, node, tier),
+                 total_delivered(data.amount, node));
+        add_come(stop_load, picked_of(data.amount, node, tier), total_picked(data.amount, node));
+    }
+    bool allowed = true;
+    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+        const Int row = row_of_drone(data.type, route.type, sortie.drone);
+        const auto [cargo, may] = flown(data, row, sortie, nowhere, nowhere, tier);
+        allowed = allowed && may;
+        add_left(stop_loads[sortie.launch], cargo.delivered, cargo.total_delivered);
+        add_come(stop_loads[sortie.recovery], cargo.picked, cargo.total_picked);
+    }
+    return allowed;
+}
+
+}  // namespace
+
+bool can_carry(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node) {
+    if (tiers_of(data) == 0) {
+        Amount load = place >= 0 ? demand_of(data.place[0][node]) : nothing;
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            load = plus(load, demand_of(data.place[0][sortie.nodes[visit]]));
+        }
+        return lifts(data.type[k], load, 0);
+    }
+    for (Int tier = 0; tier < tiers_of(data); ++tier) {
+        if (!flown(data, k, sortie, place, node, tier).may) return false;
+    }
+    return true;
+}
+
+bool weigh(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const VehicleType& type = data.type[route.type];
+    bool allowed = true;
+    for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+        allowed = note_amounts(data, fleet, slot, tier) && allowed;
+        const View<StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
+        Int first = 0, driven = 0;
+        for (Int p = 0; p < route.length; ++p) {
+            if (stops[p].kind == start_stop) {
+                first = p;
+                driven = 0;
+            }
+            stop_loads[p].driven = driven;
+            driven += stops[p].leg;
+            if (p + 1 == route.length || stops[p + 1].kind == start_stop) {
+                allowed = weigh_trip(type, stop_loads, first, p, tier) && allowed;
+            }
+        }
+    }
+    return allowed;
+}
+
+double load_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Int k = fleet.route[slot].type;
+    const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][0];
+    double carried = 0.0;
+    for (Int p = 0; p < fleet.route[slot].length; ++p) {
+        const Int load = stop_loads[p].load + data.type[k].carried;
+        carried += static_cast<double>(load) * static_cast<double>(fleet.stop(slot, p).leg);
+    }
+    return carried * data.rate[k].load;
+}
+
+double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left, Int came,
+                 Int node) {
+    const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][0];
+    const Trip& trip = fleet.trip(slot, fleet.stop(slot, left).trip);
+    const Int parcel = delivered_of(data.amount, node, 0)[0];
+    const Int taken = picked_of(data.amount, node, 0)[0];
+    return (static_cast<double>(parcel) * static_cast<double>(stop_loads[left].driven) +
+            static_cast<double>(taken) *
+                static_cast<double>(trip.distance - stop_loads[came].driven)) *
+           data.rate[fleet.route[slot].type].load;
+}
+
+double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
+                        Int out, Int on) {
+    const Int k = fleet.route[slot].type;
+    const Int parcel = delivered_of(data.amount, node, 0)[0];
+    const Int taken = picked_of(data.amount, node, 0)[0];
+    const Int load = fleet.stop_load(slot, 0, p).load + data.type[k].carried;
+    const Int detour = out + on - fleet.stop(slot, p).leg;
+    const double legs = static_cast<double>(load) * static_cast<double>(detour) +
+                        static_cast<double>(parcel) * static_cast<double>(out) +
+                        static_cast<double>(taken) * static_cast<double>(on);
+    return load_more(data, fleet, slot, p, p + 1, node) + legs * data.rate[k].load;
+}
+
+bool can_take(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {
+    const VehicleType& type = data.type[k];
+    if (!may_make(type, fleet.trip(slot, 0))) return false;
+    for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+        if (!holds_in(type, most_of(fleet.stop_load(slot, tier, 0)), tier)) return false;
+    }
+    return true;
+}
+
+}  // namespace tandem
