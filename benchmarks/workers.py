@@ -3,7 +3,6 @@
 import gc
 import multiprocessing
 import os
-import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -14,6 +13,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any
 
 from benchmarks import peer_hgs, peer_ortools, peer_pyvrp, peer_vroom, peer_vrpcli
+from benchmarks.clock import count_processor_time
 from benchmarks.peers import PeerAnswer
 from benchmarks.published import Published
 
@@ -139,8 +139,7 @@ def _receive(pipe: Connection, patience: float) -> Any:
 def _serve(solver: Solver, pipe: Connection, by_processor_time: bool) -> None:
     """Answer calls until the other end is closed; say when a call begins to count."""
     if by_processor_time:
-        # On one thread, the only clock that what else a machine does leaves alone.
-        time.perf_counter = time.process_time
+        count_processor_time()
     threads = str(solver.threads)
     os.environ.update(OMP_NUM_THREADS=threads, RAYON_NUM_THREADS=threads)
     warm: set[str] = set()

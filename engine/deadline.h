@@ -1,8 +1,8 @@
 // When work has to end: at an instant, or once whoever asked for it wants no more.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
+#include <ctime>
 
 #include "guard.h"
 #include "view.h"
@@ -14,8 +14,8 @@ namespace tandem {
 class Deadline {
 public:
     // What Python writes (`model.kernel.alarm`): not 0 once nobody wants more, at any time and from
-    // any thread; and the last instant in nanoseconds of the steady clock, Python's
-    // `time.perf_counter_ns`.
+    // any thread; the last instant in nanoseconds; and the clock that tells it, `CLOCK_MONOTONIC`
+    // but where measurements are by the processor time of the process.
     explicit Deadline(View<const std::int64_t, 1> alarm) : alarm_(alarm.data()) {}
 
     // Whether work has to end; from then on it always has.
@@ -38,15 +38,16 @@ public:
     }
 
 private:
-    static constexpr int cancelled = 0, last_instant = 1;
+    static constexpr int cancelled = 0, last_instant = 1, clock = 2;
     // Of parts that take a millisecond at most, so that the clock is looked at every 16.
     static constexpr int calls_between_looks = 16;
 
     bool is_cancelled() const { return __atomic_load_n(&alarm_[cancelled], __ATOMIC_RELAXED) != 0; }
 
-    static std::int64_t now() {
-        const auto since = std::chrono::steady_clock::now().time_since_epoch();
-        return std::chrono::duration_cast<std::chrono::nanoseconds>(since).count();
+    std::int64_t now() const {
+        timespec time;
+        clock_gettime(static_cast<clockid_t>(alarm_[clock]), &time);
+        return time.tv_sec * std::int64_t{1'000'000'000} + time.tv_nsec;
     }
 
     const std::int64_t* alarm_;

@@ -16,12 +16,12 @@ LOOKS = 0.005
 
 CANCELLED, LAST_INSTANT = 0, 1
 """In an alarm's setting, which the engine reads at any time: not 0 once nobody wants more; and the
-last instant, by `time.perf_counter_ns`."""
+last instant in ns. Behind them stands the clock that tells it, `Alarm.clock`."""
 
 
 def has_rung(setting: IntArray) -> bool:
     """Tell whether an alarm has rung, by its setting."""
-    return bool(setting[CANCELLED]) or time.perf_counter_ns() >= setting[LAST_INSTANT]
+    return bool(setting[CANCELLED]) or time.perf_counter() * 1e9 >= setting[LAST_INSTANT]
 
 
 class Alarm:
@@ -31,10 +31,13 @@ class Alarm:
     anything to ask, and notes that in the setting.
     """
 
+    clock: int = time.CLOCK_MONOTONIC
+    """That of `time.perf_counter`. A measurement by another says so here."""
+
     def __init__(self, deadline: float = math.inf,
                  should_stop: Callable[[], bool] = never) -> None:
         """Ring at `deadline`, on `time.perf_counter`, or once `should_stop` says so."""
-        self.setting = np.array([0, min(deadline * 1e9, 2**63 - 1)], np.int64)
+        self.setting = np.array([0, min(deadline * 1e9, 2**63 - 1), self.clock], np.int64)
         self._deadline = deadline
         self._should_stop = should_stop
         self._over = threading.Event()
