@@ -74,7 +74,7 @@ bench-rules: .venv/benching engine ## Tandem and PyVRP where instances have rule
 latency: .venv/benching engine ## Measure how long plans take, phase by phase
 	$(BIN)/python -m benchmarks.latency
 
-study: .venv/serving engine ## Make the paper's study again, docs/study.md (20 minutes on 2 cores)
+study: .venv/serving engine ## Make the paper's study again, docs/develop/study.md (20 minutes on 2 cores)
 	$(BIN)/python -m benchmarks.study
 
 study-quick: .venv/serving engine ## The same with few cases, build/study.md
@@ -91,8 +91,8 @@ fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10
 	$(BIN)/python -m benchmarks.fuzz_replans
 	$(BIN)/python -m benchmarks.leavers
 
-settings: .venv/serving engine ## Write docs/settings.md
-	$(BIN)/tandem settings > docs/settings.md
+settings: .venv/serving engine ## Write docs/operate/settings.md
+	$(BIN)/tandem settings > docs/operate/settings.md
 
 clean: ## Remove caches, compiled code and plan.json; keep .venv and training runs
 	rm -rf build dist *.egg-info model/engine/libtandem.* plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis

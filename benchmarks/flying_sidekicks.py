@@ -1,10 +1,10 @@
 """Tandem on the multiple flying sidekicks TSP, under its own energies, against proven optima.
 
 `python -m benchmarks.flying_sidekicks`: one truck, one to four UAVs, 8 customers; the makespan
-counts. A plan's energies are those of `murray-raj-2020` in docs/rules.md. What `Problem` lacks: the
-truck's own service takes turns with launches and recoveries there, in any order. So a problem fixes
-at whom service comes first, in the leg there, and at whom last, in the leg on; each plan that the
-search finds is timed in the best of all orders, which is what the next problem fixes.
+counts. A plan's energies are those of `murray-raj-2020` in docs/use/rules.md. What `Problem` lacks:
+the truck's own service takes turns with launches and recoveries there, in any order. So a problem
+fixes at whom service comes first, in the leg there, and at whom last, in the leg on; each plan that
+the search finds is timed in the best of all orders, which is what the next problem fixes.
 
 References
 ----------

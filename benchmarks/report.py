@@ -1,7 +1,7 @@
 """Tables and plots of `benchmarks.versus`: `python -m benchmarks.report`.
 
-Writes `docs/benchmarks.md`, in it only what lies between two markers, and beside it all runs as a
-CSV, with which `benchmarks.versus` can go on; of the part `versus` two plots, too.
+Writes `docs/develop/benchmarks.md`, in it only what lies between two markers, and beside it all
+runs as a CSV, with which `benchmarks.versus` can go on; of the part `versus` two plots, too.
 """
 
 import math
@@ -167,7 +167,8 @@ def write(results: Sequence[Result], page: Path, part: str = "versus") -> None:
 def main(
     results: Annotated[Path, typer.Option(help="CSV of benchmarks.versus", exists=True)]
     = Path("runs/bench/versus.csv"),
-    output: Annotated[Path, typer.Option(help="Markdown page")] = Path("docs/benchmarks.md"),
+    output: Annotated[Path, typer.Option(help="Markdown page")] = Path(
+        "docs/develop/benchmarks.md"),
     part: Annotated[str, typer.Option(help=" or ".join(PARTS))] = "versus",
 ) -> None:
     """Write the page and its plots."""

@@ -282,7 +282,8 @@ class LoadDimensionReply(_Reply):
 class WarningReply(_Reply):
     """What is allowed and is hardly meant."""
 
-    code: str = Field(description="Stable name of the warning, as `docs/warnings.md` lists them.")
+    code: str = Field(
+        description="Stable name of the warning, as `docs/use/warnings.md` lists them.")
     message: str = Field(description="What was seen, what it would mean and what to write instead.")
     path: str = Field(description="Where it was seen first, such as `$.customers[3].location`.")
 

@@ -78,12 +78,12 @@ def main(
     quick: Annotated[bool, typer.Option("--quick", help="a small study, in 3 minutes")] = False,
     output: Annotated[Path | None, typer.Option(
         help="report; its pictures and CSVs are put into a folder of its name beside it "
-        "[default: docs/study.md, build/study.md with --quick]")] = None,
+        "[default: docs/develop/study.md, build/study.md with --quick]")] = None,
     workers: Annotated[int, typer.Option(help="processes that plan", min=1)]
     = min(2, os.cpu_count() or 1),
 ) -> None:
     """Plan the study and write its report."""
-    page = output or Path("build/study.md" if quick else "docs/study.md")
+    page = output or Path("build/study.md" if quick else "docs/develop/study.md")
     write_report(run(QUICK if quick else FULL, page.with_suffix(""), workers), page)
     typer.echo(f"The report is {page}.")
 

@@ -1,4 +1,4 @@
-"""The study's report: text around tables and pictures, `docs/study.md`."""
+"""The study's report: text around tables and pictures, `docs/develop/study.md`."""
 
 import json
 import textwrap

@@ -3,7 +3,7 @@
 Distances are rounded to the nearest millimetre and durations up to the next millisecond, both
 once, from the exact float values. The engine computes the same in `engine/rules/leg.cpp`, to
 the last bit: the same operations in the same order, of which each is rounded by itself.
-`docs/search.md` says more under "Legs by computation".
+`docs/develop/search.md` says more under "Legs by computation".
 """
 
 import math

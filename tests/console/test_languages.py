@@ -62,7 +62,7 @@ def test_every_field_of_a_form_has_a_name_and_a_sentence_in_both_languages() -> 
 
 
 def test_every_warning_is_said_in_both_languages() -> None:
-    page = (ROOT / "docs" / "warnings.md").read_text("utf-8")
+    page = (ROOT / "docs" / "use" / "warnings.md").read_text("utf-8")
     codes = re.findall(r"^\| `([A-Z_]+)`", page, re.MULTILINE)
     assert len(codes) > 20
     for language in ("en", "de"):

@@ -1,4 +1,4 @@
-"""docs/settings.md is what `tandem settings` prints."""
+"""docs/operate/settings.md is what `tandem settings` prints."""
 
 from pathlib import Path
 
@@ -7,13 +7,14 @@ from typer.testing import CliRunner
 from app.cli.commands import cli
 from app.settings import Settings
 
-PAGE = Path(__file__).parents[3] / "docs" / "settings.md"
+PAGE = Path(__file__).parents[3] / "docs" / "operate" / "settings.md"
 
 
 def test_the_page_in_docs_is_up_to_date() -> None:
     printed = CliRunner().invoke(cli, ["settings"])
     assert printed.exit_code == 0
-    assert PAGE.read_text("utf-8") == printed.stdout, "run: tandem settings > docs/settings.md"
+    assert PAGE.read_text("utf-8") == printed.stdout, (
+        "run: tandem settings > docs/operate/settings.md")
 
 
 def test_every_setting_is_explained() -> None:

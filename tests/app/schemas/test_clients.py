@@ -1,4 +1,4 @@
-"""Clients: one generated from the API's description, and the examples of docs/clients.md."""
+"""Clients: one generated from the API's description, and the examples of docs/use/clients.md."""
 
 import json
 import os
@@ -16,7 +16,7 @@ from app.cli.commands import cli
 from tests.app.observe.server import Server, running
 
 ROOT = Path(__file__).parents[3]
-GUIDE = (ROOT / "docs" / "clients.md").read_text("utf-8")
+GUIDE = (ROOT / "docs" / "use" / "clients.md").read_text("utf-8")
 GUIDE_URL = "http://127.0.0.1:8000"
 
 SCRIPT = """

@@ -2,7 +2,7 @@
 
 const LEAST = 1; // seconds, as the service takes where nothing is stated
 const PER_THOUSAND = 3;
-const GROWTH = 1.2; // as the time to plans of some quality grows, see docs/scaling.md
+const GROWTH = 1.2; // as the time to plans of some quality grows, see docs/operate/scaling.md
 const GONE_ON_A_SECOND = 2500; // customers of a plan that is gone on from
 const STEPS = [
   [10, 1],

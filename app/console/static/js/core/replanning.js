@@ -2,7 +2,7 @@
  * Going on from a plan: what of it has departed by an instant, and the request that plans on.
  *
  * Times in seconds. What is said of a route here is what the service settles, see
- * `docs/replanning.md`; where a reply tells how far it settled a vehicle, that counts.
+ * `docs/use/replanning.md`; where a reply tells how far it settled a vehicle, that counts.
  */
 
 import { clock } from './format.js';
