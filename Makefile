@@ -57,22 +57,22 @@ train: .venv/testing engine ## Train a policy in runs/attention, from where it s
 		--learning-rate 0.0005 --minutes $(MINUTES)
 
 bench: .venv/benching engine ## Run other solvers and Tandem side by side (DATA=../shared/data; hours)
-	$(BIN)/python -m benchmarks.versus --data $(DATA) --output runs/bench/versus.csv
-	$(BIN)/python -m benchmarks.drones --data $(DATA) --output runs/bench/drones.csv
-	$(BIN)/python -m benchmarks.report --results runs/bench/versus.csv
+	$(BIN)/python -m benchmarks.peers.versus --data $(DATA) --output runs/bench/versus.csv
+	$(BIN)/python -m benchmarks.quality.drones --data $(DATA) --output runs/bench/drones.csv
+	$(BIN)/python -m benchmarks.peers.report --results runs/bench/versus.csv
 
 bench-quick: .venv/benching engine ## The same on a few instances, in five minutes
-	$(BIN)/python -m benchmarks.versus --data $(DATA) --quick --output runs/bench/quick.csv
-	$(BIN)/python -m benchmarks.report --results runs/bench/quick.csv --output runs/bench/quick.md
+	$(BIN)/python -m benchmarks.peers.versus --data $(DATA) --quick --output runs/bench/quick.csv
+	$(BIN)/python -m benchmarks.peers.report --results runs/bench/quick.csv --output runs/bench/quick.md
 
 bench-rules: .venv/benching engine ## Tandem and PyVRP where instances have rules that few solvers know
-	$(BIN)/python -m benchmarks.rule_sets --data $(DATA)
-	$(BIN)/python -m benchmarks.versus --data $(DATA) --sets $(RULE_SETS) --solvers tandem,pyvrp \
+	$(BIN)/python -m benchmarks.peers.rule_sets --data $(DATA)
+	$(BIN)/python -m benchmarks.peers.versus --data $(DATA) --sets $(RULE_SETS) --solvers tandem,pyvrp \
 		--output runs/bench/rule-sets.csv
-	$(BIN)/python -m benchmarks.report --results runs/bench/rule-sets.csv --part rule-sets
+	$(BIN)/python -m benchmarks.peers.report --results runs/bench/rule-sets.csv --part rule-sets
 
 latency: .venv/benching engine ## Measure how long plans take, phase by phase
-	$(BIN)/python -m benchmarks.latency
+	$(BIN)/python -m benchmarks.speed.latency
 
 study: .venv/serving engine ## Make the paper's study again, docs/develop/study.md (20 minutes on 2 cores)
 	$(BIN)/python -m benchmarks.study
@@ -84,12 +84,12 @@ screenshots: .venv/testing engine ## Make the pictures of the console in docs/sc
 	$(BIN)/python -m tests.console.screenshots
 
 fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10000), and wild problems
-	$(BIN)/python -m benchmarks.fuzz_api --cases $(CASES)
-	$(BIN)/python -m benchmarks.fuzz_problems
-	$(BIN)/python -m benchmarks.fuzz_vroom
-	$(BIN)/python -m benchmarks.fuzz_remedies
-	$(BIN)/python -m benchmarks.fuzz_replans
-	$(BIN)/python -m benchmarks.leavers
+	$(BIN)/python -m benchmarks.fuzz.api --cases $(CASES)
+	$(BIN)/python -m benchmarks.fuzz.problems
+	$(BIN)/python -m benchmarks.fuzz.vroom
+	$(BIN)/python -m benchmarks.fuzz.remedies
+	$(BIN)/python -m benchmarks.fuzz.replans
+	$(BIN)/python -m benchmarks.load.leavers
 
 settings: .venv/serving engine ## Write docs/operate/settings.md
 	$(BIN)/tandem settings > docs/operate/settings.md

@@ -199,7 +199,7 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     """Tell whether the policy plans first, by the share of the time that this takes.
 
     From where that share is larger, a search from nothing came further, as far as
-    `benchmarks.ablation` can tell.
+    `benchmarks.quality.ablation` can tell.
     """
     samples = options.num_samples if options.decoding == "sample" else None
     number = problem.num_customers

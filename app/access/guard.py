@@ -8,7 +8,10 @@ from typing import Annotated
 
 from fastapi import Request, Security
 from fastapi.security import (
-    APIKeyHeader, HTTPAuthorizationCredentials, HTTPBearer, SecurityScopes,
+    APIKeyHeader,
+    HTTPAuthorizationCredentials,
+    HTTPBearer,
+    SecurityScopes,
 )
 from sqlalchemy.exc import SQLAlchemyError
 

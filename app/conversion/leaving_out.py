@@ -3,7 +3,13 @@
 from collections.abc import Sequence
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Travel,
+    FULL_SPEED,
+    MM_PER_KM,
+    MS_PER_HOUR,
+    UNLIMITED,
+    USUAL_DECIMALS,
+    Customer,
+    Travel,
     VehicleType,
 )
 

@@ -16,7 +16,11 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
 from app.errors import (
-    ErrorCode, InputError, InvalidRequestError, NotJsonError, schema_errors,
+    ErrorCode,
+    InputError,
+    InvalidRequestError,
+    NotJsonError,
+    schema_errors,
 )
 from app.requests.shapes import Loose, read_shape
 from app.schemas.hints import with_hints

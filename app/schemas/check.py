@@ -6,7 +6,11 @@ from app.schemas.plan import PlanInput
 from app.schemas.replanned import ViolationReply
 from app.schemas.request import PlanRequest
 from app.schemas.response import (
-    WARNINGS_TEXT, CostReply, RouteReply, SummaryReply, WarningReply,
+    WARNINGS_TEXT,
+    CostReply,
+    RouteReply,
+    SummaryReply,
+    WarningReply,
 )
 from app.schemas.untimed import UntimedPlanInput
 

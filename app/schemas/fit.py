@@ -7,7 +7,11 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.check import CheckRequest
 from app.schemas.customer import CustomerInput
 from app.schemas.explain import (
-    OTHERS_STAY, ExplainOptions, HereReply, PlacedReply, RuleReply,
+    OTHERS_STAY,
+    ExplainOptions,
+    HereReply,
+    PlacedReply,
+    RuleReply,
 )
 from app.schemas.request import PlanRequest
 from app.schemas.response import WARNINGS_TEXT, CostReply, RouteReply, WarningReply

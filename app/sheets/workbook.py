@@ -16,7 +16,11 @@ from zipfile import BadZipFile, ZipFile
 
 from lxml.etree import LxmlError
 from python_calamine import (
-    CalamineError, CalamineSheet, CalamineWorkbook, SheetTypeEnum, SheetVisibleEnum,
+    CalamineError,
+    CalamineSheet,
+    CalamineWorkbook,
+    SheetTypeEnum,
+    SheetVisibleEnum,
 )
 
 # Run as a file of its own, without the package around it.

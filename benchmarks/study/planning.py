@@ -13,9 +13,9 @@ from pydantic_core import to_json
 from app.conversion.problem import to_problem
 from app.plans.replies import plan_reply
 from app.settings import DEFAULT_POLICY, Settings
+from benchmarks.peers.versus import machine
 from benchmarks.study.cases import request_of
 from benchmarks.study.tasks import GREEDY, NOBODY, NUM_SAMPLES, POLICIES, Planned, Task, TripRow
-from benchmarks.versus import machine
 from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import MM_PER_KM, MS_PER_HOUR, Problem
 from model.solution import Solution

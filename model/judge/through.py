@@ -19,7 +19,12 @@ from model.judge.retiming import TimedRoute, time_route
 from model.judge.rules import decimal
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import (
-    MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Problem, VehicleType,
+    MAX_QUANTITY,
+    MM_PER_KM,
+    UNLIMITED,
+    BoolArray,
+    Problem,
+    VehicleType,
 )
 
 MOST_CUSTOMERS = 250

@@ -2,7 +2,6 @@
 
 from typing import NamedTuple
 
-
 from model.kernel.records import Records
 from model.problem import Int32Array, IntArray
 

@@ -18,7 +18,10 @@ from model.problem import (
     Travel,
 )
 from model.problem.distances import (
-    EARTH_RADIUS_M, MS_PER_M_AT_1_KMH, ceiled_ms, rounded_mm,
+    EARTH_RADIUS_M,
+    MS_PER_M_AT_1_KMH,
+    ceiled_ms,
+    rounded_mm,
 )
 from model.problem.narrow import NarrowMatrix, narrowed
 

@@ -1,6 +1,6 @@
 """Whatever fits or doesn't fit the API's description is answered as it says, never with a 5xx.
 
-The study of ten thousand cases is `python -m benchmarks.fuzz_api`.
+The study of ten thousand cases is `python -m benchmarks.fuzz.api`.
 """
 
 import json

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 import httpx
 import pytest
 
-from benchmarks.fuzz_api import service
-from benchmarks.fuzz_problems import client_of
+from benchmarks.fuzz.api import service
+from benchmarks.fuzz.problems import client_of
 
 
 @pytest.fixture(scope="session")

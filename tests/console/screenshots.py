@@ -1,7 +1,7 @@
 """Makes the pictures of the console in `docs/screenshots`.
 
 Run as `python -m tests.console.screenshots`, with names of pictures behind it for these alone. That
-of an import is made by `python -m benchmarks.first_minutes --pictures docs/screenshots`.
+of an import is made by `python -m benchmarks.speed.first_minutes --pictures docs/screenshots`.
 """
 
 import sys

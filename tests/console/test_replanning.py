@@ -7,7 +7,13 @@ from typing import Any
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import (
-    idle, open_advanced, open_file, open_tab, place_of, planned, state,
+    idle,
+    open_advanced,
+    open_file,
+    open_tab,
+    place_of,
+    planned,
+    state,
 )
 from tests.console.test_everyone import findings
 

@@ -7,7 +7,13 @@ from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
 from tests.console.spreadsheets import (
-    CSV, HEAD, MUNICH, ROWS, SPREADSHEETS, Spreadsheet, book,
+    CSV,
+    HEAD,
+    MUNICH,
+    ROWS,
+    SPREADSHEETS,
+    Spreadsheet,
+    book,
 )
 from tests.console.steps import open_file, state
 from tests.console.test_importing import dialog, read_anew, use

@@ -15,7 +15,9 @@ from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff
 from model.judge.timing import (
-    Operation, latest_release, schedule_trip,
+    Operation,
+    latest_release,
+    schedule_trip,
 )
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN

@@ -13,7 +13,10 @@ import pytest
 
 from app.conversion import ground, travels, work
 from app.conversion.preparing import (
-    PATIENCE, PATIENCE_WITH_OTHERS, Preparing, StoppedError,
+    PATIENCE,
+    PATIENCE_WITH_OTHERS,
+    Preparing,
+    StoppedError,
 )
 from app.errors import InvalidRequestError
 from app.jobs.reading import JobReader

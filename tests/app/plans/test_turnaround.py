@@ -4,6 +4,7 @@ from typing import Any
 
 import httpx
 import pytest
+
 from tests.app.plans.asking import planned
 
 Request = dict[str, Any]

@@ -12,7 +12,11 @@ import polyline
 import pytest
 
 from app.roads.engine import (
-    Block, NoWayError, RoadsAnswerError, RoadsUnavailableError, RoadTable,
+    Block,
+    NoWayError,
+    RoadsAnswerError,
+    RoadsUnavailableError,
+    RoadTable,
 )
 from app.roads.osrm import Osrm
 from app.roads.server import RoadServer

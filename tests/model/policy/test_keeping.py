@@ -5,7 +5,10 @@ import pytest
 
 from model.kernel.instance import pack
 from model.policy.keeping import (
-    LEAST_ANEW, MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep,
+    LEAST_ANEW,
+    MOST_ANEW,
+    MOST_ANEW_GREEDILY,
+    part_to_keep,
 )
 from model.problem import IntArray
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset

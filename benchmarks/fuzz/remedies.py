@@ -1,0 +1,208 @@
+"""Does what every remedy says, and plans again: `python -m benchmarks.fuzz.remedies`.
+
+Wild problems and days with late windows for drones are planned. Each remedy of a customer left out
+is applied to the request as the console applies it (by Node.js), with that customer and that
+vehicle type alone; then a plan must serve the customer. Fails if one doesn't.
+"""
+
+import json
+import random
+import re
+import subprocess
+import tempfile
+from collections import Counter
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import IO, Annotated, Any
+
+import httpx
+import typer
+
+from benchmarks.fuzz.api import ROOT, service
+from benchmarks.fuzz.problems import Fault, Study, client_of
+from benchmarks.fuzz.wild_problems import wild_request
+
+Data = dict[str, Any]
+
+MOST_OF_A_PLAN = 6
+"""Remedies of one plan that are applied."""
+
+SECONDS = 0.1
+"""Time limit of the plan that must serve the customer."""
+
+APPLY = """
+import { createInterface } from 'node:readline';
+const { applyRemedy } = await import(process.argv[1]);
+for await (const line of createInterface({ input: process.stdin })) {
+  const [request, id, reason] = JSON.parse(line);
+  console.log(JSON.stringify(applyRemedy(request, id, reason)));
+}"""
+
+
+@dataclass(frozen=True)
+class Console:
+    """The part of the console that applies remedies."""
+
+    to: IO[str]
+    out: IO[str]
+
+    def applied(self, request: Data, customer: str, reason: Data) -> Data | None:
+        """Return a request as a remedy changes it; None if the console doesn't understand it."""
+        self.to.write(json.dumps([request, customer, reason]) + "\n")
+        self.to.flush()
+        changed: Data | None = json.loads(self.out.readline())
+        return changed
+
+
+@contextmanager
+def console() -> Iterator[Console]:
+    """Run that part until the block ends."""
+    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedies.js"
+    command = ["node", "--input-type=module", "-e", APPLY, module.as_uri()]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          text=True) as process:
+        if process.stdin is None or process.stdout is None:
+            raise RuntimeError("node has no pipes")
+        try:
+            yield Console(process.stdin, process.stdout)
+        finally:
+            process.stdin.close()
+
+
+def late_drones(rng: random.Random) -> Data:
+    """Return a day on which drones have to come late, and endurances are short."""
+    def place() -> list[float]:
+        return [rng.uniform(-4, 4), rng.uniform(-4, 4)]
+
+    customers = []
+    for number in range(rng.randint(1, 6)):
+        earliest = rng.choice((0, 600, 7200, 20_000))
+        width = rng.choice((60, 600, 3600))
+        customers.append({
+            "id": f"C{number}", "location": place(), "demand": [rng.randint(1, 6)],
+            "served_by": rng.choice(("drone", "drone", "either")),
+            "service_duration": rng.choice((0, 60, 600)),
+            "time_window": {"earliest": earliest, "latest": earliest + width}})
+    return {
+        "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}], "customers": customers,
+        "fleet": [{
+            "id": "van", "count": rng.randint(1, 3), "capacity": [rng.choice((4, 20))],
+            "speed_kmh": rng.choice((5, 40)), "max_trips": rng.choice((1, 3)),
+            "shift": {"latest": rng.choice((None, 7200, 20_000))},
+            "drones": {"count": rng.randint(1, 2), "capacity": [rng.randint(1, 5)],
+                       "endurance": rng.choice((60, 300, 600, 1200)),
+                       "endurance_includes_waiting": rng.random() < 0.7,
+                       "launch_duration": rng.choice((0, 60)),
+                       "recovery_duration": rng.choice((0, 60))}}],
+        "options": {"time_limit": SECONDS, "policy": rng.choice(("attention", "pointer"))}}
+
+
+def alone(request: Data, customer: str, reason: Data) -> Data:
+    """Return a problem of one customer and one vehicle type, left out at no price but a stated one.
+
+    What the customer and the type say stays.
+    """
+    price = request.get("unassigned_cost") if reason["code"] == "COST" else None
+    kind, = (kind for kind in request["fleet"] if kind["id"] == reason["vehicle_type"])
+    return request | {
+        "customers": [_of_one_type(each, kind) for each in request["customers"]
+                      if each["id"] == customer],
+        "fleet": [kind],
+        "unassigned_cost": price, "replan": None,
+        # Numbers in JavaScript hold no larger seeds exactly.
+        "options": request.get("options", {}) | {
+            "time_limit": SECONDS, "search_iterations": None, "seed": 0}}
+
+
+def _of_one_type(customer: Data, kind: Data) -> Data:
+    """Return a customer who names vehicles of one type alone; whoever may serve it still may."""
+    durations = {name: duration
+                 for name, duration in customer.get("service_duration_by_type", {}).items()
+                 if name == kind["id"] or name.startswith(f"{kind['id']}/")}
+    customer = customer | {"service_duration_by_type": durations}
+    vehicles = customer.get("vehicles") or {}
+    listed = [name for name in vehicles.values() if name is not None]
+    if not listed:
+        return customer
+    own = [name for name in listed[0] if name == kind["id"]
+           or re.fullmatch(re.escape(kind["id"]) + "-[1-9][0-9]*", name)]
+    if own:
+        return customer | {"vehicles": dict.fromkeys(vehicles, own)}
+    if "allowed" in vehicles:
+        return customer | {"vehicles": {"forbidden": [kind["id"]]}}
+    return customer | {"vehicles": None}
+
+
+def _remedies(reason: Data) -> Iterator[Data]:
+    """Yield a reason with each of its remedies."""
+    for name in ("remedy", "other_remedy"):
+        if reason.get(name) is not None:
+            yield reason | {"remedy": reason[name]}
+
+
+@dataclass
+class Remedies:
+    """What came of all remedies."""
+
+    study: Study
+    console: Console
+    applied: Counter[str] = field(default_factory=Counter)  # by code
+
+    def try_plan(self, request: Data) -> list[str]:
+        """Plan a problem and apply remedies; return those that don't hold, in words. In place."""
+        plan = self.study.planned(request)
+        false = []
+        offered = [(left["id"], remedy) for left in (plan or {"unassigned": []})["unassigned"]
+                   for reason in left["reasons"] for remedy in _remedies(reason)]
+        for customer, reason in offered[:MOST_OF_A_PLAN]:
+            fault = self._fault(request, customer, reason)
+            self.applied[reason["code"]] += 1
+            if fault is not None:
+                false.append(f"{customer}, {reason}: {fault}")
+        return false
+
+    def _fault(self, request: Data, customer: str, reason: Data) -> str | None:
+        """Return what is wrong with a remedy. In place."""
+        changed = self.console.applied(alone(request, customer, reason), customer, reason)
+        if changed is None:
+            return "the console doesn't understand it"
+        reply = self.study.ask("/plan", changed)
+        if reply is None:
+            return "the request that it makes is refused"
+        reasons = [why for left in reply["unassigned"] for why in left["reasons"]]
+        # Who fits at a price that nobody pays does fit.
+        if any(why["code"] != "COST" for why in reasons):
+            return f"still left out: {reasons}"
+        return None
+
+
+def main(
+    remedies: Annotated[int, typer.Option(help="Remedies to apply, at least.")] = 1000,
+    seed: Annotated[int, typer.Option(help="Seed of the first problem; later ones count on.")] = 0,
+) -> None:
+    """Apply remedies."""
+    faults = 0
+    with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
+          client_of(target) as client, console() as understood):
+        found = Remedies(Study(client), understood)
+        number = seed
+        while found.applied.total() < remedies:
+            rng = random.Random(number)
+            request = late_drones(rng) if number % 2 else wild_request(rng)
+            try:
+                false = found.try_plan(request)
+            except (Fault, httpx.TransportError) as fault:
+                false = [f"{type(fault).__name__}: {fault}"]
+            for words in false:
+                typer.echo(f"seed {number}: {words}")
+            faults += len(false)
+            number += 1
+    typer.echo(f"{number - seed} problems, {found.applied.total()} remedies applied, {faults} "
+               f"faults; {dict(sorted(found.applied.items()))}")
+    raise typer.Exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    typer.run(main)

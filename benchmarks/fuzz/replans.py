@@ -1,0 +1,170 @@
+"""Lets days change while they go on, and judges each new plan: `python -m benchmarks.fuzz.replans`.
+
+Each day is planned, or changed by hand where that breaks no rule, then something happens, and the
+plan is gone on from; the reply is gone on from in turn. Of each reply this is judged from the JSON
+alone: `POST /check` finds no broken rule and the same cost; what has begun is unchanged; whatever
+is aboard a vehicle that drives stays with it or is left out with a reason; parcels of broken
+vehicles are told of, and leave no depot before they are back; and it costs no more than the plan
+given, where that may still be driven as it is. Nothing that happens is refused.
+"""
+
+import json
+import math
+import random
+import tempfile
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Annotated, Any
+
+import httpx
+import typer
+
+from benchmarks.fuzz.api import service
+from benchmarks.fuzz.changing_days import Change, by_hand, morning, what_happens
+from benchmarks.fuzz.problems import Fault, Study, client_of, hold_to_the_past
+
+Data = dict[str, Any]
+
+CHANGED_BY_HAND, GOES_ON = 0.6, 0.6
+"""Shares of plans that are changed by hand, and of those that go on once more."""
+
+
+@dataclass
+class Days(Study):
+    """What came of all days."""
+
+    compared: int = 0  # with the plan given, driven as it is
+    left_aboard: int = 0  # parcels that stayed aboard and are left out
+
+    def try_day(self, seed: int) -> None:
+        """Have a day planned, changed, and planned on. In place.
+
+        Raises
+        ------
+        Fault
+            If a reply should not be.
+        """
+        rng = random.Random(seed)
+        request = morning(rng)
+        plan = self.planned(request)
+        if plan is None:
+            raise Fault("the morning is refused")
+        if rng.random() < CHANGED_BY_HAND:
+            plan = self._retimed(request, by_hand(rng, plan)) or plan
+        since, broken, lost = 0.0, frozenset[str](), frozenset[str]()
+        while since == 0.0 or rng.random() < GOES_ON:
+            change = what_happens(rng, request, plan, since)
+            change = replace(change, broken=change.broken | broken, lost=change.lost | lost)
+            plan = self.goes_on(change, plan)
+            request, broken, lost = change.request, change.broken, change.lost
+            since = max(change.now, 0.001)
+
+    def goes_on(self, change: Change, plan: Data) -> Data:
+        """Return the plan that goes on from another, found sound. In place."""
+        request = change.replan(plan)
+        replanned = self.planned(request)
+        if replanned is None:
+            refusal = self.client.post("/plan", json=request).json()["errors"]
+            raise Fault(f"what happens is refused: {refusal}")
+        self.replanned += 1
+        hold_to_the_past(request, plan, replanned)
+        self.hold_aboard(change, plan, replanned)
+        self._hold_cost(request, change, plan, replanned)
+        return replanned
+
+    def _retimed(self, request: Data, plan: Data) -> Data | None:
+        """Return a plan without times with them; None if it breaks rules. In place."""
+        verdict = self.ask("/check", {"problem": request, "plan": plan})
+        if verdict is None or not verdict["feasible"]:
+            return None
+        return {"routes": verdict.get("routes", plan["routes"]), "unassigned": plan["unassigned"]}
+
+    def hold_aboard(self, change: Change, plan: Data, replanned: Data) -> None:
+        """Raise `Fault` where what is aboard moves, or a broken vehicle's is not told of."""
+        named = {customer["id"] for customer in change.request["customers"]}
+        servants = {name: route["vehicle"] for route in replanned["routes"]
+                    for trip in route["trips"] for name in _served(trip)}
+        reasons = {left["id"]: left["reasons"] for left in replanned["unassigned"]}
+        for vehicle, names in aboard(plan, change.now).items():
+            for name in sorted(names & named):
+                servant = servants.get(name)
+                if vehicle in change.broken:
+                    told = [parcel for parcel in replanned["replan"].get("parcels", [])
+                            if parcel["id"] == name and parcel["vehicle"] == vehicle]
+                    if servant != vehicle and not told:
+                        raise Fault(f"{name} is aboard {vehicle}, which is broken, and is not "
+                                    "told of")
+                elif servant is None:
+                    self.left_aboard += 1
+                    if not any(reason["code"] == "ABOARD" for reason in reasons[name]):
+                        raise Fault(f"{name} is aboard {vehicle}, but: {reasons[name]}")
+                elif servant != vehicle:
+                    raise Fault(f"{name} is aboard {vehicle}, and {servant} is to serve it")
+
+    def _hold_cost(self, request: Data, change: Change, plan: Data, replanned: Data) -> None:
+        """Raise `Fault` if the plan given could be driven on at less cost. In place."""
+        for given in _driven_on(change, plan):
+            verdict = self.ask("/check", {"problem": request, "plan": given})
+            if verdict is None or not verdict["feasible"]:
+                continue
+            self.compared += 1
+            before, after = verdict["cost"]["total"], replanned["cost"]["total"]
+            if after > before and not math.isclose(after, before, rel_tol=1e-9, abs_tol=1e-6):
+                raise Fault(f"costs {after}, and {before} as the plan given goes on")
+
+
+def _driven_on(change: Change, plan: Data) -> list[Data]:
+    """Return how a plan given could go on: as it is, and timed anew."""
+    named = {customer["id"] for customer in change.request["customers"]}
+    planned = {name for route in plan["routes"] for trip in route["trips"]
+               for name in _served(trip)}
+    left = [{"id": name} for name in sorted(named - planned)]
+    if planned <= named:
+        return [{"routes": plan["routes"], "unassigned": left}]
+    return []
+
+
+def aboard(plan: Data, now: float) -> dict[str, set[str]]:
+    """Return whose parcels each vehicle has aboard that is under way, and has not yet served."""
+    found = {}
+    for route in plan["routes"]:
+        for trip in route["trips"]:
+            if trip["stops"][0]["departure"] <= now < trip["stops"][-1]["departure"]:
+                halts = [*trip["stops"], *(visit for sortie in trip["sorties"]
+                                           for visit in sortie["customers"])]
+                found[route["vehicle"]] = {halt["id"] for halt in halts
+                                           if halt["service_start"] > now
+                                           and halt.get("kind", "customer") == "customer"}
+    return found
+
+
+def _served(trip: Data) -> Collection[str]:
+    return [*(stop["id"] for stop in trip["stops"] if stop["kind"] == "customer"),
+            *(visit["id"] for sortie in trip["sorties"] for visit in sortie["customers"])]
+
+
+def main(
+    days: Annotated[int, typer.Option(help="Days to try.")] = 2000,
+    seed: Annotated[int, typer.Option(help="Seed of the first; later ones count on.")] = 0,
+) -> None:
+    """Fuzz days that go on."""
+    faults = 0
+    with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
+          client_of(target) as client):
+        study = Days(client)
+        for number in range(seed, seed + days):
+            try:
+                study.try_day(number)
+            except (Fault, httpx.TransportError) as fault:
+                faults += 1
+                typer.echo(f"seed {number}: {type(fault).__name__}: {fault}")
+        faults += target.process.poll() is not None
+    typer.echo(f"{days} days, {faults} faults; {study.replanned} plans gone on from, "
+               f"{study.compared} compared with the plan given, {study.left_aboard} parcels left "
+               f"aboard; {json.dumps(dict(sorted(study.statuses.items())))}")
+    raise typer.Exit(1 if faults else 0)
+
+
+if __name__ == "__main__":
+    typer.run(main)

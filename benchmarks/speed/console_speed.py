@@ -1,0 +1,144 @@
+"""How soon the console shows a plan: `python -m benchmarks.speed.console_speed`.
+
+Starts the service and opens its console in Debian's Chromium (`CHROMIUM` names another), which
+plans the paper's hundred customers by itself; then presses Plan. Times are taken in the page, up
+to the frame after the cost of a first plan is shown, with which the map is drawn.
+"""
+
+import json
+import os
+import shutil
+import statistics
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+import typer
+from playwright.sync_api import Browser, Page, sync_playwright
+
+from benchmarks.many import many_customers, swept_reply
+from benchmarks.speed.latency import service
+
+WAIT_MS = 30_000
+
+NEXT_COST = """(former) => new Promise((resolve) => {
+  const look = () => {
+    const cost = document.querySelector('#total-cost')?.textContent ?? '';
+    if (cost && cost !== former) requestAnimationFrame(() => resolve(performance.now()));
+    else requestAnimationFrame(look);
+  };
+  look();
+})"""
+"""Resolves in ms since the page began to load."""
+
+PRESS = f"""async () => {{
+  const former = document.querySelector('#total-cost').textContent;
+  const plan = [...document.querySelectorAll('header button')].find(
+    (button) => button.textContent.trim() === 'Plan');
+  const pressed = performance.now();
+  plan.click();
+  return await ({NEXT_COST})(former) - pressed;
+}}"""
+
+OPEN = """async (text) => {
+  const began = performance.now();
+  const { request, plan } = JSON.parse(text);
+  const { openRequest } = await import(
+    new URL('actions.js', document.querySelector('script[type=module]').src));
+  const plans = [{ number: 1, name: 'Plan', request, plan, numbers: null }];
+  openRequest(request, { name: 'many', plans, shown: 1 });
+  for (let frame = 0; frame < 2; frame += 1)
+    await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve, 0)));
+  return performance.now() - began;
+}"""
+"""Opens a plan; resolves in the ms until it is drawn."""
+
+COUNT = """() => {
+  window.frames = [];
+  const note = (now) => {
+    window.frames.push(now);
+    window.frameRequest = requestAnimationFrame(note);
+  };
+  requestAnimationFrame(note);
+}"""
+COUNTED = "() => (cancelAnimationFrame(window.frameRequest), window.frames)"
+
+
+@contextmanager
+def browser() -> Iterator[Browser]:
+    """Yield a browser.
+
+    Raises
+    ------
+    RuntimeError
+        If there is none.
+    """
+    path = os.environ.get("CHROMIUM") or shutil.which("chromium")
+    if path is None:
+        raise RuntimeError("there is no Chromium: apt-get install chromium")
+    with sync_playwright() as playwright:
+        opened = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])
+        yield opened
+        opened.close()
+
+
+def first_plan(page: Page, address: str) -> float:
+    """Open the console with `table1`; return when its first plan is drawn, in ms."""
+    page.goto(f"{address}/#example=table1", wait_until="commit")
+    shown: float = page.evaluate(NEXT_COST, "")
+    return shown
+
+
+def plan_again(page: Page) -> float:
+    """Press Plan; return after how many ms the next plan is drawn."""
+    # While a plan is improved, its cost changes by itself.
+    page.get_by_role("button", name="Stop").and_(page.locator(":disabled")).wait_for()
+    drawn: float = page.evaluate(PRESS)
+    return drawn
+
+
+def frames_a_second(page: Page, is_pressed: bool) -> float:
+    """Return how often the map is drawn while the pointer moves over it, or moves it."""
+    box = page.locator(".map").bounding_box()
+    if box is None:
+        raise RuntimeError("there is no map")
+    x, y = box["x"] + 8, box["y"] + box["height"] / 2  # where nobody is who could be dragged
+    page.mouse.move(x, y)
+    if is_pressed:
+        page.mouse.down()
+    page.evaluate(COUNT)
+    for step in range(100):
+        page.mouse.move(x + 4 * step, y + step % 40)
+    times = page.evaluate(COUNTED)
+    page.mouse.up()
+    return float(1000 * (len(times) - 1) / (times[-1] - times[0]))
+
+
+def show_many(page: Page, number: int) -> None:
+    """Print how soon a plan of so many customers is drawn, and how smoothly it is moved."""
+    request = many_customers(number)
+    text = json.dumps({"request": request, "plan": swept_reply(request)})
+    print(f"{number:,} customers drawn after {page.evaluate(OPEN, text):.0f} ms")
+    for name, is_pressed in (("pointer", False), ("map", True)):
+        print(f"frames a second while the {name} moves: {frames_a_second(page, is_pressed):.0f}")
+
+
+def main(runs: int = 10, many: int = 20_000) -> None:
+    """Print medians and the longest, and what many customers take."""
+    opened, pressed = [], []
+    with service() as address, browser() as chromium:
+        for _ in range(runs):
+            page = chromium.new_page()
+            page.set_default_timeout(WAIT_MS)
+            opened.append(first_plan(page, address))
+            pressed.append(plan_again(page))
+            page.close()
+        page = chromium.new_page()
+        first_plan(page, address)
+        show_many(page, many)
+    for name, times in (("from opening the page", opened), ("from pressing Plan", pressed)):
+        print(f"first plan drawn {name}: median {statistics.median(times):.0f} ms, "
+              f"longest {max(times):.0f} ms of {runs}")
+
+
+if __name__ == "__main__":
+    typer.run(main)

@@ -1,0 +1,130 @@
+"""Wild problems are planned or refused, and every plan passes the check.
+
+The study of five thousand is `python -m benchmarks.fuzz.problems`.
+"""
+
+import json
+import random
+from collections.abc import Callable
+from typing import Any
+
+import httpx
+import pytest
+
+from benchmarks.fuzz.problems import Fault, Study, happened, hold_to_the_past
+from benchmarks.fuzz.wild_problems import wild_request
+
+Data = dict[str, Any]
+Answer = Callable[[Data], Data]
+
+PROBLEMS = 60
+
+ONCE_BROKEN = (21_086,)
+"""Seeds of problems whose plans were no plans: a ruin took the depot for a customer, beside a drone
+that is launched there at the end of its truck's trip."""
+
+
+def test_wild_problems_are_planned_soundly_or_refused(client: httpx.Client) -> None:
+    study = Study(client)
+    for seed in (*range(PROBLEMS), *ONCE_BROKEN):
+        study.try_problem(seed)
+    assert study.checked > PROBLEMS / 2
+    assert 0 < study.left_out < study.checked
+    assert set(study.statuses) == {"/plan 200", "/plan 422", "/check 200", "/check 422"}
+
+
+def answering(**changes: Answer) -> httpx.Client:
+    """Return a client of a service that plans nothing, with some replies changed."""
+    def answer(request: httpx.Request) -> httpx.Response:
+        body = json.loads(request.content)
+        if request.url.path == "/plan":
+            count = len(body["customers"])
+            reply: Data = {"routes": [], "unassigned": [{"reasons": ["none"]}] * count,
+                     "cost": {"total": 7.0}, "summary": {"served": 0}}
+        else:
+            reply = {"feasible": True, "cost": {"total": 7.0}}
+        change = changes.get(request.url.path[1:], lambda reply: reply)
+        reply = change(reply)
+        return httpx.Response(reply.pop("status", 200), json=reply)
+
+    return httpx.Client(transport=httpx.MockTransport(answer), base_url="http://service")
+
+
+@pytest.mark.parametrize(("endpoint", "change", "fault"), [
+    ("plan", {"status": 500}, "answered with 500"),
+    ("plan", {"status": 422, "errors": []}, "answered with 422"),
+    ("plan", {"cost": {"total": 7.1}}, "cost by total"),
+    ("plan", {"summary": {"served": 1}}, "1 served"),
+    ("check", {"feasible": False}, "refused by POST /check"),
+    ("check", {"status": 422, "errors": ["no"]}, "refused by POST /check"),
+    ("check", {"status": 503}, "answered with 503")])
+def test_replies_that_should_not_be_are_faults(endpoint: str, change: Data, fault: str) -> None:
+    Study(answering()).try_problem(0)
+    with pytest.raises(Fault, match=fault):
+        Study(answering(**{endpoint: lambda reply: reply | change})).try_problem(0)
+
+
+def test_a_number_that_json_does_not_have_is_a_fault() -> None:
+    transport = httpx.MockTransport(
+        lambda request: httpx.Response(200, text='{"load_rate": Infinity}'))
+    with pytest.raises(Fault, match="Infinity"):
+        Study(httpx.Client(transport=transport, base_url="http://service")).ask("/plan", {})
+
+
+def test_wild_requests_are_drawn_from_the_generator_alone() -> None:
+    drawn = [wild_request(random.Random(seed)) for seed in range(50)]
+    assert drawn == [wild_request(random.Random(seed)) for seed in range(50)]
+    assert len({json.dumps(request) for request in drawn}) == 50
+
+
+def stop(name: str, arrival: float, departure: float) -> Data:
+    """Return a stop, at which service begins at once."""
+    return {"kind": "depot" if name == "hub" else "customer", "id": name, "arrival": arrival,
+            "service_start": arrival, "departure": departure}
+
+
+@pytest.fixture
+def day() -> Data:
+    """Return a plan: a truck is under way at 50, its drone in the air; another leaves later."""
+    flight = {"launch_time": 45.0, "recovery_stop": 2,
+              "customers": [{"id": "C", "arrival": 60.0, "service_start": 60.0}]}
+    trip = {"stops": [stop("hub", 0, 10), stop("A", 20, 45), stop("B", 49, 70),
+                      stop("hub", 99, 99)],
+            "sorties": [flight, flight | {"launch_time": 70.0}]}
+    later = {"stops": [stop("hub", 40, 51), stop("D", 60, 61), stop("hub", 80, 80)], "sorties": []}
+    return {"routes": [{"vehicle": "t-1", "trips": [trip]}, {"vehicle": "t-2", "trips": [later]}]}
+
+
+def test_what_has_happened_is_what_was_left_by_then(day: Data) -> None:
+    assert happened(day, 50.0) == {
+        ("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000"),
+        ("t-1", "flight", "C", "45.000", "60.000")}
+
+
+def test_broken_vehicle_has_done_what_it_had_begun_to_serve(day: Data) -> None:
+    left = {("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000")}
+    assert happened(day, 50.0, {"t-1"}) == left
+    other = {("t-2", "stop", "hub", "40.000", "51.000")}
+    assert happened(day, 60.5, {"t-1"}) == left | other | {
+        ("t-1", "flight", "C", "45.000", "60.000")}
+    # Its drone may have nowhere to land in a storm.
+    assert happened(day, 60.5, {"t-1"}, lands_anywhere=False) == left | other
+    assert happened(day, 20.0, {"t-1"}) == set()
+    assert happened(day, 20.0, {"t-2"}) == {("t-1", "stop", "hub", "0.000", "10.000")}
+
+
+@pytest.mark.parametrize(("now", "is_broken", "start", "fault"), [
+    (20.0, True, 500, None), (20.0, True, 499, "parcels leave the depot before 500"),
+    (20.0, False, 500, "another past"), (21.0, True, 500, "another past"), (10.0, True, 20, None)])
+def test_plans_that_go_on_keep_to_the_past(day: Data, now: float, is_broken: bool, start: float,
+                                           fault: str | None) -> None:
+    trip = {"stops": [stop("hub", start, start), stop("A", 600, 600), stop("hub", 700, 700)],
+            "sorties": []}
+    replanned = {"routes": [{"vehicle": "t-3", "trips": [trip]}]}
+    request = {"replan": {"freeze_before": now, "unavailable": ["t-1"] * is_broken,
+                          "parcels_back": 500}}
+    if fault is None:
+        hold_to_the_past(request, day, replanned)
+    else:
+        with pytest.raises(Fault, match=fault):
+            hold_to_the_past(request, day, replanned)

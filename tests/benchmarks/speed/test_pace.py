@@ -1,0 +1,31 @@
+"""Paces are measured with the same turns, and compared round by round.
+
+The measurement is `python -m benchmarks.speed.pace`.
+"""
+
+import io
+from collections import Counter
+
+from rich.console import Console
+
+from benchmarks.speed.pace import kinds, paces, table
+
+
+def test_there_are_twelve_kinds_of_problems() -> None:
+    names = [name for name, _ in kinds()]
+    assert len(set(names)) == len(names) == 12
+    assert Counter(problem.num_customers for _, problem in kinds())[100] == 9
+
+
+def test_turns_given_are_made() -> None:
+    turns = {name: 5 for name, _ in kinds()}
+    found, made = paces(turns, 1.0)
+    assert made == turns
+    assert all(pace > 0 for pace in found.values())
+
+
+def test_ratios_are_of_each_round() -> None:
+    console = Console(file=io.StringIO(), width=80)
+    console.print(table({"cvrp": [(100.0, 50.0), (300.0, 100.0), (80.0, 100.0)]}))
+    row = console.file.getvalue().splitlines()[3]  # type: ignore[attr-defined]
+    assert [cell.strip() for cell in row.split("│")[1:-1]] == ["cvrp", "100", "100", "2.000"]
