@@ -7,7 +7,6 @@ from typing import Annotated, Literal
 
 from pydantic import AfterValidator, Field, SecretStr
 from pydantic_settings import BaseSettings, SettingsConfigDict
-
 from model.kernel.cores import num_cores
 
 DEFAULT_POLICY = "attention"

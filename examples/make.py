@@ -17,8 +17,7 @@ import osmium
 from shapely import Point, Polygon
 
 from app.conversion.problem import to_problem
-from app.schemas.openapi import EXAMPLES as DOCUMENTED
-from app.schemas.openapi import EXAMPLES_DIR
+from app.schemas.openapi import EXAMPLES_DIR, EXAMPLES as DOCUMENTED
 from app.schemas.request import PlanRequest
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Stop, Visit

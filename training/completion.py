@@ -14,19 +14,12 @@ from model.kernel.instance import Instance, pack
 from model.problem import Customer, IntArray, Problem, Travel, VehicleType
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.problem_data import make_data
 from model.search.route.engine import ANY, anneal, leg_cost
 from model.search.route.layout import CUSTOMER
 from model.search.route.state import Searcher
+from model.search.problem_data import make_data
 from model.simulation.actions import (
-    DRIVE,
-    NUM_KINDS,
-    OPEN,
-    RETURN,
-    apply_route,
-    encode_action,
-    finish,
-    reset,
+    DRIVE, NUM_KINDS, OPEN, RETURN, apply_route, encode_action, finish, reset,
 )
 from model.simulation.state import NO_VEHICLE, State, by_term
 from model.solution import Route, Solution, Stop, Trip

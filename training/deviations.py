@@ -13,8 +13,8 @@ import numpy as np
 from model.policy.decision_features import Observation, Rollouts
 from model.policy.problem_features import Float32Array
 from model.problem import FloatArray, IntArray
-from model.simulation.actions import max_steps
 from model.simulation.state import by_term
+from model.simulation.actions import max_steps
 from training.completion import apply_all
 from training.judge import LEAST_RISE, NO_RISE, PATH, Judgement, Mistake
 from training.rollout import Batch

@@ -19,8 +19,8 @@ from torch import Tensor, nn
 
 from model.policy.attention import AttentionPolicy
 from model.policy.decision_features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
-from model.policy.problem_features import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 from model.policy.rolling import STEP_WEIGHTS
+from model.policy.problem_features import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 from training.policies import POLICIES, AnyPolicy
 
 OPSET = 20

@@ -4,8 +4,8 @@ import numpy as np
 
 from model.policy.decision_features import Observation
 from model.problem import FloatArray, IntArray
-from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN
 from model.simulation.state import by_term
+from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN
 from training.rollout import Batch, Simulation
 
 

@@ -14,15 +14,7 @@ import numpy as np
 from model.problem import UNLIMITED, IntArray, Problem
 from model.simulation.actions import DRIVE, NUM_KINDS, OPEN, RETURN
 from training.completion import (
-    Routes,
-    Setting,
-    complete,
-    cost_of,
-    is_cut,
-    open_type,
-    to_actions,
-    to_routes,
-    what_is_left,
+    Routes, Setting, complete, cost_of, is_cut, open_type, to_actions, to_routes, what_is_left,
 )
 
 LEAST_RISE = 0.004

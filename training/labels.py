@@ -20,8 +20,8 @@ from tqdm import tqdm
 
 from model.policy.attention import AttentionConfig, AttentionPolicy
 from model.policy.decision_features import Observation, Rollouts
-from model.policy.problem_features import Float32Array
 from model.policy.rolling import StepWeights, candidate_scores, roll_out
+from model.policy.problem_features import Float32Array
 from model.problem import FloatArray, IntArray, Problem
 from training.completion import Setting, apply_all, can_complete
 from training.deviations import go_on, judge_by_policy

@@ -14,6 +14,7 @@ from model.simulation.state import by_term, empty_costs
 from training.dataset import Chunk, Decisions, chunks, paths
 from training.rollout import Batch, Outcome
 
+
 LEAST_SPREAD = 0.002
 """Relative differences between rollouts below which they count for little."""
 

@@ -6,11 +6,7 @@ from typing import Literal, Protocol, get_args
 
 from app.remote.asking import ShouldStop
 from app.remote.errors import (
-    SourceAnswerError,
-    SourceError,
-    SourceKind,
-    SourceStoppedError,
-    SourceUnavailableError,
+    SourceAnswerError, SourceError, SourceKind, SourceStoppedError, SourceUnavailableError,
 )
 
 Quality = Literal["house", "interpolated", "street", "town"]

@@ -7,12 +7,7 @@ from pydantic import ValidationError
 
 from app.addresses import nominatim, pelias, photon
 from app.addresses.geocoder import (
-    GEOCODER,
-    Candidates,
-    GeocoderAnswerError,
-    GeocoderError,
-    GeocoderUnavailableError,
-    Told,
+    GEOCODER, Candidates, GeocoderAnswerError, GeocoderError, GeocoderUnavailableError, Told,
 )
 from app.addresses.places import Place, judged
 from app.addresses.server import GeocodingServer, ServerKind

@@ -1,7 +1,7 @@
 """How long launches take that a plan states."""
 
-from app.conversion.names import drone_number
 from app.conversion.units import thousandths
+from app.conversion.names import drone_number
 from app.schemas.drones import DronesInput, TurnaroundInput
 from app.schemas.plan import SortieInput, TripInput
 from app.schemas.vehicle import VehicleTypeInput

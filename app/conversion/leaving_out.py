@@ -3,14 +3,7 @@
 from collections.abc import Sequence
 
 from model.problem import (
-    FULL_SPEED,
-    MM_PER_KM,
-    MS_PER_HOUR,
-    UNLIMITED,
-    USUAL_DECIMALS,
-    Customer,
-    Travel,
-    VehicleType,
+    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Travel, VehicleType,
 )
 
 DETOURS_PER_CUSTOMER = 10

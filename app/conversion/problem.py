@@ -6,13 +6,13 @@ import numpy as np
 
 from app.conversion.amounts import decimals_of
 from app.conversion.customer import to_customer
-from app.conversion.ground import Ground
 from app.conversion.groups import groups_of, part_of
 from app.conversion.leaving_out import default_unassigned_cost
 from app.conversion.places import depots_of
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.service import with_service_durations
 from app.conversion.sites import sites_of
+from app.conversion.ground import Ground
 from app.conversion.travels import Travels
 from app.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest

@@ -11,12 +11,7 @@ from app.conversion.far_legs import Ask, FarLegs
 from app.conversion.places import paths_of, places_of
 from app.conversion.preparing import Preparing, StoppedError
 from app.errors import InputError, InvalidRequestError, NoRoadsError, json_path
-from app.roads.engine import (
-    RoadsError,
-    RoadsStoppedError,
-    RoadsUnavailableError,
-    RoadTable,
-)
+from app.roads.engine import RoadsError, RoadsStoppedError, RoadsUnavailableError, RoadTable
 from app.roads.nearness import Nearness, estimated, nearness
 from app.roads.roads import Roads
 from app.schemas.request import PlanRequest, RoadsInput

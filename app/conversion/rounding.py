@@ -2,14 +2,7 @@
 
 from app.schemas.fields import Rounding
 from model.problem import FloatArray
-from model.problem.distances import (
-    DIMACS,
-    EXACT,
-    ROUND,
-    THOUSANDTHS,
-    TRUNC,
-    rounded_as,
-)
+from model.problem.distances import DIMACS, EXACT, ROUND, THOUSANDTHS, TRUNC, rounded_as
 
 ROUNDINGS: dict[Rounding, int] = {
     "exact": EXACT,

@@ -4,11 +4,7 @@ from app.dispatches.instants import instant
 from app.dispatches.links import address_of, qr_of
 from app.dispatches.rows import DispatchRow
 from app.dispatches.schemas import (
-    BREAKDOWN,
-    DispatchReply,
-    DispatchSummary,
-    DriverLinkReply,
-    LinkState,
+    BREAKDOWN, DispatchReply, DispatchSummary, DriverLinkReply, LinkState,
 )
 from app.dispatches.service import Followed, LinkStanding
 from app.dispatches.standing import standing_reply

@@ -9,11 +9,7 @@ from sqlalchemy import Engine
 from app.access.guard import Jobs
 from app.dispatches.replies import dispatch_reply, summary
 from app.dispatches.schemas import (
-    DispatchListReply,
-    DispatchOptions,
-    DispatchReply,
-    DispatchRequest,
-    GoingOnReply,
+    DispatchListReply, DispatchOptions, DispatchReply, DispatchRequest, GoingOnReply,
 )
 from app.dispatches.service import DispatchService, Followed
 from app.dispatches.store import DispatchStore

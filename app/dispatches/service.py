@@ -7,11 +7,7 @@ from datetime import UTC, datetime, timedelta
 
 from app.access.tokens import NewToken
 from app.conversion.locating import at_addresses
-from app.dispatches.errors import (
-    DispatchOverError,
-    TooManyDispatchesError,
-    UnknownDispatchError,
-)
+from app.dispatches.errors import DispatchOverError, TooManyDispatchesError, UnknownDispatchError
 from app.dispatches.going_on import OnTheRoad, going_on
 from app.dispatches.instants import Day, milliseconds
 from app.dispatches.links import DRIVER_TOKENS

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from app.conversion.launches import drones_named, launch_durations
-from app.dispatches.schemas import DestinationReply, GoodsReply, StepKind, StepReply, WindowReply
+from app.dispatches.schemas import GoodsReply, DestinationReply, StepKind, StepReply, WindowReply
 from app.schemas.customer import CustomerInput
 from app.schemas.fields import point_of
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput

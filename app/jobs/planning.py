@@ -17,14 +17,7 @@ from app.jobs.running import Begun, RegionTerms, Returning, Running, sign_of_lif
 from app.jobs.schemas import State
 from app.jobs.search import EarlierWork, Search
 from app.jobs.slices import (
-    MAX_CRASHES,
-    NOT_COMPUTED,
-    OVER,
-    POISONOUS,
-    SLICE,
-    WITHHELD,
-    Slice,
-    Stopping,
+    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping,
 )
 from app.jobs.store import JobStore, now_ms
 from app.load.courtesy import NOBODY_WAITS, Courtesy

@@ -5,14 +5,7 @@ from collections.abc import Callable, Sequence
 from app.conversion.preparing import Preparing
 from app.jobs.errors import TooManyScenariosError
 from app.jobs.rows import JobRow
-from app.jobs.scenarios import (
-    Scenarios,
-    Sweep,
-    apply,
-    check_replan,
-    read_study,
-    validate,
-)
+from app.jobs.scenarios import Scenarios, Sweep, apply, check_replan, read_study, validate
 from app.jobs.schemas import Kind
 from app.jobs.store import JobStore
 from app.requests.bounds import Bounds
@@ -20,6 +13,7 @@ from app.requests.reading import read_request
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.request import PlanRequest
 from app.settings import Settings
+
 
 MAX_WRITES = 100_000
 """Most values that a sweep puts into its scenarios: each scenario is validated as it comes."""

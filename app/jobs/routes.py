@@ -12,13 +12,7 @@ from app.jobs.events import events, while_admitted
 from app.jobs.replies import summary
 from app.jobs.rows import JobRow
 from app.jobs.schemas import (
-    CompareRequest,
-    JobListReply,
-    JobReply,
-    JobSummaryReply,
-    Kind,
-    ProgressEvent,
-    State,
+    CompareRequest, JobListReply, JobReply, JobSummaryReply, Kind, ProgressEvent, State,
     SweepRequest,
 )
 from app.jobs.service import JobService, Submission, is_job_id

@@ -10,15 +10,10 @@ from typing import Any
 from pydantic import ValidationError
 from pydantic_core import from_json, to_json
 
-from app.conversion.ground import Ground
 from app.conversion.preparing import UNHURRIED, Preparing
+from app.conversion.ground import Ground
 from app.errors import (
-    MAX_LISTED_ERRORS,
-    InputError,
-    InvalidRequestError,
-    NoRoadsError,
-    json_path,
-    schema_errors,
+    MAX_LISTED_ERRORS, InputError, InvalidRequestError, NoRoadsError, json_path, schema_errors,
 )
 from app.jobs.grid import GridPath, Place, places, put, read_path
 from app.jobs.schemas import CompareRequest, SweepRequest

@@ -10,11 +10,7 @@ from dataclasses import dataclass
 from pydantic_core import from_json, to_json
 
 from app.jobs.errors import (
-    JobShareError,
-    KeyReusedError,
-    NoPlanError,
-    TooManyJobsError,
-    UnknownJobError,
+    JobShareError, KeyReusedError, NoPlanError, TooManyJobsError, UnknownJobError,
 )
 from app.jobs.queues import Queues
 from app.jobs.reading import JobReader

@@ -9,20 +9,8 @@ import zlib
 from collections.abc import Callable, Collection, Sequence
 
 from sqlalchemy import (
-    ColumnElement,
-    Connection,
-    Engine,
-    Select,
-    Table,
-    and_,
-    case,
-    delete,
-    func,
-    insert,
-    or_,
-    select,
-    tuple_,
-    update,
+    ColumnElement, Connection, Engine, Select, Table, and_, case, delete, func, insert, or_, select,
+    tuple_, update,
 )
 from sqlalchemy.exc import IntegrityError
 

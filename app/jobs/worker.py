@@ -21,19 +21,8 @@ from app.jobs.housekeeping import Housekeeper
 from app.jobs.identity import Identity, take_identity
 from app.jobs.planning import PlanWork
 from app.jobs.queues import (
-    APPLICATION,
-    APPLICATION_VERSION,
-    DIVIDED,
-    EXPIRY_WORKFLOW,
-    FORMER_WEBHOOKS,
-    PLAN_WORKFLOW,
-    PLANS,
-    SERIALIZER,
-    STUDIES,
-    STUDY_WORKFLOW,
-    WAITING,
-    WEBHOOK_WORKFLOW,
-    WEBHOOKS,
+    APPLICATION, APPLICATION_VERSION, DIVIDED, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW,
+    PLANS, SERIALIZER, STUDIES, STUDY_WORKFLOW, WAITING, WEBHOOK_WORKFLOW, WEBHOOKS,
     webhook_options,
 )
 from app.jobs.replies import summary

@@ -13,14 +13,8 @@ from app.kept.errors import UnknownLinkError
 from app.kept.reading import read_content
 from app.kept.rows import KeptRow, Precondition
 from app.kept.schemas import (
-    KeptPlanChange,
-    KeptPlanInput,
-    KeptPlanListReply,
-    KeptPlanReply,
-    KeptPlanSummary,
-    LinkListReply,
-    NewLinkReply,
-    SharedPlanReply,
+    KeptPlanChange, KeptPlanInput, KeptPlanListReply, KeptPlanReply, KeptPlanSummary, LinkListReply,
+    NewLinkReply, SharedPlanReply,
 )
 from app.kept.store import KeptStore
 from app.load.bodies import Body

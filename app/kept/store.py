@@ -6,17 +6,7 @@ import zlib
 from typing import Any
 
 from sqlalchemy import (
-    ColumnElement,
-    Connection,
-    Engine,
-    Select,
-    and_,
-    delete,
-    func,
-    insert,
-    select,
-    tuple_,
-    update,
+    ColumnElement, Connection, Engine, Select, and_, delete, func, insert, select, tuple_, update,
 )
 
 from app.access.tokens import NO_DIGEST, NewToken, TokenKind, is_token
@@ -24,11 +14,7 @@ from app.database.connections import Purpose, alone
 from app.database.migrations.running import upgrade
 from app.database.tables import KEPT_PLAN_BODIES, KEPT_PLANS, PLAN_LINKS
 from app.kept.errors import (
-    ChangedError,
-    NoRoomError,
-    UnknownLinkError,
-    UnknownPlanError,
-    VersionNeededError,
+    ChangedError, NoRoomError, UnknownLinkError, UnknownPlanError, VersionNeededError,
 )
 from app.kept.rows import Content, KeptRow, LinkRow, Precondition, Room
 

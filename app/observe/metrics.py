@@ -12,12 +12,7 @@ from pathlib import Path
 from typing import Any, Final, Literal
 
 from prometheus_client import (
-    CollectorRegistry,
-    Counter,
-    Gauge,
-    GCCollector,
-    Histogram,
-    ProcessCollector,
+    CollectorRegistry, Counter, GCCollector, Gauge, Histogram, ProcessCollector,
 )
 from prometheus_client.exposition import choose_encoder
 from prometheus_client.metrics_core import GaugeMetricFamily, Metric

@@ -10,12 +10,7 @@ from app.conversion.preparing import Preparing
 from app.errors import InputError, InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
-from app.plans.explain_replies import (
-    customer_reply,
-    drones_reply,
-    idle_reply,
-    nobody_reply,
-)
+from app.plans.explain_replies import customer_reply, drones_reply, idle_reply, nobody_reply
 from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies

@@ -10,15 +10,7 @@ from app.roads.engine import RoadsError
 from model.judge.check import check, judge_route
 from model.judge.past import Past
 from model.judge.retiming import read_route, time_route
-from model.planner import (
-    ALONE,
-    Elapsed,
-    Listener,
-    Planner,
-    PlanOptions,
-    PlanResult,
-    complete_plan,
-)
+from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, complete_plan
 from model.problem import Problem
 from model.solution import Route, Solution
 

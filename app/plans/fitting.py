@@ -9,18 +9,8 @@ from pydantic_core import to_json
 from app.errors import InputError, InvalidRequestError
 from app.load.bodies import ReceivedBody
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
-from app.plans.explain_replies import (
-    here_reply,
-    more_than_without,
-    placed_reply,
-    rules_reply,
-)
-from app.plans.explaining import (
-    LEAST_TRYING,
-    preparing_within,
-    require_known,
-    require_within,
-)
+from app.plans.explain_replies import here_reply, more_than_without, placed_reply, rules_reply
+from app.plans.explaining import LEAST_TRYING, preparing_within, require_known, require_within
 from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data, cost_reply
 from app.plans.task import Task, task_of, warning_replies

@@ -5,10 +5,10 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from app.conversion.ground import Detours, Ground
 from app.conversion.launches import drones_named
 from app.conversion.leg_origins import LegOrigin
 from app.conversion.places import depots_of
+from app.conversion.ground import Detours, Ground
 from app.plans.road_lines import Line, RoadLines, encoded
 from app.roads.roads import NO_ROADS, Roads
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput

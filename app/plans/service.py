@@ -17,7 +17,6 @@ from app.warnings.finding import warnings_of
 from model.kernel.cores import num_cores
 from model.planner import ALONE, Listener, Planner, PlanOptions
 
-
 class PlanService:
     """Answers planning requests."""
 

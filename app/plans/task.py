@@ -8,12 +8,12 @@ from functools import partial
 
 from pydantic_core import to_json
 
-from app.conversion.ground import Ground
 from app.conversion.leg_origins import LegOrigin
 from app.conversion.locating import Located, located
 from app.conversion.names import read_name
 from app.conversion.preparing import UNHURRIED, Preparing
 from app.conversion.problem import problem_of
+from app.conversion.ground import Ground
 from app.conversion.travels import Travels
 from app.conversion.units import optional_thousandths
 from app.conversion.work import replanning_seconds
@@ -43,6 +43,7 @@ from model.problem import Problem
 from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.replanning.workers import TooManyTypesError
 from model.solution import Solution
+
 
 EXPLAINING, EXPLAINING_SHARE = 0.05, 0.02
 """Seconds, and besides a share of the time limit, in which reasons are looked for why customers are

@@ -15,13 +15,8 @@ from typing import Generic, Protocol, TypeVar
 import httpx
 from circuitbreaker import CircuitBreaker
 from tenacity import (
-    AsyncRetrying,
-    RetryCallState,
-    retry_if_exception_type,
-    stop_after_attempt,
-    stop_any,
-    stop_before_delay,
-    wait_random_exponential,
+    AsyncRetrying, RetryCallState, retry_if_exception_type, stop_after_attempt, stop_any,
+    stop_before_delay, wait_random_exponential,
 )
 
 from app.remote.errors import SourceError, SourceKind, SourceUnavailableError

@@ -13,13 +13,8 @@ from app.schemas.day import Day
 from app.schemas.drones import DronesInput
 from app.schemas.fields import Location
 from app.schemas.request import (
-    AirspaceInput,
-    DepotInput,
-    IncompatibleGoodsInput,
-    LoadDimensionInput,
-    MatrixInput,
-    OptionsInput,
-    ReplanInput,
+    AirspaceInput, DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput,
+    OptionsInput, ReplanInput,
 )
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray

@@ -8,19 +8,11 @@ from app.conversion.amounts import amount_errors
 from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
 from app.requests.customer_validation import (
-    group_errors,
-    service_errors,
-    vehicle_errors,
-    window_errors,
+    group_errors, service_errors, vehicle_errors, window_errors,
 )
 from app.requests.draft import Draft, Errors, Path, are_right, error_at, point_errors
 from app.requests.fleet_validation import (
-    depot_errors,
-    drone_errors,
-    energy_errors,
-    shift_errors,
-    speed_errors,
-    turnaround_errors,
+    depot_errors, drone_errors, energy_errors, shift_errors, speed_errors, turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput

@@ -8,11 +8,7 @@ import numpy as np
 
 from app.remote.asking import ShouldStop
 from app.remote.errors import (
-    SourceAnswerError,
-    SourceError,
-    SourceKind,
-    SourceStoppedError,
-    SourceUnavailableError,
+    SourceAnswerError, SourceError, SourceKind, SourceStoppedError, SourceUnavailableError,
 )
 from model.problem import FloatArray, IntArray
 

@@ -7,24 +7,9 @@ from itertools import pairwise
 from typing import Any
 
 from app.remote.asking import Asking, Question, ShouldStop
-from app.roads.answers import (
-    Part,
-    Schema,
-    TableAnswer,
-    blocks,
-    joined,
-    read,
-    stated_refusal,
-)
+from app.roads.answers import Part, Schema, TableAnswer, blocks, joined, read, stated_refusal
 from app.roads.engine import (
-    ROADS,
-    Block,
-    NoWayError,
-    RoadRoute,
-    RoadsAnswerError,
-    RoadsError,
-    RoadTable,
-    whole,
+    ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
 )
 from app.roads.lines import decoded, joined_route, route_of, stretches
 from app.roads.server import RoadServer

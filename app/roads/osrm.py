@@ -12,14 +12,7 @@ import polyline
 from app.remote.asking import Asking, Question, ShouldStop
 from app.roads.answers import Part, Schema, blocks, joined, moved, read, stated_refusal
 from app.roads.engine import (
-    ROADS,
-    Block,
-    NoWayError,
-    RoadRoute,
-    RoadsAnswerError,
-    RoadsError,
-    RoadTable,
-    whole,
+    ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
 )
 from app.roads.lines import DECIMALS, decoded, joined_route, route_of, stretches
 from app.roads.osrm_tables import BYTES_BESIDES, Asked, TableForm, in_json

@@ -20,15 +20,7 @@ from flatbuffers.table import Table
 
 from app.remote.asking import Asking, Question, ShouldStop
 from app.roads.answers import (
-    Numbers,
-    Part,
-    Schema,
-    Snap,
-    TableAnswer,
-    metres_between,
-    numbers,
-    read,
-    snapped_at,
+    Numbers, Part, Schema, Snap, TableAnswer, metres_between, numbers, read, snapped_at,
 )
 from app.roads.engine import Block, RoadsAnswerError
 from model.problem import BoolArray, FloatArray, IntArray

@@ -17,27 +17,11 @@ from pydantic import RootModel
 from app.remote.asking import Asking, Question, ShouldStop
 from app.remote.errors import SourceError
 from app.roads.answers import (
-    Numbers,
-    Part,
-    Schema,
-    among,
-    blocks,
-    expanded,
-    joined,
-    metres_between,
-    numbers,
-    read,
+    Numbers, Part, Schema, among, blocks, expanded, joined, metres_between, numbers, read,
     stated_refusal,
 )
 from app.roads.engine import (
-    ROADS,
-    Block,
-    NoWayError,
-    RoadRoute,
-    RoadsAnswerError,
-    RoadsError,
-    RoadTable,
-    whole,
+    ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
 )
 from app.roads.lines import decoded, joined_route, route_of, stretches
 from app.roads.server import RoadServer

@@ -5,13 +5,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.plan import PlanInput
 from app.schemas.replanned import ViolationReply
 from app.schemas.request import PlanRequest
-from app.schemas.response import (
-    WARNINGS_TEXT,
-    CostReply,
-    RouteReply,
-    SummaryReply,
-    WarningReply,
-)
+from app.schemas.response import WARNINGS_TEXT, CostReply, RouteReply, SummaryReply, WarningReply
 from app.schemas.untimed import UntimedPlanInput
 
 

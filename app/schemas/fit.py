@@ -6,13 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.check import CheckRequest
 from app.schemas.customer import CustomerInput
-from app.schemas.explain import (
-    OTHERS_STAY,
-    ExplainOptions,
-    HereReply,
-    PlacedReply,
-    RuleReply,
-)
+from app.schemas.explain import OTHERS_STAY, ExplainOptions, HereReply, PlacedReply, RuleReply
 from app.schemas.request import PlanRequest
 from app.schemas.response import WARNINGS_TEXT, CostReply, RouteReply, WarningReply
 

@@ -7,25 +7,13 @@ from datetime import timedelta
 from typing import Annotated, Any, TypeVar
 
 from pydantic import (
-    AfterValidator,
-    BaseModel,
-    Field,
-    GetCoreSchemaHandler,
-    GetJsonSchemaHandler,
-    TypeAdapter,
+    AfterValidator, BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter,
     ValidationInfo,
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from app.errors import AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
-from app.schemas.day import (
-    LONGEST_TEXT,
-    Day,
-    DayOfBody,
-    is_instant,
-    read_date_time,
-    zone_of,
-)
+from app.schemas.day import LONGEST_TEXT, Day, DayOfBody, is_instant, read_date_time, zone_of
 
 Model = TypeVar("Model", bound=BaseModel)
 

@@ -6,13 +6,7 @@ from typing import Any
 from pydantic import BaseModel, Field
 
 from app.schemas.plan import (
-    Instant,
-    PlanInput,
-    RouteInput,
-    SortieInput,
-    StopInput,
-    TripInput,
-    VisitInput,
+    Instant, PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput,
 )
 
 

@@ -6,8 +6,8 @@ from datetime import date, datetime, time, timedelta
 
 from app.sheets.cells import BEFORE_ALL_DATES, MisreadError, Raw, clock_text, shown
 from app.sheets.headings import simple
-from app.sheets.meanings import UNITS
 from app.sheets.numbers import number, split_unit
+from app.sheets.meanings import UNITS
 
 MINUTE, HOUR, DAY = 60, 3600, 86400
 

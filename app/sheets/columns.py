@@ -13,8 +13,8 @@ from app.sheets.links import is_link, place_of
 from app.sheets.meanings import MEANINGS
 from app.sheets.numbers import own_unit
 from app.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
-from app.sheets.schemas import ColumnMapping
 from app.sheets.states import CANCELLED, DONE, STATES
+from app.sheets.schemas import ColumnMapping
 from app.sheets.units import UnitGuess, amount_unit, clock_unit, duration_unit
 
 SAMPLED = 300

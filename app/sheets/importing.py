@@ -14,11 +14,7 @@ from app.sheets.customers import Entry, address_of, entries_of, overnight, place
 from app.sheets.damage import damaged
 from app.sheets.days import on_day
 from app.sheets.dropping import (
-    with_kinds,
-    without_cancelled,
-    without_doubles,
-    without_hidden,
-    without_sums,
+    with_kinds, without_cancelled, without_doubles, without_hidden, without_sums,
 )
 from app.sheets.fleet import Incomplete
 from app.sheets.geography import Ground, far_off, ground_of

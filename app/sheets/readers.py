@@ -6,14 +6,7 @@ from typing import Any
 
 from app.schemas.fields import MAX_INFO_LENGTH
 from app.sheets.cells import LONGEST_READ, MisreadError, Raw, clock_text, shown
-from app.sheets.clocks import (
-    Style,
-    clock,
-    duration,
-    read_date,
-    window_text,
-    windows,
-)
+from app.sheets.clocks import Style, clock, duration, read_date, window_text, windows
 from app.sheets.headings import simple
 from app.sheets.links import is_link, place_of
 from app.sheets.meanings import Kind

@@ -11,17 +11,8 @@ from app.sheets.layout import Table
 from app.sheets.meanings import MEANINGS
 from app.sheets.readers import read, reading_text
 from app.sheets.schemas import (
-    ColumnMapping,
-    ColumnReply,
-    DoubtReply,
-    ExampleReply,
-    ImportReply,
-    ImportSettings,
-    Mapping,
-    MeaningReply,
-    QuestionReply,
-    SheetErrorReply,
-    SheetReply,
+    ColumnMapping, ColumnReply, DoubtReply, ExampleReply, ImportReply, ImportSettings, Mapping,
+    MeaningReply, QuestionReply, SheetErrorReply, SheetReply,
 )
 from app.sheets.table import SheetFile
 from app.sheets.work import Import

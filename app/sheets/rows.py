@@ -9,10 +9,11 @@ from typing import Any
 from app.sheets.cells import CellError, MisreadError, Raw, cell_name, letters
 from app.sheets.clocks import Style
 from app.sheets.columns import Column
-from app.sheets.headings import simple
 from app.sheets.layout import Table
 from app.sheets.meanings import MEANINGS
 from app.sheets.readers import DEPOT, DEPOTS, NO, YES, read, ticked_kind
+from app.sheets.headings import simple
+
 
 READINGS = 4096
 """Readings of a column that are kept: cells of a column are often alike."""

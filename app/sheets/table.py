@@ -8,9 +8,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from app.errors import RequestError
-from app.sheets import workbook
 from app.sheets.cells import Raw, raw_of
 from app.sheets.text import NoTextError, read_text
+from app.sheets import workbook
 
 MAX_ROWS = 100_000
 MAX_COLUMNS = 1000

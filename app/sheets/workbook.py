@@ -16,11 +16,7 @@ from zipfile import BadZipFile, ZipFile
 
 from lxml.etree import LxmlError
 from python_calamine import (
-    CalamineError,
-    CalamineSheet,
-    CalamineWorkbook,
-    SheetTypeEnum,
-    SheetVisibleEnum,
+    CalamineError, CalamineSheet, CalamineWorkbook, SheetTypeEnum, SheetVisibleEnum,
 )
 
 # Run as a file of its own, without the package around it.

@@ -12,15 +12,7 @@ from app.files.importers import read_instance_file
 from app.files.instance import FileVehicles, InstanceFile, distances
 from app.schemas.fields import Rounding
 from model.problem import (
-    MM_PER_KM,
-    UNLIMITED,
-    BoolArray,
-    Customer,
-    Depot,
-    FloatArray,
-    IntArray,
-    Problem,
-    Travel,
+    MM_PER_KM, UNLIMITED, BoolArray, Customer, Depot, FloatArray, IntArray, Problem, Travel,
     VehicleType,
 )
 

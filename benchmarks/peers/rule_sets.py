@@ -19,15 +19,8 @@ from vrplib import read_instance  # type: ignore[import-untyped]
 from app.conversion.rounding import rounded
 from benchmarks.peers.answers import judge, stated_cost
 from benchmarks.peers.published import (
-    NO_LIMIT,
-    Convention,
-    Gaps,
-    Published,
-    PublishedVehicle,
-    best_known_beside,
-    read_routes,
-    routes_of_types,
-    to_problem,
+    NO_LIMIT, Convention, Gaps, Published, PublishedVehicle, best_known_beside, read_routes,
+    routes_of_types, to_problem,
 )
 from model.problem import FloatArray, IntArray
 

@@ -25,13 +25,7 @@ from app.vroom.places import find_places
 from app.vroom.reading import read_request
 from app.vroom.translate import translate
 from benchmarks.peers.vroom_requests import (
-    CLASSES,
-    both_ways,
-    limits,
-    mixed_fleet,
-    priorities,
-    setups,
-    several_windows,
+    CLASSES, both_ways, limits, mixed_fleet, priorities, setups, several_windows,
 )
 from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.work import LegLimit

@@ -31,15 +31,7 @@ from benchmarks.rows import appended, read_rows
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import (
-    MS_PER_HOUR,
-    Customer,
-    Depot,
-    DroneType,
-    Energy,
-    FloatArray,
-    Problem,
-    Travel,
-    VehicleType,
+    MS_PER_HOUR, Customer, Depot, DroneType, Energy, FloatArray, Problem, Travel, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.search.problem_data import Moves

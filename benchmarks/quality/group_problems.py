@@ -16,15 +16,7 @@ from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import time_route
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import (
-    MAX_QUANTITY,
-    UNLIMITED,
-    Customer,
-    Depot,
-    IntArray,
-    Overtime,
-    Problem,
-    Travel,
-    VehicleType,
+    MAX_QUANTITY, UNLIMITED, Customer, Depot, IntArray, Overtime, Problem, Travel, VehicleType,
 )
 from model.solution import Solution
 from model.travel.matrices import with_nowhere

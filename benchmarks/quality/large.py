@@ -33,15 +33,7 @@ from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows, read_rows
 from model.kernel.instance import pack
 from model.problem import (
-    MM_PER_KM,
-    Customer,
-    Depot,
-    FloatArray,
-    IntArray,
-    Points,
-    Problem,
-    StraightLegs,
-    Travel,
+    MM_PER_KM, Customer, Depot, FloatArray, IntArray, Points, Problem, StraightLegs, Travel,
     VehicleType,
 )
 from model.problem.distances import ROUND

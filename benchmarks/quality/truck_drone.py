@@ -20,19 +20,8 @@ import numpy as np
 
 from benchmarks.quality.truck_drone_rules import CROSSINGS, LOOPS, TruckDroneInstance
 from model.problem import (
-    MM_PER_KM,
-    MS_PER_HOUR,
-    UNLIMITED,
-    UNREACHABLE,
-    Customer,
-    Depot,
-    DroneType,
-    FloatArray,
-    IntArray,
-    Problem,
-    ServedBy,
-    Travel,
-    VehicleType,
+    MM_PER_KM, MS_PER_HOUR, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, FloatArray,
+    IntArray, Problem, ServedBy, Travel, VehicleType,
 )
 
 UNIT = 10**7

@@ -25,13 +25,7 @@ from tqdm import tqdm
 
 from benchmarks.fuzz.api import service
 from benchmarks.speed.dear_requests import (
-    PLAN,
-    Genes,
-    changed_genes,
-    gene,
-    mixed_genes,
-    random_genes,
-    request_of,
+    PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
 from benchmarks.speed.punctuality import pinned
 

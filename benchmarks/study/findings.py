@@ -6,15 +6,7 @@ from itertools import combinations, pairwise
 
 from benchmarks.study.tables import differences, markdown, over_seeds, percent, rises, surface_of
 from benchmarks.study.tasks import (
-    FLEETS,
-    GREEDY,
-    MIXED,
-    NOBODY,
-    POLICIES,
-    SAMPLED,
-    SINGLE,
-    Planned,
-    TripRow,
+    FLEETS, GREEDY, MIXED, NOBODY, POLICIES, SAMPLED, SINGLE, Planned, TripRow,
 )
 
 TABLE_OF_SIZE = {25: 3, 50: 4, 100: 5}

@@ -7,16 +7,7 @@ from typing import Any
 
 from benchmarks.study.printed import GroupRow, printed_rows
 from benchmarks.study.tasks import (
-    DRONES,
-    FLEETS,
-    MIXED,
-    NOBODY,
-    SAMPLED,
-    SINGLE,
-    SPEEDS,
-    WINDOWS,
-    Planned,
-    TripRow,
+    DRONES, FLEETS, MIXED, NOBODY, SAMPLED, SINGLE, SPEEDS, WINDOWS, Planned, TripRow,
 )
 
 Lines = list[str]

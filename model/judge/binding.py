@@ -22,14 +22,7 @@ from model.judge.places import Place
 from model.judge.rules import airborne_duration
 from model.judge.screening import Screen
 from model.problem import (
-    MAX_POWER,
-    MAX_QUANTITY,
-    MICROJOULES_PER_WH,
-    MM_PER_KM,
-    UNLIMITED,
-    DroneType,
-    Energy,
-    Problem,
+    MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
     VehicleType,
 )
 from model.solution import Sortie, Trip

@@ -11,11 +11,7 @@ from operator import attrgetter
 from types import MappingProxyType
 
 from model.judge.metrics import (
-    RouteMetrics,
-    flight_legs,
-    measure_route,
-    measure_trip,
-    unassigned_cost,
+    RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
 )
 from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
 from model.judge.past_rules import begins_with, past_violations

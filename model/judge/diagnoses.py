@@ -14,15 +14,8 @@ from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts
 from model.problem import (
-    MAX_BATTERY,
-    MAX_QUANTITY,
-    MICROJOULES_PER_WH,
-    MM_PER_KM,
-    UNLIMITED,
-    DroneType,
-    Overtime,
-    Problem,
-    VehicleType,
+    MAX_BATTERY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Overtime,
+    Problem, VehicleType,
 )
 from model.solution import Stop, Visit
 

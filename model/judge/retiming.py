@@ -13,12 +13,7 @@ from model.judge.clock import closing
 from model.judge.past import KnownTrip, Past, Vehicle
 from model.judge.places import halts
 from model.judge.timing import (
-    RouteDecision,
-    TripDecision,
-    latest_release,
-    read_decision,
-    resume_trip,
-    schedule_trip,
+    RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
 )
 from model.problem import Problem, VehicleType
 from model.solution import Route, Trip

@@ -10,12 +10,7 @@ from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
-    MICROJOULES_PER_WH,
-    UNLIMITED,
-    USUAL_DECIMALS,
-    DroneType,
-    Problem,
-    VehicleType,
+    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType,
 )
 from model.solution import Sortie, Stop, Trip, Visit
 

@@ -8,12 +8,7 @@ from itertools import pairwise
 
 from model.judge.clock import opening
 from model.judge.energy import (
-    Rest,
-    charge_after,
-    flight_energy,
-    least_energy,
-    longest_hold,
-    time_charged,
+    Rest, charge_after, flight_energy, least_energy, longest_hold, time_charged,
 )
 from model.problem import DroneType, Problem
 from model.solution import Visit

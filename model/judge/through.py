@@ -18,14 +18,7 @@ from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, time_route
 from model.judge.rules import decimal
 from model.judge.timing import RouteDecision, TripDecision
-from model.problem import (
-    MAX_QUANTITY,
-    MM_PER_KM,
-    UNLIMITED,
-    BoolArray,
-    Problem,
-    VehicleType,
-)
+from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Problem, VehicleType
 
 MOST_CUSTOMERS = 250
 """Among so many customers ways through others are looked for."""

@@ -10,38 +10,18 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from model.engine.library import dtype_of
-from model.kernel.asked import (
-    goods_rows,
-    has_setups,
-    most_asked_for,
-    setup_rows,
-    weight_rows,
-)
+from model.kernel.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
 from model.kernel.battery_rows import battery_row, full_row, powers_row
 from model.kernel.drone_types import NO_ROW, all_kinds
 from model.kernel.nearest import write_nearest
 from model.kernel.pausing import Pause, go_on
 from model.kernel.records import Records
 from model.kernel.variants import (
-    Variant,
-    Way,
-    durations_of,
-    index_of,
-    variant_of,
-    ways_of,
-    write_legs,
+    Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
 )
 from model.problem import (
-    MAX_DIMENSIONS,
-    MS_PER_HOUR,
-    UNLIMITED,
-    BoolArray,
-    Customer,
-    DroneType,
-    FloatArray,
-    IntArray,
-    Problem,
-    VehicleType,
+    MAX_DIMENSIONS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray, IntArray,
+    Problem, VehicleType,
 )
 
 DIMENSIONS_PER_TIER = 3

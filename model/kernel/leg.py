@@ -2,6 +2,7 @@
 
 from typing import NamedTuple
 
+
 from model.kernel.records import Records
 from model.problem import Int32Array, IntArray
 

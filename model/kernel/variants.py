@@ -13,6 +13,7 @@ from model.kernel.records import Records
 from model.problem import DroneType, IntArray, Problem, VehicleType
 from model.problem.quantities import LONGEST_NARROW
 
+
 Variant = tuple[bytes, int | None]
 """How long service at each customer takes; for drones that a battery limits, which dimension of
 load weighs."""

@@ -12,8 +12,8 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import pad, silu
 
-from model.policy.decision_features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy.network import MASKED, take
+from model.policy.decision_features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy.problem_features import NUM_NODE_FEATURES, NUM_PAIR_FEATURES, NUM_TYPE_FEATURES
 
 

@@ -19,14 +19,7 @@ from model.kernel.instance import Instance
 from model.policy.decision_features import Observation, Rollouts, Scene
 from model.policy.problem_features import Float32Array, Tokens, scales, tokens
 from model.policy.rolling import (
-    NOTHING,
-    STEP_WEIGHTS,
-    Rollout,
-    StepWeights,
-    cost_of,
-    read_weights,
-    roll_out,
-    roll_out_views,
+    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out, roll_out_views,
 )
 from model.policy.route_pool import RoutePool
 from model.problem import BoolArray, IntArray, Problem

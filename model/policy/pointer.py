@@ -12,10 +12,9 @@ import torch
 from torch import Tensor, nn
 from torch.nn.functional import linear
 
-from model.policy.decision_features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy.network import MASKED, take
+from model.policy.decision_features import NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES
 from model.policy.problem_features import NUM_NODE_FEATURES, NUM_TYPE_FEATURES
-
 
 @dataclass(frozen=True)
 class PointerConfig:

@@ -15,10 +15,7 @@ from numpy.typing import NDArray
 from model.engine.library import call, packed
 from model.kernel.alarm import Alarm
 from model.policy.decision_features import (
-    NUM_ACTION_FEATURES,
-    NUM_GLOBAL_FEATURES,
-    Observation,
-    Scene,
+    NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, Scene,
 )
 from model.policy.keeping import MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep
 from model.policy.problem_features import Float32Array

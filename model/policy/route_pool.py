@@ -17,12 +17,12 @@ import numpy as np
 from model.engine.library import packed
 from model.kernel.alarm import Alarm, has_rung
 from model.kernel.instance import Instance
-from model.policy.keeping import serves, vehicles_nearby
 from model.policy.partition import cheapest_partition
+from model.policy.keeping import serves, vehicles_nearby
 from model.policy.rolling import NOTHING, Rollout
 from model.problem import BoolArray, FloatArray, IntArray
-from model.simulation.actions import NUM_KINDS, OPEN, price_routes, reset
 from model.simulation.state import by_term, empty_costs
+from model.simulation.actions import NUM_KINDS, OPEN, price_routes, reset
 
 REGION = 100
 """Customers whose routes are chosen together, at most: the time for more grows fast."""

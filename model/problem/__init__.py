@@ -1,32 +1,13 @@
 """What is to be planned, in integers."""
 
 from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
-from model.problem.energy import (
-    MAX_BATTERY,
-    MAX_POINTS,
-    MAX_POWER,
-    MICROJOULES_PER_WH,
-    Energy,
-)
+from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
 from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem
 from model.problem.quantities import (
-    FULL_SPEED,
-    MAX_DIMENSIONS,
-    MAX_MONEY,
-    MAX_QUANTITY,
-    MM_PER_KM,
-    MOST_INCOMPATIBLE,
-    MS_PER_HOUR,
-    UNLIMITED,
-    UNREACHABLE,
-    USUAL_DECIMALS,
-    BoolArray,
-    FloatArray,
-    Int32Array,
-    IntArray,
-    UIntArray,
+    FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
+    UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, Int32Array, IntArray, UIntArray,
 )
 from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel

@@ -9,13 +9,7 @@ import numpy as np
 from model.problem.customer import Customer, Depot, IncompatibleGoods
 from model.problem.fleet import VehicleType
 from model.problem.quantities import (
-    MAX_DIMENSIONS,
-    MOST_INCOMPATIBLE,
-    USUAL_DECIMALS,
-    BoolArray,
-    FloatArray,
-    require,
-    require_rate,
+    MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
 )
 from model.problem.travel import Travel
 

@@ -6,29 +6,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from model.problem.distances import (
-    EARTH_RADIUS_M,
-    EXACT,
-    MM_PER_M,
-    MS_PER_M_AT_1_KMH,
-    angle_between_two,
-    angles_between,
-    ceiled_ms,
-    one_ceiled_ms,
-    one_rounded_as,
-    one_rounded_mm,
-    rounded_as,
-    rounded_mm,
-    unit_vectors,
-    units_between,
-    units_between_two,
+    EARTH_RADIUS_M, EXACT, MM_PER_M, MS_PER_M_AT_1_KMH, angle_between_two, angles_between,
+    ceiled_ms, one_ceiled_ms, one_rounded_as, one_rounded_mm, rounded_as, rounded_mm, unit_vectors,
+    units_between, units_between_two,
 )
 from model.problem.quantities import (
-    MAX_QUANTITY,
-    UNREACHABLE,
-    BoolArray,
-    FloatArray,
-    IntArray,
-    require,
+    MAX_QUANTITY, UNREACHABLE, BoolArray, FloatArray, IntArray, require,
 )
 
 

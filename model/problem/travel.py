@@ -6,13 +6,7 @@ import numpy as np
 
 from model.problem.narrow import NarrowMatrix, narrowed
 from model.problem.quantities import (
-    LONGEST_NARROW,
-    MAX_QUANTITY,
-    NO_LEG,
-    UNREACHABLE,
-    Int32Array,
-    IntArray,
-    require,
+    LONGEST_NARROW, MAX_QUANTITY, NO_LEG, UNREACHABLE, Int32Array, IntArray, require,
 )
 from model.problem.straight import StraightLegs, StraightMatrix
 

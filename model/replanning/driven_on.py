@@ -12,12 +12,7 @@ from model.judge.ends import with_ends
 from model.judge.past import Past, Vehicle
 from model.judge.retiming import time_route
 from model.judge.timing import (
-    RouteDecision,
-    TripDecision,
-    latest_release,
-    read_decision,
-    resume_trip,
-    schedule_trip,
+    RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
 )
 from model.problem import Problem, VehicleType
 from model.replanning.amend import Broken, broken_by, customers_of, repaired, without

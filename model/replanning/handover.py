@@ -9,11 +9,7 @@ from itertools import count
 from model.judge.ends import with_ends
 from model.judge.past import Past, Vehicle
 from model.judge.timing import (
-    RouteDecision,
-    TripDecision,
-    latest_release,
-    read_decision,
-    schedule_trip,
+    RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
 )
 from model.problem import Problem
 from model.replanning.amend import customers_of, repaired_route, without

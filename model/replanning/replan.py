@@ -12,14 +12,7 @@ from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.judge.rules import Violation
 from model.planner import (
-    ALONE,
-    Elapsed,
-    Listener,
-    PlanCheckError,
-    Planner,
-    PlanOptions,
-    PlanResult,
-    Progress,
+    ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult, Progress,
     complete_plan,
 )
 from model.problem import Problem

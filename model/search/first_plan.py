@@ -3,8 +3,8 @@
 from model.problem import Problem
 from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.savings import by_nearest, cost_by_savings, savings_routes
-from model.search.problem_data import are_alike, from_one_place, may_be_turned
 from model.search.route.layout import ProblemData
+from model.search.problem_data import are_alike, from_one_place, may_be_turned
 from model.solution import Route, Solution, Stop, Trip
 
 

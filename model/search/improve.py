@@ -16,24 +16,19 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
-from model.search.limits import WHOLE, Limits, Span
+from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.linked.engine import measure_near
 from model.search.linked.layout import Linked, make_linked
-from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
-from model.search.problem_data import (
-    ALL_MOVES,
-    Moves,
-    are_timed,
-    can_be_linked,
-    make_data,
-    only_loads_limit,
-)
+from model.search.limits import WHOLE, Limits, Span
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
 from model.search.temperature import Heat
 from model.search.worker import Worker
+from model.search.problem_data import (
+    ALL_MOVES, Moves, are_timed, can_be_linked, make_data, only_loads_limit,
+)
 from model.solution import Solution, renumbered, renumbered_routes
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15

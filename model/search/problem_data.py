@@ -10,27 +10,12 @@ from model.kernel.drone_types import all_kinds, any_aboard
 from model.kernel.instance import FAR, NO_PROFILE, Instance
 from model.kernel.leg import LEG_DURATION, ComputedLegs, are_the_same_back
 from model.kernel.records import Records
-from model.problem import (
-    MM_PER_KM,
-    MS_PER_HOUR,
-    UNLIMITED,
-    BoolArray,
-    IntArray,
-    Problem,
-)
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import (
-    MODE_APART,
-    MODE_LEAN,
-    MODE_LOADED,
-    MODE_PRICED,
-    MODE_RETIMED,
-    MODE_SETTLED,
-    MODE_SIMPLE,
-    MODE_TIMED,
-    MOST_VISITS,
-    ProblemData,
+    MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
+    MODE_TIMED, MOST_VISITS, ProblemData,
 )
 
 SCAN_ALL_BELOW = 400

@@ -3,10 +3,10 @@
 import math
 from dataclasses import dataclass
 
-from model.search.problem_data import are_alike, only_loads_limit
 from model.search.route.engine import leg_cost, missing_cost
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
+from model.search.problem_data import are_alike, only_loads_limit
 
 HOT, COLD = 1.0, 0.1
 """First temperature by what a customer costs, last by what a leg between customers does."""

@@ -11,14 +11,7 @@ import numpy as np
 
 from model.judge.network import Network
 from model.problem import (
-    MAX_QUANTITY,
-    MM_PER_KM,
-    MS_PER_HOUR,
-    BoolArray,
-    Customer,
-    Overtime,
-    Problem,
-    Travel,
+    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, BoolArray, Customer, Overtime, Problem, Travel,
     VehicleType,
 )
 from model.together.joint import Joint

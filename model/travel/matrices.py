@@ -8,21 +8,9 @@ from pyproj import Proj
 
 from model.kernel.pausing import Pause, go_on, matrix_blocks
 from model.problem import (
-    FULL_SPEED,
-    MAX_QUANTITY,
-    UNREACHABLE,
-    FloatArray,
-    IntArray,
-    Points,
-    SpeedProfile,
-    Travel,
+    FULL_SPEED, MAX_QUANTITY, UNREACHABLE, FloatArray, IntArray, Points, SpeedProfile, Travel,
 )
-from model.problem.distances import (
-    EARTH_RADIUS_M,
-    MS_PER_M_AT_1_KMH,
-    ceiled_ms,
-    rounded_mm,
-)
+from model.problem.distances import EARTH_RADIUS_M, MS_PER_M_AT_1_KMH, ceiled_ms, rounded_mm
 from model.problem.narrow import NarrowMatrix, narrowed
 
 _EMBEDDING_RANK = 10

@@ -14,14 +14,7 @@ from sqlalchemy import text
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner, opened, ready, serving
 from tests.app.dispatches.days import (
-    DEPART,
-    FIRST,
-    LAUNCH,
-    PLAN,
-    PROBLEM,
-    dispatched,
-    event,
-    holding,
+    DEPART, FIRST, LAUNCH, PLAN, PROBLEM, dispatched, event, holding,
 )
 from tests.console.steps import open_example, open_tab
 from tests.console.test_everyone import findings

@@ -7,14 +7,7 @@ from collections.abc import Callable
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import (
-    EXAMPLES,
-    idle,
-    open_example,
-    open_file,
-    open_tab,
-    place_of,
-    planned,
-    state,
+    EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
 
 UNSERVABLE = {

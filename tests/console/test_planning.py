@@ -8,13 +8,7 @@ import pytest
 from playwright.sync_api import Page, Route, expect
 
 from tests.console.steps import (
-    idle,
-    let_search,
-    open_advanced,
-    open_file,
-    open_tab,
-    state,
-    stop_button,
+    idle, let_search, open_advanced, open_file, open_tab, state, stop_button,
 )
 
 

@@ -7,16 +7,8 @@ from collections.abc import Callable
 from playwright.sync_api import Locator, Page, expect
 
 from tests.console.steps import (
-    EXAMPLES,
-    idle,
-    open_example,
-    open_file,
-    open_tab,
-    place_of,
-    planned,
-    state,
+    EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
-
 
 def test_problem_is_opened_from_a_file(console: Page) -> None:
     open_file(console, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
+
 APPLY = """async (request) => {
   const { applyRemedy } = await import(`${modules}/core/remedies.js`);
   const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),

@@ -6,15 +6,7 @@ from typing import Any
 
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import (
-    idle,
-    open_advanced,
-    open_file,
-    open_tab,
-    place_of,
-    planned,
-    state,
-)
+from tests.console.steps import idle, open_advanced, open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 
 # Three customers east and three west of the hub, 5 km apart, a minute each kilometre; windows

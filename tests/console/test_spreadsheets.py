@@ -6,15 +6,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Page, expect
 
-from tests.console.spreadsheets import (
-    CSV,
-    HEAD,
-    MUNICH,
-    ROWS,
-    SPREADSHEETS,
-    Spreadsheet,
-    book,
-)
+from tests.console.spreadsheets import CSV, HEAD, MUNICH, ROWS, SPREADSHEETS, Spreadsheet, book
 from tests.console.steps import open_file, state
 from tests.console.test_importing import dialog, read_anew, use
 

@@ -5,13 +5,7 @@ import json
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import (
-    EXAMPLES,
-    open_example,
-    open_file,
-    open_tab,
-    place_of,
-    planned,
-    state,
+    EXAMPLES, open_example, open_file, open_tab, place_of, planned, state,
 )
 from tests.console.test_everyone import findings
 from tests.console.test_looking import UNSERVABLE

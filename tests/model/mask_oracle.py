@@ -14,11 +14,7 @@ from model.judge.freshness import most_excess
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff
-from model.judge.timing import (
-    Operation,
-    latest_release,
-    schedule_trip,
-)
+from model.judge.timing import Operation, latest_release, schedule_trip
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Stop, Trip, Visit

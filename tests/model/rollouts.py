@@ -9,17 +9,8 @@ from model.kernel.instance import Instance, pack
 from model.policy import problem_features
 from model.policy.decision_features import Rollouts, Scene
 from model.problem import (
-    UNLIMITED,
-    UNREACHABLE,
-    Customer,
-    DroneType,
-    Energy,
-    FloatArray,
-    Overtime,
-    Problem,
-    SpeedProfile,
-    Travel,
-    VehicleType,
+    UNLIMITED, UNREACHABLE, Customer, DroneType, Energy, FloatArray, Overtime, Problem,
+    SpeedProfile, Travel, VehicleType,
 )
 from model.simulation.actions import NUM_KINDS, RETURN, legal_actions
 from model.simulation.state import State, by_term, empty_outlooks

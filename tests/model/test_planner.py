@@ -11,14 +11,7 @@ from model.judge import memory
 from model.judge.check import JudgedRoute, check, judge_route
 from model.judge.past import Past
 from model.judge.rules import Violation
-from model.planner import (
-    Listener,
-    PlanCheckError,
-    Planner,
-    PlanOptions,
-    PlanResult,
-    load_planner,
-)
+from model.planner import Listener, Planner, PlanCheckError, PlanOptions, PlanResult, load_planner
 from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Route

@@ -6,20 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED,
-    MM_PER_KM,
-    UNLIMITED,
-    UNREACHABLE,
-    Customer,
-    Depot,
-    DroneType,
-    Energy,
-    IncompatibleGoods,
-    Overtime,
-    Problem,
-    SpeedProfile,
-    Travel,
-    VehicleType,
+    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Energy,
+    IncompatibleGoods, Overtime, Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.travel.matrices import with_nowhere
 

@@ -7,17 +7,10 @@ import pytest
 
 from model.judge.check import check
 from model.problem import IntArray, Problem
-from model.simulation.actions import NUM_KINDS, OPEN
 from model.simulation.extract import extract
+from model.simulation.actions import NUM_KINDS, OPEN
 from training.completion import (
-    Setting,
-    can_complete,
-    complete,
-    cost_of,
-    is_cut,
-    open_type,
-    to_actions,
-    to_routes,
+    Setting, can_complete, complete, cost_of, is_cut, open_type, to_actions, to_routes,
     what_is_left,
 )
 from training.export import WEIGHTS

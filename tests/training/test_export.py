@@ -12,16 +12,10 @@ import torch
 
 from model.policy.decision_features import empty_observation
 from model.policy.rolling import (
-    ACTION_WIDTH,
-    CLIP,
-    SHAPES,
-    SHARE,
-    STEP_WEIGHTS,
-    candidate_scores,
-    read_weights,
+    ACTION_WIDTH, CLIP, SHAPES, SHARE, STEP_WEIGHTS, candidate_scores, read_weights,
 )
-from tests.conftest import made_once
 from training.export import WEIGHTS, Encoder, Step, example_inputs, export
+from tests.conftest import made_once
 from training.policies import POLICIES
 
 STEP_INPUTS = ("here", "candidate", "feature", "allowed", "glob", "hidden")

@@ -11,15 +11,7 @@ from training.examples import make_lesson
 from training.export import WEIGHTS
 from training.judged import JudgedConfig, Run, compare, learn, logits_of, right_order, train
 from training.labels import (
-    NEWEST,
-    Actor,
-    Labelled,
-    Origin,
-    label,
-    label_by_trials,
-    read,
-    read_policy,
-    write,
+    NEWEST, Actor, Labelled, Origin, label, label_by_trials, read, read_policy, write,
 )
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"

@@ -10,30 +10,14 @@ import torch
 from model.policy.attention import AttentionConfig, AttentionPolicy
 from model.simulation.actions import LAUNCH, NUM_KINDS, OPEN, RETURN
 from training.completion import (
-    Setting,
-    complete,
-    cost_of,
-    open_type,
-    to_actions,
-    to_routes,
-    what_is_left,
+    Setting, complete, cost_of, open_type, to_actions, to_routes, what_is_left,
 )
 from training.deviations import go_on
 from training.examples import make_lesson, places
 from training.judge import LEAST_RISE, PATH
 from training.judged import Buffer
 from training.labels import (
-    NONE,
-    Actor,
-    Labelled,
-    Origin,
-    Pair,
-    draw_origin,
-    label,
-    label_by_trials,
-    main,
-    read,
-    write,
+    Labelled, Origin, Pair, draw_origin, label, label_by_trials, main, read, write, Actor, NONE,
 )
 from training.rollout import Simulation, make_batch
 

@@ -14,12 +14,7 @@ from model.simulation.state import empty_costs
 from training.dataset import Decisions, chunks, join, paths
 from training.instances import VARIANTS, generate
 from training.learn import (
-    critic_advantage,
-    critic_step,
-    draw_weights,
-    policy_gradient,
-    shared_advantage,
-    training_costs,
+    critic_advantage, critic_step, draw_weights, policy_gradient, shared_advantage, training_costs,
 )
 from training.policies import AnyPolicy
 from training.rollout import Batch, Outcome, greedy, make_batch, roll_out, sampler

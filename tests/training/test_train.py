@@ -10,8 +10,8 @@ from pathlib import Path
 
 import pytest
 import torch
-
 from tests.conftest import eventually
+
 from training.config import TrainConfig
 from training.heuristics import nearest_neighbour
 from training.policies import POLICIES, widened

@@ -17,26 +17,11 @@ from model.dialects.vroom.places import NOWHERE, Places
 from model.dialects.vroom.request import Job, Request, Window
 from model.dialects.vroom.timing import NO_WAY, TIME_SCALE
 from model.dialects.vroom.work import (
-    UNHURRIED,
-    LegLimit,
-    Pause,
-    Preparing,
-    attempt_seconds,
-    model_seconds,
+    UNHURRIED, LegLimit, Pause, Preparing, attempt_seconds, model_seconds,
 )
 from model.problem import (
-    MAX_QUANTITY,
-    MM_PER_KM,
-    MS_PER_HOUR,
-    UNLIMITED,
-    BoolArray,
-    Customer,
-    Depot,
-    FloatArray,
-    IntArray,
-    Problem,
-    Travel,
-    VehicleType,
+    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, Depot, FloatArray,
+    IntArray, Problem, Travel, VehicleType,
 )
 
 EARLIER = 2 * 10**8

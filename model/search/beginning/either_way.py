@@ -10,12 +10,7 @@ import numpy as np
 from model.engine.library import call
 from model.kernel.records import Records
 from model.search.beginning.savings import (
-    cargo_of,
-    chains_of,
-    cost_of,
-    joined,
-    ranked_pairs,
-    routes_of,
+    cargo_of, chains_of, cost_of, joined, ranked_pairs, routes_of,
 )
 from model.search.route.layout import NOWHERE, ProblemData
 

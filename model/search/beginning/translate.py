@@ -12,14 +12,7 @@ from model.kernel.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
 from model.search.route.engine import AT_ONE_STOP, INFEASIBLE
 from model.search.route.layout import (
-    CUSTOMER,
-    END,
-    MOST_VISITS,
-    NOWHERE,
-    START,
-    Fleet,
-    ProblemData,
-    empty_fleet,
+    CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
 from model.search.route.state import Searcher
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit

@@ -14,11 +14,7 @@ import pytest
 from app.addresses.addresses import Addresses
 from app.addresses.caching import AnswerCache
 from app.addresses.geocoder import (
-    Candidates,
-    GeocoderAnswerError,
-    GeocoderError,
-    GeocoderStoppedError,
-    GeocoderUnavailableError,
+    Candidates, GeocoderAnswerError, GeocoderError, GeocoderStoppedError, GeocoderUnavailableError,
     Told,
 )
 from app.addresses.server import GeocodingServer, ServerKind

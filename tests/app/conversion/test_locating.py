@@ -8,10 +8,7 @@ from pydantic_core import to_json
 
 from app.addresses.addresses import Addresses
 from app.addresses.geocoder import (
-    Candidates,
-    GeocoderError,
-    GeocoderStoppedError,
-    GeocoderUnavailableError,
+    Candidates, GeocoderError, GeocoderStoppedError, GeocoderUnavailableError,
 )
 from app.conversion.preparing import Preparing, StoppedError
 from app.errors import InvalidRequestError, NoGeocoderError

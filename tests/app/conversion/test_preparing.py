@@ -12,12 +12,7 @@ import httpx
 import pytest
 
 from app.conversion import ground, travels, work
-from app.conversion.preparing import (
-    PATIENCE,
-    PATIENCE_WITH_OTHERS,
-    Preparing,
-    StoppedError,
-)
+from app.conversion.preparing import PATIENCE, PATIENCE_WITH_OTHERS, Preparing, StoppedError
 from app.errors import InvalidRequestError
 from app.jobs.reading import JobReader
 from app.plans.service import preparing

@@ -13,21 +13,8 @@ from app.dispatches.schemas import DispatchRequest, GoingOnReply
 from app.dispatches.standing import Told
 from app.dispatches.steps import StepMaker
 from tests.app.dispatches.days import (
-    DEPART,
-    DOOR,
-    FIRST,
-    LAUNCH,
-    NEXT_DOOR,
-    PLAN,
-    PROBLEM,
-    RECOVER,
-    RETURN,
-    SECOND,
-    Data,
-    dispatched,
-    event,
-    holding,
-    token_of,
+    DEPART, DOOR, FIRST, LAUNCH, NEXT_DOOR, PLAN, PROBLEM, RECOVER, RETURN, SECOND, Data,
+    dispatched, event, holding, token_of,
 )
 
 REQUEST = DispatchRequest.model_validate({"problem": PROBLEM, "plan": PLAN}, strict=False)

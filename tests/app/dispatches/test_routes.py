@@ -18,20 +18,8 @@ from app.dispatches.store import delete_expired, now_ms
 from app.settings import Settings
 from tests.app.conftest import FirstFitPlanner, opened, ready, serving
 from tests.app.dispatches.days import (
-    ADDRESS,
-    DEPART,
-    DOOR,
-    FIRST,
-    LAUNCH,
-    PHONE,
-    PLAN,
-    PROBLEM,
-    SECOND,
-    Data,
-    dispatched,
-    event,
-    holding,
-    token_of,
+    ADDRESS, DEPART, DOOR, FIRST, LAUNCH, PHONE, PLAN, PROBLEM, SECOND, Data, dispatched, event,
+    holding, token_of,
 )
 from tests.conftest import eventually
 

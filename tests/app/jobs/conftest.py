@@ -15,8 +15,8 @@ import pytest
 import uvicorn
 from sqlalchemy import create_engine, text
 
-from app.jobs import planning, studies, webhook
 from app.main import create_app
+from app.jobs import planning, studies, webhook
 from app.settings import Settings
 from tests.app.jobs.stepping import SteppingPlanner
 from tests.conftest import eventually, free_port

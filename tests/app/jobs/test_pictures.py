@@ -5,14 +5,7 @@ import xml.etree.ElementTree as ElementTree
 
 import httpx
 
-from tests.app.jobs.stepping import (
-    NUM_CUSTOMERS,
-    RAISING_SEED,
-    ended,
-    read,
-    request_of,
-    submit,
-)
+from tests.app.jobs.stepping import NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit
 from tests.conftest import eventually
 
 

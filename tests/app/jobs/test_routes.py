@@ -14,13 +14,7 @@ from standardwebhooks import Webhook
 
 from app.jobs.schemas import JobListReply, JobReply, ProgressEvent
 from tests.app.jobs.stepping import (
-    BROKEN_SEED,
-    NUM_CUSTOMERS,
-    RAISING_SEED,
-    ended,
-    read,
-    request_of,
-    submit,
+    BROKEN_SEED, NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
 from tests.conftest import eventually
 

@@ -6,14 +6,7 @@ import httpx
 import pytest
 
 from app.jobs.schemas import CompareReply, JobReply, SweepReply
-from tests.app.jobs.stepping import (
-    NUM_CUSTOMERS,
-    RAISING_SEED,
-    ended,
-    read,
-    request_of,
-    submit,
-)
+from tests.app.jobs.stepping import NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit
 from tests.app.jobs.test_routes import errors_of
 from tests.conftest import eventually
 

@@ -11,12 +11,7 @@ from pydantic import SecretStr, ValidationError
 from app.errors import InvalidRequestError
 from app.jobs.addresses import is_public
 from app.jobs.webhook import (
-    MAX_FAILURES,
-    Caller,
-    UnreachableError,
-    check_url,
-    may_call_private,
-    wait_after,
+    MAX_FAILURES, Caller, UnreachableError, check_url, may_call_private, wait_after,
 )
 from app.settings import Settings
 from tests.app.jobs.receiving import Receiver, drip

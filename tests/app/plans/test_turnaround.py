@@ -4,7 +4,6 @@ from typing import Any
 
 import httpx
 import pytest
-
 from tests.app.plans.asking import planned
 
 Request = dict[str, Any]

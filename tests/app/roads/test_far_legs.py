@@ -15,9 +15,9 @@ from app.errors import NoRoadsError
 from app.plans import far_plans
 from app.plans.service import plan_options
 from app.plans.task import Task, task_of
-from app.remote.asking import ShouldStop
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
+from app.remote.asking import ShouldStop
 from app.roads import nearness
 from app.roads.engine import Block, RoadRoute, RoadsUnavailableError, RoadTable, whole
 from app.roads.roads import Roads

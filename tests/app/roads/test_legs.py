@@ -11,15 +11,11 @@ import pytest
 from app.conversion.preparing import Preparing, StoppedError
 from app.errors import InvalidRequestError, NoRoadsError
 from app.plans.task import Task, task_of
-from app.remote.asking import ShouldStop
 from app.requests.bounds import Bounds, leg_errors
 from app.requests.reading import read_request
+from app.remote.asking import ShouldStop
 from app.roads.engine import (
-    Block,
-    RoadsAnswerError,
-    RoadsStoppedError,
-    RoadsUnavailableError,
-    RoadTable,
+    Block, RoadsAnswerError, RoadsStoppedError, RoadsUnavailableError, RoadTable,
 )
 from app.roads.roads import Roads
 from model.problem import UNREACHABLE, FloatArray

@@ -11,13 +11,7 @@ import numpy as np
 import polyline
 import pytest
 
-from app.roads.engine import (
-    Block,
-    NoWayError,
-    RoadsAnswerError,
-    RoadsUnavailableError,
-    RoadTable,
-)
+from app.roads.engine import Block, NoWayError, RoadsAnswerError, RoadsUnavailableError, RoadTable
 from app.roads.osrm import Osrm
 from app.roads.server import RoadServer
 from model.problem import FloatArray

@@ -13,14 +13,7 @@ from app.roads import osrm_tables
 from app.roads.answers import Part
 from app.roads.engine import RoadsAnswerError, RoadTable
 from app.roads.osrm import Osrm
-from app.roads.osrm_tables import (
-    Asked,
-    TableForm,
-    floats,
-    in_floats,
-    in_json,
-    quickest,
-)
+from app.roads.osrm_tables import Asked, TableForm, floats, in_floats, in_json, quickest
 from app.roads.server import RoadServer
 from model.problem import FloatArray
 from tests.app.roads.conftest import Places

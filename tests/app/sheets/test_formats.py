@@ -1,9 +1,9 @@
 """Files that are no workbooks and no CSV, and such as a program cut or shortened."""
 
 import json
+from zipfile import ZipFile
 from io import BytesIO
 from typing import Any
-from zipfile import ZipFile
 
 import pytest
 

@@ -7,13 +7,7 @@ import pytest
 
 from benchmarks.peers.answers import judge
 from benchmarks.peers.published import (
-    NO_LIMIT,
-    Published,
-    published_set,
-    read_published,
-    read_routes,
-    routes_of_types,
-    to_problem,
+    NO_LIMIT, Published, published_set, read_published, read_routes, routes_of_types, to_problem,
 )
 from model.problem import UNLIMITED
 

@@ -9,15 +9,7 @@ import pytest
 
 from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.peers.vroom_requests import (
-    CLASSES,
-    by_tandem,
-    by_vroom,
-    compare,
-    cvrp,
-    priorities,
-    setups,
-    skills,
-    windows,
+    CLASSES, by_tandem, by_vroom, compare, cvrp, priorities, setups, skills, windows,
 )
 from model.planner import Planner, load_planner
 from tests.app.vroom.judge import judge

@@ -8,19 +8,8 @@ import pytest
 
 from app.settings import DEFAULT_POLICY, Settings
 from benchmarks.quality.ablation import (
-    BEST_SECONDS,
-    MOVES,
-    MOVES_SECONDS,
-    Sample,
-    Trial,
-    Way,
-    measure,
-    sample,
-    table_of_moves,
-    table_of_pairs,
-    table_of_starts,
-    trial,
-    ways,
+    BEST_SECONDS, MOVES, MOVES_SECONDS, Sample, Trial, Way, measure, sample, table_of_moves,
+    table_of_pairs, table_of_starts, trial, ways,
 )
 from benchmarks.rows import append_rows, read_rows
 from model.planner import PlanCheckError

@@ -6,13 +6,8 @@ from pathlib import Path
 import pytest
 
 from benchmarks.quality.truck_drone import (
-    UNIT,
-    load_fstsp_murray_chu,
-    load_hvdrp_karak,
-    load_tspd_agatz,
-    load_tspd_bogyrbayeva,
-    load_vrpd_sacramento,
-    load_vrptw_drone_joo_lee,
+    UNIT, load_fstsp_murray_chu, load_hvdrp_karak, load_tspd_agatz, load_tspd_bogyrbayeva,
+    load_vrpd_sacramento, load_vrptw_drone_joo_lee,
 )
 from benchmarks.quality.truck_drone_rules import CROSSINGS, LOOPS
 from model.judge.check import Evaluation, check

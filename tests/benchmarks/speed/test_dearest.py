@@ -21,15 +21,7 @@ from app.requests.reading import read_request
 from app.schemas.request import PlanRequest
 from app.vroom.schemas import VroomRequest
 from benchmarks.speed.dear_requests import (
-    KINDS,
-    LARGEST,
-    PLAN,
-    Genes,
-    changed_genes,
-    gene,
-    mixed_genes,
-    random_genes,
-    request_of,
+    KINDS, LARGEST, PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
 from benchmarks.speed.dearest import Asker, Companion, Search, main
 

@@ -15,17 +15,7 @@ from benchmarks.study.printed import broken_rules, groups, measured, printed_row
 from benchmarks.study.report import write_report
 from benchmarks.study.tables import against_table, hours_table, rises, turns_table
 from benchmarks.study.tasks import (
-    FULL,
-    GREEDY,
-    MIXED,
-    NOBODY,
-    QUICK,
-    SINGLE,
-    Planned,
-    Scale,
-    Task,
-    TripRow,
-    all_tasks,
+    FULL, GREEDY, MIXED, NOBODY, QUICK, SINGLE, Planned, Scale, Task, TripRow, all_tasks,
 )
 
 TINY = Scale(sizes=(25,), cases=2, seeds=1, table1_turns=(5, 20), table1_seeds=1,

@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 
 from model.engine.header import dtype_of
-from model.judge.check import check
-from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.kernel.instance import DIMENSIONS_PER_TIER, pack
 from model.kernel.records import Record, Records
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import IntArray, Problem
 from model.solution import Solution
 from tests.engine.rules.asking import asked

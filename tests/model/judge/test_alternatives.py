@@ -11,12 +11,7 @@ from model.judge.screening import Screen
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
 from tests.model.tiny import (
-    draw_tiny,
-    with_gaps,
-    with_limits_aboard,
-    with_own_costs,
-    with_setups,
-    with_table,
+    draw_tiny, with_gaps, with_limits_aboard, with_own_costs, with_setups, with_table,
 )
 
 MINUTE = 60_000

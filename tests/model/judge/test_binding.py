@@ -10,7 +10,7 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision
 from model.problem import MICROJOULES_PER_WH, Energy, IncompatibleGoods, Overtime
 from model.solution import Solution, Trip
-from tests.model.judge.test_alternatives import MINUTE, A, B, C, D, greedy, plan, route
+from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
 
 

@@ -6,13 +6,7 @@ import pytest
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MAX_MONEY,
-    MAX_QUANTITY,
-    UNREACHABLE,
-    IncompatibleGoods,
-    Overtime,
-    SpeedProfile,
-    Travel,
+    MAX_MONEY, MAX_QUANTITY, UNREACHABLE, IncompatibleGoods, Overtime, SpeedProfile, Travel,
 )
 from model.solution import Solution
 from tests.model.remedies import applied

@@ -19,9 +19,9 @@ from model.search.beginning.construct import begin_anew, insert_missing
 from model.search.beginning.translate import make_searcher
 from model.search.first_plan import first_plan
 from model.search.improve import Improved, SearchConfig, improve
-from model.search.problem_data import make_data
 from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.state import Searcher
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.conftest import soon
 from tests.model.search.found import read_plan

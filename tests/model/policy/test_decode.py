@@ -15,15 +15,7 @@ from model.kernel.alarm import Alarm
 from model.kernel.instance import pack
 from model.policy import rolling
 from model.policy.decode import (
-    BLOCK,
-    SYMMETRIES,
-    DecodeConfig,
-    Policy,
-    decode,
-    disturbed,
-    encode,
-    load_policy,
-    prepare,
+    BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,
 )
 from model.policy.network import MASKED
 from model.policy.rolling import CLIP, NOTHING, choose

@@ -8,11 +8,7 @@ import pytest
 
 from model.kernel.instance import pack
 from model.policy.decision_features import (
-    ACTION,
-    NUM_ACTION_FEATURES,
-    VEHICLE_STATE,
-    Rollouts,
-    Scene,
+    ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, Rollouts, Scene,
 )
 from model.policy.problem_features import NODE, TYPE, Float32Array, Tokens, scales, tokens
 from model.problem import IncompatibleGoods, Overtime, Problem

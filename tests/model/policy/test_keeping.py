@@ -4,12 +4,7 @@ import numpy as np
 import pytest
 
 from model.kernel.instance import pack
-from model.policy.keeping import (
-    LEAST_ANEW,
-    MOST_ANEW,
-    MOST_ANEW_GREEDILY,
-    part_to_keep,
-)
+from model.policy.keeping import LEAST_ANEW, MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep
 from model.problem import IntArray
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset
 from tests.model.rollouts import legal, random_problems, roll

@@ -10,11 +10,11 @@ from model.judge.check import check
 from model.kernel.alarm import Alarm
 from model.kernel.instance import pack
 from model.policy import route_pool
-from model.policy.rolling import NOTHING, Rollout
 from model.policy.route_pool import RoutePool
+from model.policy.rolling import NOTHING, Rollout
 from model.problem import IntArray, Problem
-from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN
 from model.simulation.extract import extract
+from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN
 from tests.model.rollouts import random_problems, roll
 
 

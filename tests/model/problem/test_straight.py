@@ -8,21 +8,10 @@ import pytest
 
 from model.problem import UNREACHABLE, FloatArray, Points, StraightLegs, Travel
 from model.problem.distances import (
-    DIMACS,
-    EARTH_RADIUS_M,
-    EXACT,
-    ROUND,
-    THOUSANDTHS,
-    TRUNC,
-    ceiled_ms,
-    rounded_as,
+    DIMACS, EARTH_RADIUS_M, EXACT, ROUND, THOUSANDTHS, TRUNC, ceiled_ms, rounded_as,
 )
 from model.travel.matrices import (
-    longer_legs,
-    planar_distances,
-    straight_distances,
-    truck_travel,
-    with_nowhere,
+    longer_legs, planar_distances, straight_distances, truck_travel, with_nowhere,
 )
 
 COUNT = 40

@@ -11,18 +11,7 @@ from model.problem import DroneType, Problem
 from model.replanning.replan import Replanning, Terms
 from model.solution import Solution
 from tests.model.street import (
-    MINUTE,
-    ONE,
-    OPTIONS,
-    A,
-    B,
-    C,
-    D,
-    replan,
-    route_of,
-    served,
-    solution_of,
-    with_customer,
+    MINUTE, ONE, OPTIONS, A, B, C, D, replan, route_of, served, solution_of, with_customer,
     with_trucks,
 )
 

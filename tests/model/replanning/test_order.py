@@ -13,17 +13,7 @@ from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.replan import Terms
 from model.solution import Route, Solution, Stop, Trip
 from tests.model.street import (
-    MINUTE,
-    ONE,
-    A,
-    B,
-    C,
-    D,
-    planned,
-    replan,
-    route_of,
-    served,
-    with_customer,
+    MINUTE, ONE, A, B, C, D, planned, replan, route_of, served, with_customer,
 )
 
 HOURLY = 10.0

@@ -14,23 +14,8 @@ from model.replanning.workers import MAX_OWN_TYPES, TooManyTypesError
 from model.search.improve import Progress
 from model.solution import Route, Solution, Stop, Trip
 from tests.model.street import (
-    MINUTE,
-    NO_POLICY,
-    ONE,
-    OPTIONS,
-    TWO,
-    A,
-    B,
-    C,
-    D,
-    minutes,
-    planned,
-    replan,
-    route_of,
-    served,
-    solution_of,
-    with_customer,
-    with_trucks,
+    MINUTE, NO_POLICY, ONE, OPTIONS, TWO, A, B, C, D, minutes, planned, replan, route_of, served,
+    solution_of, with_customer, with_trucks,
 )
 
 

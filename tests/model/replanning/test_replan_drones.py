@@ -11,19 +11,7 @@ from model.problem import Customer, DroneType, Problem, VehicleType
 from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.solution import Route, Solution
 from tests.model.street import (
-    MINUTE,
-    ONE,
-    OPTIONS,
-    A,
-    B,
-    C,
-    D,
-    minutes,
-    planned,
-    replan,
-    route_of,
-    served,
-    solution_of,
+    MINUTE, ONE, OPTIONS, A, B, C, D, minutes, planned, replan, route_of, served, solution_of,
     with_customer,
 )
 

@@ -15,21 +15,9 @@ from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
 from tests.model.tiny import (
-    draw_late,
-    draw_tiny,
-    with_charging,
-    with_duty,
-    with_energy,
-    with_goods,
-    with_limits_aboard,
-    with_open_ends,
-    with_open_reloads,
-    with_own_durations,
-    with_pickups,
-    with_reloads,
-    with_setups,
-    with_table,
-    with_turnaround,
+    draw_late, draw_tiny, with_charging, with_duty, with_energy, with_goods, with_limits_aboard,
+    with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
+    with_table, with_turnaround,
 )
 from training.instances import VARIANTS, generate
 

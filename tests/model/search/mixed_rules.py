@@ -4,23 +4,9 @@ import numpy as np
 
 from model.problem import Problem
 from tests.model.tiny import (
-    draw_tiny,
-    with_beginnings,
-    with_dimensions,
-    with_drone_types,
-    with_duty,
-    with_energy,
-    with_gaps,
-    with_goods,
-    with_limits_aboard,
-    with_open_ends,
-    with_open_reloads,
-    with_own_durations,
-    with_pickups,
-    with_places,
-    with_reloads,
-    with_setups,
-    with_turnaround,
+    draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
+    with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
+    with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
 )
 
 

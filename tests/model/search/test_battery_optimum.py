@@ -10,12 +10,7 @@ from model.problem import Energy, Problem
 from tests.model.search.mixed_rules import all_rules, all_rules_on_batteries
 from tests.model.search.test_optimum import DRONES, MINUTE, SHARE, few_sorties, missed_seeds
 from tests.model.tiny import (
-    with_beginnings,
-    with_charging,
-    with_dimensions,
-    with_energy,
-    with_gaps,
-    with_pickups,
+    with_beginnings, with_charging, with_dimensions, with_energy, with_gaps, with_pickups,
 )
 
 

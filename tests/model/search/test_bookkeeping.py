@@ -10,10 +10,10 @@ from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.problem_data import make_data
 from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 

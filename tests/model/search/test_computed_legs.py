@@ -12,8 +12,8 @@ from model.kernel.instance import pack
 from model.kernel.variants import are_stated, ways_of
 from model.problem import Points, Problem, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW
-from model.search.improve import SearchConfig, improve
 from model.search.neighbourhood import neighbourhood
+from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.mixed_rules import all_rules, all_rules_open, all_rules_setups
 from training.instances import generate

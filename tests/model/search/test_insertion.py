@@ -14,8 +14,8 @@ from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.problem_data import make_data
 from model.search.route.layout import ProblemData
+from model.search.problem_data import make_data
 from model.solution import Route, Solution
 from tests.model.search.found import read_plan
 

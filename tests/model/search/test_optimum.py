@@ -9,38 +9,17 @@ import pytest
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import (
-    FULL_SPEED,
-    MM_PER_KM,
-    Customer,
-    Depot,
-    DroneType,
-    Overtime,
-    Problem,
-    SpeedProfile,
-    Travel,
+    FULL_SPEED, MM_PER_KM, Customer, Depot, DroneType, Overtime, Problem, SpeedProfile, Travel,
     VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.search.mixed_rules import (
-    all_rules,
-    all_rules_at_once,
-    all_rules_begun,
-    all_rules_both_ways,
-    all_rules_drone_types,
-    all_rules_elsewhere,
-    all_rules_goods_apart,
-    all_rules_limits_aboard,
-    all_rules_of_duty,
-    all_rules_on_batteries,
-    all_rules_open,
-    all_rules_open_reloading,
-    all_rules_own_durations,
-    all_rules_reloading,
-    all_rules_setups,
-    all_rules_several_windows,
-    all_rules_swapping,
+    all_rules, all_rules_at_once, all_rules_begun, all_rules_both_ways, all_rules_drone_types,
+    all_rules_elsewhere, all_rules_goods_apart, all_rules_limits_aboard, all_rules_of_duty,
+    all_rules_on_batteries, all_rules_open, all_rules_open_reloading, all_rules_own_durations,
+    all_rules_reloading, all_rules_setups, all_rules_several_windows, all_rules_swapping,
 )
 from tests.model.tiny import with_dimensions, with_places
 

@@ -7,8 +7,8 @@ from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.translate import make_searcher
 from model.search.neighbourhood.neighbourhood import NEAR_INSERTION
-from model.search.problem_data import make_data
 from model.search.route.engine import ANY, anneal
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.search.found import read_plan
 

@@ -14,14 +14,14 @@ from model.search import worker
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.problem_data import make_data
 from model.search.recombining import take_better_parts
 from model.search.route.engine import ANY, anneal
 from model.search.route.layout import Fleet, ProblemData
 from model.search.route.state import Searcher
+from model.search.problem_data import make_data
 from model.solution import Solution
-from tests.model.search.found import read_plan
 from training.instances import generate
+from tests.model.search.found import read_plan
 
 Routes = dict[frozenset[int], float]
 

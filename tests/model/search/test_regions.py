@@ -15,12 +15,7 @@ from model.search.regions.region import Region, customers_of, put_back, vehicle_
 from model.solution import Solution
 from tests.model.street import NO_POLICY
 from tests.model.tiny import (
-    with_dimensions,
-    with_goods,
-    with_own_costs,
-    with_pickups,
-    with_reloads,
-    with_setups,
+    with_dimensions, with_goods, with_own_costs, with_pickups, with_reloads, with_setups,
     with_table,
 )
 from training.instances import VARIANTS, generate

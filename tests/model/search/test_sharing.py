@@ -8,8 +8,8 @@ from model.kernel.instance import pack
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.problem_data import make_data
 from model.search.sharing import DIVIDED_FROM, regions
+from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 

@@ -9,23 +9,18 @@ from model.problem import Problem
 from model.search.beginning.construct import begin_anew, insert_missing
 from model.search.beginning.translate import make_searcher
 from model.search.improve import (
-    MOST_STARTS,
-    MOST_STARTS_BY_TYPES,
-    START_TURNS,
-    START_TURNS_BY_TYPES,
-    STARTS_SHARE,
-    SearchConfig,
-    improve,
+    MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
+    SearchConfig, improve,
 )
-from model.search.problem_data import make_data
 from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best
 from model.search.starts import Starts
+from model.search.problem_data import make_data
 from model.solution import Solution
-from tests.model.search.found import read_plan
 from training.instances import VARIANTS, generate
+from tests.model.search.found import read_plan
 
 TRUCKS = [name for name in VARIANTS
           if name not in ("drone", "table1", "mixed", "various", "particular")]

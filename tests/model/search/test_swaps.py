@@ -11,9 +11,9 @@ from model.kernel.instance import pack
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.problem_data import make_data
 from model.search.route.layout import END, MODE_PRICED, START, ProblemData
 from model.search.route.state import Searcher
+from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.tiny import MINUTE
 from training.instances import generate

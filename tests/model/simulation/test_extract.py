@@ -6,14 +6,7 @@ import numpy as np
 
 from model.kernel.instance import pack
 from model.simulation.actions import (
-    DRIVE,
-    LAUNCH,
-    OPEN,
-    RETURN,
-    apply,
-    encode_action,
-    finish,
-    reset,
+    DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, finish, reset,
 )
 from model.simulation.extract import extract
 from model.simulation.state import by_term

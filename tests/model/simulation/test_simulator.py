@@ -9,49 +9,18 @@ import pytest
 
 from model.judge.check import check
 from model.kernel.instance import pack
-from model.problem import (
-    UNLIMITED,
-    Customer,
-    Depot,
-    DroneType,
-    Problem,
-    Travel,
-    VehicleType,
-)
+from model.problem import UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.simulation.actions import (
-    DRIVE,
-    LAUNCH,
-    NUM_KINDS,
-    OPEN,
-    RETURN,
-    apply,
-    encode_action,
-    reset,
+    DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
 from model.simulation.extract import extract
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, roll
 from tests.model.tiny import (
-    draw_tiny,
-    with_beginnings,
-    with_charging,
-    with_dimensions,
-    with_drone_types,
-    with_duty,
-    with_energy,
-    with_gaps,
-    with_goods,
-    with_limits_aboard,
-    with_open_ends,
-    with_open_reloads,
-    with_own_costs,
-    with_own_durations,
-    with_pickups,
-    with_places,
-    with_reloads,
-    with_setups,
-    with_table,
-    with_turnaround,
+    draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
+    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
+    with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
+    with_table, with_turnaround,
 )
 
 Change = Callable[[np.random.Generator, Problem], Problem]

@@ -14,14 +14,7 @@ from model.judge.retiming import time_route
 from model.judge.timing import RouteDecision, TripDecision
 from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import (
-    MAX_QUANTITY,
-    UNLIMITED,
-    Customer,
-    Depot,
-    DroneType,
-    Problem,
-    Travel,
-    VehicleType,
+    MAX_QUANTITY, UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
 )
 from model.solution import Solution
 from model.together.filling import Filling

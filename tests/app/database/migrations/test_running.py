@@ -14,12 +14,7 @@ from sqlalchemy import Engine, inspect, text
 from app.access.keys import KeyStore, find_key
 from app.database.connections import make_engine
 from app.database.migrations.running import (
-    SchemaError,
-    downgrade,
-    find_misfit,
-    newest,
-    upgrade,
-    version_of,
+    SchemaError, downgrade, find_misfit, newest, upgrade, version_of,
 )
 from app.database.migrations.version import VERSION_TABLE
 from app.database.tables import TABLES

@@ -13,9 +13,9 @@ from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
 from model.search.linked.engine import anneal_linked, measure_near, tie, write_back
 from model.search.linked.layout import Linked, make_linked
-from model.search.problem_data import are_timed, can_be_linked, make_data
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
+from model.search.problem_data import are_timed, can_be_linked, make_data
 from model.solution import Solution
 from tests.model.search.found import read_plan
 from training.instances import generate
