@@ -128,6 +128,17 @@ typedef struct tandem_rate {
     double load;
 } tandem_rate;
 
+/* How routes of a type are timed and priced. */
+typedef struct tandem_evaluation {
+    bool timed;     /* working time costs or is limited */
+    bool priced;    /* lateness, waiting or what is aboard cost, or all is timed again */
+    bool held_back; /* trips must be held back before their cost is known */
+    bool retimed;   /* all behind a change is timed again, since speed changes, who comes later may
+                       have to wait for another window, or drones are charged aboard */
+    bool by_detour; /* an insertion costs what its detour does */
+    bool lean;      /* as that, with one trip of any distance, no releases and no drones */
+} tandem_evaluation;
+
 typedef struct tandem_leg_law {
     int64_t table;
     int64_t rounding;
@@ -663,6 +674,10 @@ typedef struct tandem_entry_1d {
     tandem_entry* data;
     int64_t shape[1];
 } tandem_entry_1d;
+typedef struct tandem_evaluation_1d {
+    tandem_evaluation* data;
+    int64_t shape[1];
+} tandem_evaluation_1d;
 typedef struct tandem_f32_1d {
     float* data;
     int64_t shape[1];
@@ -1015,14 +1030,14 @@ typedef struct tandem_problem_data {
     tandem_price_1d price; /* (node,) per ms */
     tandem_goods_1d goods; /* (node,) none where all go together */
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
-    tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
-    tandem_vehicle_type_1d type;   /* (row,) */
-    tandem_rate_1d rate;           /* (row,) per mm and per ms */
-    tandem_i64_1d mode;            /* (row,) `mode_` flags */
-    tandem_bool_2d reload;         /* (type, node) where a trip may end and the next begin */
-    tandem_i64_1d visits;          /* (row,) customers on a sortie */
-    tandem_bool_3d can;            /* (row, 2, node) by truck, by drone */
-    tandem_bool_2d splice;         /* (type, type) vehicles may end each other's routes */
+    tandem_i64_1d max_time_aboard;   /* (node,) ms, none where nothing is limited */
+    tandem_vehicle_type_1d type;     /* (row,) */
+    tandem_rate_1d rate;             /* (row,) per mm and per ms */
+    tandem_evaluation_1d evaluation; /* (row,) */
+    tandem_bool_2d reload;           /* (type, node) where a trip may end and the next begin */
+    tandem_i64_1d visits;            /* (row,) customers on a sortie */
+    tandem_bool_3d can;              /* (row, 2, node) by truck, by drone */
+    tandem_bool_2d splice;           /* (type, type) vehicles may end each other's routes */
     tandem_bool_2d
         swap;         /* (type, type) may drive each other's routes at a cost by distance alone */
     tandem_legs leg;  /* duration, distance */

@@ -6,17 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from model.kernel.alarm import Alarm
-from model.kernel.drone_types import all_kinds, any_aboard
-from model.kernel.instance import FAR, NO_PROFILE, Instance
+from model.kernel.drone_types import all_kinds
+from model.kernel.instance import Instance
 from model.kernel.leg import LEG_DURATION, ComputedLegs, are_the_same_back
 from model.kernel.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
+from model.search.evaluation import evaluate
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
-from model.search.route.layout import (
-    MODE_APART, MODE_LEAN, MODE_LOADED, MODE_PRICED, MODE_RETIMED, MODE_SETTLED, MODE_SIMPLE,
-    MODE_TIMED, MOST_VISITS, ProblemData,
-)
+from model.search.route.layout import MOST_VISITS, ProblemData
 
 SCAN_ALL_BELOW = 400
 """Number of customers from which insertions are tried beside neighbours only."""
@@ -72,9 +70,9 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         types["drones"] = 0
     visits = _visits(problem)
     most_visits = max(1, int(visits.max()))
-    mode = _modes(instance, types, instance.node[0])
-    swap = _swaps(problem, types, mode)
-    general, scan_all = not bool((mode & MODE_LEAN).all()), problem.num_customers < SCAN_ALL_BELOW
+    evaluation = evaluate(instance, types)
+    swap = _swaps(problem, types, evaluation)
+    general, scan_all = not bool(evaluation["lean"].all()), problem.num_customers < SCAN_ALL_BELOW
     blink = _blink(problem.num_customers, most_visits)
     must_serve = _must_serve(problem, instance)
     return ProblemData(
@@ -86,7 +84,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         traded=moves.types and bool(swap.any()),
         mixed=moves.types and len(problem.vehicle_types) > 1 and general,
         scan_all=scan_all, optional=not bool(must_serve.any()),
-        adds_up=_adds_up(instance, types, mode),
+        adds_up=_adds_up(instance, types, evaluation),
         keeps=scan_all and (not general or blink <= LEAST_BLINK),
         blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_more=instance.unassigned_more[0],
@@ -94,7 +92,8 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         must_serve=must_serve,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
         setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
-        price=_per_ms(instance.price[0]), type=types, rate=_per_unit(rates), mode=mode,
+        price=_per_ms(instance.price[0]), type=types, rate=_per_unit(rates),
+        evaluation=evaluation,
         reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
         swap=swap, splice=_splices(problem, swap), leg=neighbourhood.leg, back=neighbourhood.back,
@@ -139,36 +138,6 @@ def _per_ms(prices: Records) -> Records:
     for field in ("lateness", "waiting"):
         price[field] = prices[field] / MS_PER_HOUR
     return price
-
-
-def _modes(instance: Instance, types: Records, place: Records) -> IntArray:
-    rates = instance.rate[0]
-    late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
-    soft = bool((place["arrival_limit"] == FAR).any()) and late
-    over = np.minimum(types["usual_end"], types["usual_working"]) < UNLIMITED
-    costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
-    timed = costly | (types["max_working_duration"] < UNLIMITED)
-    retimed = types["speed_changes"] != NO_PROFILE
-    retimed = retimed | any_aboard(types, (types["charge"] > 0) & (types["drones"] > 0))
-    if place.shape[2] > 1:
-        # What is known of later arrivals holds within the windows that they are served in.
-        retimed = retimed | timed | soft | early | (types["drones"] > 0)
-    limited = instance.max_time_aboard.shape[1] > 0
-    settled = np.logical_or(early, (retimed | limited) & timed)
-    loaded = rates["load"] > 0
-    priced = np.logical_or(soft | limited, settled | retimed | loaded)
-    release = bool((place["release"] > 0).any())
-    # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
-    # one trip that waits for nothing.
-    free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
-    simple = ~(timed if release else timed & ~free) & ~priced
-    apart = instance.goods.shape[1] > 0
-    lean = (simple & ~(timed | release | apart | (types["max_trip_distance"] < UNLIMITED))
-            & (types["max_trips"] == 1) & (types["drones"] == 0))
-    mode: IntArray = (MODE_TIMED * timed + MODE_PRICED * priced + MODE_SETTLED * settled
-                      + MODE_RETIMED * retimed + MODE_LOADED * loaded + MODE_SIMPLE * simple
-                      + MODE_LEAN * lean + MODE_APART * types["changes_ends"]).astype(np.int64)
-    return mode
 
 
 def are_alike(data: ProblemData) -> bool:
@@ -266,16 +235,17 @@ def may_be_turned(data: ProblemData) -> bool:
             and are_the_same_back(data.leg, data.back))
 
 
-def _adds_up(instance: Instance, types: Records, mode: IntArray) -> bool:
+def _adds_up(instance: Instance, types: Records, evaluation: Records) -> bool:
     """Tell whether to insert a customer never saves anything, if no detour does.
 
     What is aboard is driven less far where a trip is split, where a drone more has a fresh battery
     too; and whoever sets up sooner where others have to as well saves their setups.
     """
-    saves = (mode & MODE_TIMED > 0) & (instance.setup.shape[1] > 0)
+    saves = evaluation["timed"] & (instance.setup.shape[1] > 0)
     swapped = types["relaunch_duration"] != types["launch_duration"]
-    split = ((mode & MODE_LOADED > 0) | swapped) & (types["max_trips"] > 1)
-    return not bool(((mode & (MODE_SETTLED | MODE_RETIMED) > 0) | split | saves).any())
+    split = ((instance.rate[0]["load"] > 0) | swapped) & (types["max_trips"] > 1)
+    anew = evaluation["held_back"] | evaluation["retimed"]
+    return not bool((anew | split | saves).any())
 
 
 def _states_rarer_rules(data: ProblemData) -> bool:
@@ -305,7 +275,7 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
     return must_serve
 
 
-def _swaps(problem: Problem, types: Records, mode: IntArray) -> BoolArray:
+def _swaps(problem: Problem, types: Records, evaluation: Records) -> BoolArray:
     """Mark the pairs of types whose vehicles may drive each other's routes."""
     table = problem.may_serve
     group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
@@ -313,7 +283,7 @@ def _swaps(problem: Problem, types: Records, mode: IntArray) -> BoolArray:
                         int(types["variant"][index]),
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
-    lean = mode[:len(group)] & MODE_LEAN > 0
+    lean = evaluation["lean"][:len(group)]
     swaps: BoolArray = (group == group[:, None]) & lean & lean[:, None]
     np.fill_diagonal(swaps, False)
     return swaps

@@ -109,7 +109,7 @@ CheapestStop scan_trip(const ProblemData& data, const Fleet& fleet, Int slot, In
     const Newcomer newcomer = newcomer_on(data, fleet, slot, by, node);
     const Wanted wanted{data.rate[by].distance, best, blink,
                         data.type[k].max_trip_distance - trip.distance};
-    if (data.mode[k] & mode_timed) {
+    if (data.evaluation[k].timed) {
         return scan_limited(data, fleet, slot, first, last, node, newcomer, wanted, rng);
     }
     if (release_of(newcomer.place) > stops[trip.first].leave) {
@@ -195,7 +195,7 @@ bool is_too_far_beside(const LegRow& inward, const LegRow& onward, View<const St
 
 bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
-    return (data.mode[route.type] & mode_simple) != 0 && route.sorties == 0;
+    return data.evaluation[route.type].by_detour && route.sorties == 0;
 }
 
 Serving serving_type(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int node,

@@ -260,7 +260,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int slot = move.slot, to = fleet.route.size() - 1;
     const Int k = fleet.route[slot].type, kind = move.kind;
     const Int depot = data.type[k].depot;
-    if ((data.mode[k] & mode_priced) || (is_apart(data, k) && kind >= new_trip)) {
+    if (data.evaluation[k].priced || (is_apart(data, k) && kind >= new_trip)) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0);
         if (!refresh_cost(data, fleet, to, acc)) return infeasible;
@@ -284,10 +284,10 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
 }
 
 bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
-    const Int mode = data.mode[fleet.route[slot].type];
+    const Evaluation& evaluation = data.evaluation[fleet.route[slot].type];
     const Stop& stop = fleet.stop(slot, p);
-    if ((mode & mode_priced) &&
-        ((mode & (mode_settled | mode_retimed)) || fleet.route[slot].sorties > 0)) {
+    if (evaluation.priced &&
+        (evaluation.held_back || evaluation.retimed || fleet.route[slot].sorties > 0)) {
         return false;
     }
     return stop.flying == 0 &&
@@ -315,7 +315,7 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, 
     cum += service_duration(place) + on.duration;
     if (time > behind.latest || time < behind.early) return infeasible;
     Int finish;
-    if (data.mode[k] & mode_priced) {
+    if (data.evaluation[k].priced) {
         const Ending ending = follow(data, route, stops, p + 1, time, cum, depart);
         cost += late + ending.cost;
         finish = ending.time;

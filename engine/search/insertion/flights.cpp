@@ -54,7 +54,7 @@ public:
           best_(searcher.bound->best),
           early_(searcher.now.early[slot]),
           idle_(idle_time(searcher.now.route[slot])),
-          priced_((data.mode[searcher.now.route[slot].type] & mode_priced) != 0),
+          priced_(data.evaluation[searcher.now.route[slot].type].priced),
           loaded_(loads_cost(data, searcher.now.route[slot].type)) {}
 
     // Lists those from stop `launch`.

@@ -36,16 +36,16 @@ double stop_costs(const ProblemData& data, Int k, const Newcomer& newcomer, cons
     const Rate& rate = data.rate[k];
     double cost = double(detour.distance) * rate.distance - slack.early;
     cost += rate.stop;
-    const Int mode = data.mode[k];
+    const Evaluation& evaluation = data.evaluation[k];
     const Stop &here = stops[p], &behind = stops[p + 1];
-    if (mode & mode_timed) {
+    if (evaluation.timed) {
         // While drones fly, the truck may have time before they are back.
         const Int longer =
             detour.out.duration + detour.on.duration + service_duration(newcomer.place) - here.gap;
         cost += double(std::max(Int{0}, longer - slack.spare - here.idle)) * rate.time;
     }
     if (cost >= best || !is_in_time(newcomer.place, detour, here.leave, behind)) return best;
-    if (mode & mode_priced) {
+    if (evaluation.priced) {
         const Int arrival = here.leave + detour.out.duration;
         const Int following = end_of_service(newcomer.place, arrival) + detour.on.duration;
         cost += lateness_cost(data, node, arrival) + lateness_cost(data, behind.node, following) -

@@ -84,7 +84,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node) {
     const Int slot = move.slot;
     touch(searcher, slot);
     Route& route = now.route[slot];
-    if (data.mode[route.type] & mode_lean) {
+    if (data.evaluation[route.type].lean) {
         if (move.type != route.type) change_type(data, now, slot, move.type);
         insert_lean(data, now, slot, move.first, node);
         return true;

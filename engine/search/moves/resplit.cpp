@@ -189,7 +189,7 @@ Int depot_between(const ProblemData& data, View<const Line, 1> line, Int length)
 // Where windows make trucks wait, or count themselves, that says nothing; nor where time saved is
 // overtime.
 bool is_worth(const ProblemData& data, Int k, const Lines& before, double after, double limit) {
-    if ((data.mode[k] & mode_priced) != 0 || before.idle > 0) return true;
+    if (data.evaluation[k].priced || before.idle > 0) return true;
     return after < before.cost + limit && std::abs(after - before.cost) > same_share * before.cost;
 }
 

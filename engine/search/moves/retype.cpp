@@ -93,7 +93,7 @@ void improve_types(const ProblemData& data, Searcher& searcher) {
     for (Int index = 0; index < searcher.count->touched; ++index) {
         const Int slot = searcher.touched[index];
         const Route& route = now.route[slot];
-        if (route.length == 0 || (data.mode[route.type] & mode_lean) == 0) continue;
+        if (route.length == 0 || !data.evaluation[route.type].lean) continue;
         const Trip& trip = now.trip(slot, 0);
         for (Int k = 0; k < data.num_types; ++k) {
             if (data.swap(route.type, k) && now.used[k] < data.type[k].count &&

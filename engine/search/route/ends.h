@@ -6,7 +6,7 @@
 namespace tandem {
 
 // Tell whether trips of a type don't all begin and end at one place.
-inline bool is_apart(const ProblemData& data, Int k) { return (data.mode[k] & mode_apart) != 0; }
+inline bool is_apart(const ProblemData& data, Int k) { return data.type[k].changes_ends != 0; }
 
 // Let each trip begin and end where it may. In place.
 //

@@ -30,6 +30,7 @@ using BlockSums = tandem_block_sums;
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Line = tandem_line;
+using Evaluation = tandem_evaluation;
 
 // `Stop.kind`.
 constexpr Int customer_stop = 0;
@@ -53,18 +54,6 @@ constexpr Int elsewhere = -2;
 
 // `SearchCounts.changed` where any slot may have changed since the best.
 constexpr Int all_slots = -1;
-
-// Flags of a type, in `ProblemData.mode`.
-constexpr Int mode_timed = 1;    // working time costs or is limited
-constexpr Int mode_priced = 2;   // lateness, waiting or what is aboard cost, or all is retimed
-constexpr Int mode_settled = 4;  // trips must be held back to know the cost
-// All behind a change is timed again, since speed changes, who comes later may have to wait for
-// another window, or drones are charged aboard.
-constexpr Int mode_retimed = 8;
-constexpr Int mode_simple = 16;   // an insertion's cost is that of its distance alone
-constexpr Int mode_lean = 32;     // as that, with one trip of any distance, no releases, no drones
-constexpr Int mode_apart = 64;    // several trips don't all begin and end at one place
-constexpr Int mode_loaded = 128;  // what is aboard costs by the way that it is driven
 
 struct ProblemData {
     std::int64_t num_depots;
@@ -96,7 +85,7 @@ struct ProblemData {
     View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
     View<const VehicleType, 1> type;              // (row,)
     View<const Rate, 1> rate;                     // (row,) per mm and per ms
-    View<const std::int64_t, 1> mode;             // (row,) `mode_` flags
+    View<const Evaluation, 1> evaluation;         // (row,)
     View<const bool, 2> reload;          // (type, node) where a trip may end and the next begin
     View<const std::int64_t, 1> visits;  // (row,) customers on a sortie
     View<const bool, 3> can;             // (row, 2, node) by truck, by drone
@@ -142,7 +131,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.max_time_aboard,
             from.type,
             from.rate,
-            from.mode,
+            from.evaluation,
             from.reload,
             from.visits,
             from.can,

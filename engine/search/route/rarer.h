@@ -18,7 +18,7 @@ inline bool goods_count(const ProblemData& data) { return !data.goods.empty(); }
 inline bool time_aboard_counts(const ProblemData& data) { return !data.max_time_aboard.empty(); }
 
 // Tell whether what a vehicle of type `k` has aboard costs by the way that it is driven.
-inline bool loads_cost(const ProblemData& data, Int k) { return (data.mode[k] & mode_loaded) != 0; }
+inline bool loads_cost(const ProblemData& data, Int k) { return data.rate[k].load > 0.0; }
 
 // Tell whether leaving out some costs more than leaving out others.
 inline bool is_dearer_to_some(const ProblemData& data) { return data.unequal; }

@@ -75,7 +75,7 @@ Int latest_hold(const ProblemData& data, const Route& route, View<const Stop, 1>
             hold = std::min(hold, stops[p].dep - (stops[p].before - base));
         }
     }
-    if ((data.mode[route.type] & mode_retimed) != 0) {
+    if (data.evaluation[route.type].retimed) {
         hold = std::max(hold, latest_by_stops(data, route, stops, sorties, first));
     }
     return hold;
@@ -108,7 +108,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSum
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     const VehicleType& type = data.type[route.type];
-    const Int mode = data.mode[route.type];
+    const bool held_back = data.evaluation[route.type].held_back;
     if (!load_trips(data, route, stops, trips, sorties)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
@@ -118,7 +118,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSum
         return false;
     }
     Int departure = first_departure(data, route, stops, sorties);
-    settled = (mode & mode_settled) != 0 || has_to_wait(data, route, stops, sorties);
+    settled = held_back || has_to_wait(data, route, stops, sorties);
     if (settled) {
         if (!settle(data, route, stops, trips, sorties, acc)) return false;
         departure = settled_departure(data, route, stops, sorties);
@@ -128,7 +128,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSum
     const auto [cost, early] = price_route(data, route, stops, trips, sorties);
     fleet.cost[slot] = cost;
     if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);
-    fleet.early[slot] = (mode & mode_settled) != 0 ? early : 0.0;
+    fleet.early[slot] = held_back ? early : 0.0;
     return true;
 }
 
@@ -142,7 +142,7 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockS
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot], acc);
     }
-    if ((data.mode[route.type] & mode_retimed) != 0) {
+    if (data.evaluation[route.type].retimed) {
         open_up(route, stops);
     } else {
         look_back(data, route, stops);
@@ -204,7 +204,7 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
 
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
     const Route& route = fleet.route[slot];
-    if ((data.mode[route.type] & mode_lean) != 0) return refresh_lean(data, fleet, slot);
+    if (data.evaluation[route.type].lean) return refresh_lean(data, fleet, slot);
     if (!refresh_as_is(data, fleet, slot, acc)) return false;
     if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot, acc);
     return true;
@@ -212,7 +212,7 @@ bool refresh(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& a
 
 bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
     const Route& route = fleet.route[slot];
-    if (is_apart(data, route.type) || (data.mode[route.type] & mode_lean) != 0) {
+    if (is_apart(data, route.type) || data.evaluation[route.type].lean) {
         return refresh(data, fleet, slot, acc);
     }
     bool settled = false;

@@ -212,7 +212,7 @@ RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         price.cost += sortie_cost(data, k, stops, sortie);
     }
-    if ((data.mode[k] & mode_priced) != 0) {
+    if (data.evaluation[k].priced) {
         const auto [late, early] = price_windows(data, route, stops, sorties);
         price.cost += late + early;
         price.early = early;

@@ -33,15 +33,6 @@ OTHERS = -1
 NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
-(MODE_TIMED, MODE_PRICED, MODE_SETTLED, MODE_RETIMED, MODE_SIMPLE, MODE_LEAN,
- MODE_APART, MODE_LOADED) = 1, 2, 4, 8, 16, 32, 64, 128
-"""Flags of a type: working time costs or is limited; lateness, waiting or what is aboard cost, or
-all is retimed; trips must be held back to know the cost; all behind a change is timed again, since
-speed changes, who comes later may have to wait for another window, or drones are charged aboard; an
-insertion's cost is that
-of its distance alone; as that, with one trip of any distance, no releases and no drones; several
-trips don't all begin and end at one place; what is aboard costs by the way that it is driven."""
-
 
 class ProblemData(NamedTuple):
     """The problem, unchanged by the search."""
@@ -74,7 +65,7 @@ class ProblemData(NamedTuple):
     max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
     type: Records  # (row,)
     rate: Records  # (row,), per mm and per ms
-    mode: IntArray  # (row,) MODE_ flags
+    evaluation: Records  # (row,)
     reload: BoolArray  # (type, node) where a trip may end and the next begin
     visits: IntArray  # (row,) customers on a sortie
     can: BoolArray  # (row, 2, node) by truck, by drone

@@ -11,7 +11,7 @@ from model.kernel.instance import pack
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.route.layout import END, MODE_PRICED, START, ProblemData
+from model.search.route.layout import END, START, ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
 from model.solution import Solution
@@ -76,7 +76,8 @@ def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
     refused = 0
     for seed in range(SEEDS):
         problem, data, searcher = begun(seed)
-        timed = data._replace(mode=data.mode | MODE_PRICED)
+        timed = data._replace(evaluation=data.evaluation.copy())
+        timed.evaluation["priced"] = True
         # How much is aboard is looked at before.
         data.type["capacity"] *= 100
         rng, move = np.random.default_rng(seed), searcher.move

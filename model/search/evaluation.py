@@ -1,0 +1,43 @@
+"""How routes of a type are timed and priced, by the rules that are stated."""
+
+import numpy as np
+
+from model.engine.library import dtype_of
+from model.kernel.drone_types import any_aboard
+from model.kernel.instance import FAR, NO_PROFILE, Instance
+from model.kernel.records import Records
+from model.problem import UNLIMITED
+
+
+def evaluate(instance: Instance, types: Records) -> Records:
+    """Return how routes are evaluated, (row,) as `tandem_evaluation` says, of the types given.
+
+    `docs/develop/search.md` has a table of what each rule does.
+    """
+    place, rates = instance.node[0], instance.rate[0]
+    late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
+    soft = bool((place["arrival_limit"] == FAR).any()) and late
+    over = np.minimum(types["usual_end"], types["usual_working"]) < UNLIMITED
+    costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
+    timed = costly | (types["max_working_duration"] < UNLIMITED)
+    retimed = types["speed_changes"] != NO_PROFILE
+    retimed = retimed | any_aboard(types, (types["charge"] > 0) & (types["drones"] > 0))
+    if place.shape[2] > 1:
+        # What is known of later arrivals holds within the windows that they are served in.
+        retimed = retimed | timed | soft | early | (types["drones"] > 0)
+    limited = instance.max_time_aboard.shape[1] > 0
+    held_back = early | ((retimed | limited) & timed)
+    release = bool((place["release"] > 0).any())
+    priced = soft | limited | held_back | retimed | (rates["load"] > 0)
+    # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
+    # one trip that waits for nothing.
+    free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
+    by_detour = ~(timed if release else timed & ~free) & ~priced
+    apart = instance.goods.shape[1] > 0
+    lean = (by_detour & ~(timed | release | apart | (types["max_trip_distance"] < UNLIMITED))
+            & (types["max_trips"] == 1) & (types["drones"] == 0))
+    evaluation = np.zeros(len(types), dtype_of("tandem_evaluation"))
+    for name, told in (("timed", timed), ("priced", priced), ("held_back", held_back),
+                       ("retimed", retimed), ("by_detour", by_detour), ("lean", lean)):
+        evaluation[name] = told
+    return evaluation
