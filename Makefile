@@ -53,7 +53,7 @@ lint: .venv/testing engine ## Check style and types
 
 train: .venv/testing engine ## Train a policy in runs/attention, from where it stopped (MINUTES=60)
 	OMP_NUM_THREADS=1 $(BIN)/python -m training.train --folder runs/attention --policy attention \
-		--baseline shared --sizes 0:20,500:50,7000:100 --size-mix 1.0 --num-rollouts 16 \
+		--baseline shared --sizes 0 20 500 50 7000 100 --size-mix 1.0 --num-rollouts 16 \
 		--learning-rate 0.0005 --minutes $(MINUTES)
 
 bench: .venv/benching engine ## Run other solvers and Tandem side by side (DATA=../shared/data; hours)

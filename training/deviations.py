@@ -16,7 +16,7 @@ from model.problem import FloatArray, IntArray
 from model.simulation.state import by_term
 from model.simulation.actions import max_steps
 from training.completion import apply_all
-from training.judge import LEAST_RISE, NO_RISE, PATH, Judgement, Mistake
+from training.mistakes import LEAST_RISE, NO_RISE, PATH, Judgement, Mistake
 from training.rollout import Batch
 
 MOST_LOOKED_AT = 24

@@ -1,8 +1,8 @@
 """Make labels: plans of a policy whose dear decisions the search has found. Read top to bottom.
 
 Run with `python -m training.labels --folder runs/labels`. Each plan is drawn by the newest weights,
-half of them greedily; `training.judged` learns from what is there. A file holds some plans, is
-written whole or not at all, and states each problem by the numbers it is drawn from.
+half of them greedily; `training.train_by_labels` learns from what is there. A file holds some
+plans, is written whole or not at all, and states each problem by the numbers it is drawn from.
 """
 
 import time
@@ -27,7 +27,7 @@ from training.completion import Setting, apply_all, can_complete
 from training.deviations import go_on, judge_by_policy
 from training.export import WEIGHTS
 from training.instances import DEFAULT_CONFIG, generate
-from training.judge import PATH, Judge, Judgement, Mistake
+from training.mistakes import PATH, Judge, Judgement, Mistake
 from training.rollout import Batch, make_batch
 from training.variants import uniform_vrptw
 

@@ -10,13 +10,14 @@ import os
 import signal
 import threading
 import time
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import torch
 import torch.distributed as dist
-import typer
+import tyro
 from torch.utils.tensorboard import SummaryWriter
 from tqdm import tqdm
 
@@ -38,45 +39,47 @@ STOP = threading.Event()
 """Set by a signal: finish the step, save, end."""
 
 
-def train(config: TrainConfig, folder: Path, minutes: float, device_name: str,
-          max_steps: int | None = None, validation_size: int = 80,
-          begin_with: Path | None = None) -> dict[str, float]:
-    """Train for some minutes or up to a step; return the last validation's ratios by variant.
+@dataclass(frozen=True)
+class Leg:
+    """Train a policy; goes on from the checkpoint in the folder if there is one."""
 
-    Parameters
-    ----------
-    config
-        The run.
-    folder
-        Receives `checkpoint.pt`, `log.csv`, `validation.csv` and TensorBoard's events.
-    minutes
-        Length of this leg.
-    device_name
-        `cpu` or `cuda`.
-    max_steps
-        Stop at this step even if time is left.
-    validation_size
-        How many problems of the fixed validation set to plan at each validation.
-    begin_with
-        Folder of an exported policy, whose weights a run without a checkpoint begins with.
+    folder: Path
+    """Receives `checkpoint.pt`, `log.csv`, `validation.csv` and TensorBoard's events."""
+    config: Annotated[TrainConfig, tyro.conf.arg(name="")] = field(default_factory=TrainConfig)
+    """The run."""
+    minutes: float = 60.0
+    """Length of this leg."""
+    device: str = "cpu"
+    """`cpu` or `cuda`."""
+    max_steps: int | None = None
+    """Stop at this step even if time is left."""
+    validation_size: int = 80
+    """How many problems of the fixed validation set to plan at each validation."""
+    begin_with: Path | None = None
+    """Folder of an exported policy, whose weights a run without a checkpoint begins with."""
+
+
+def train(leg: Leg) -> dict[str, float]:
+    """Train for some minutes or up to a step; return the last validation's ratios by variant.
 
     Raises
     ------
     ValueError
-        If that folder has no weights of this policy.
+        If the folder to begin with has no weights of this policy.
     """
+    config, folder, max_steps = leg.config, leg.folder, leg.max_steps
     rank, world = start_processes()
-    device = torch.device(device_name)
+    device = torch.device(leg.device)
     folder.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
     run = Run(config, device, rank)
-    run.begin(folder / "checkpoint.pt", begin_with)
-    validation = validation_batches(validation_size)
+    run.begin(folder / "checkpoint.pt", leg.begin_with)
+    validation = validation_batches(leg.validation_size)
     log = Log(folder) if rank == 0 else None
     began = saved = time.monotonic()
     validated = began - VALIDATE_EVERY + min(60.0, VALIDATE_EVERY)
     bar = tqdm(desc=config.policy, unit="problem", disable=rank != 0)
-    while not agree_to_stop(run.step == max_steps or time.monotonic() - began > 60 * minutes
+    while not agree_to_stop(run.step == max_steps or time.monotonic() - began > 60 * leg.minutes
                             or STOP.is_set(), world):
         numbers = run.train_step(world)
         bar.update(int(numbers["problems"]) * world)
@@ -299,30 +302,13 @@ class Log:
         self._board.close()
 
 
-def main(
-    folder: Annotated[Path, typer.Option(help="where checkpoint and logs go")],
-    policy: str = "pointer", baseline: str = "critic", minutes: float = 60.0,
-    device: str = "cpu", seed: int = 0, learning_rate: float = 1e-3, num_problems: int = 64,
-    num_rollouts: int = 8, kept: float = 0.2, max_candidates: int = 60_000,
-    size_mix: Annotated[float, typer.Option(help="share of batches at smaller sizes")] = 0.3,
-    max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
-    sizes: Annotated[str, typer.Option(help="curriculum, first step:customers")] = "0:20,4000:50",
-    decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
-    begin_with: Annotated[Path | None, typer.Option(
-        help="folder of an exported policy to train further")] = None,
-) -> None:
-    """Train a policy; goes on from the checkpoint in FOLDER if there is one."""
-    curriculum = tuple((int(a), int(b)) for a, b in (pair.split(":") for pair in sizes.split(",")))
-    first, last = (int(step) for step in decay.split(":"))
-    config = TrainConfig(
-        policy=policy, baseline=baseline, seed=seed, sizes=curriculum,  # type: ignore[arg-type]
-        num_problems=num_problems, num_rollouts=num_rollouts, learning_rate=learning_rate,
-        decay=(first, last), kept=kept, max_candidates=max_candidates,
-        size_mix=size_mix)
+def main() -> None:
+    """Train by what the command line states."""
+    leg = tyro.cli(Leg)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
-    print(train(config, folder, minutes, device, max_steps, begin_with=begin_with))
+    print(train(leg))
 
 
 if __name__ == "__main__":
-    typer.run(main)
+    main()

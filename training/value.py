@@ -1,8 +1,8 @@
 """Train a head that tells what the finished plan will cost, from any state of it, by labels.
 
 Run with `python -m training.value --labels runs/labels --folder runs/value`. A beginning is worth
-what the search makes of it (`training.judge`), and `attention` stays as it is: the head reads what
-the policy makes of the state. Prints by how much it is off on plans that it never saw.
+what the search makes of it (`training.mistakes`), and `attention` stays as it is: the head reads
+what the policy makes of the state. Prints by how much it is off on plans that it never saw.
 """
 
 import time
@@ -23,7 +23,7 @@ from model.policy.decision_features import NUM_GLOBAL_FEATURES
 from model.simulation.state import by_term
 from training.examples import Stretch, begun, problem_of, replayed
 from training.export import WEIGHTS
-from training.judged import CPU, Buffer, write
+from training.train_by_labels import CPU, Buffer, write
 from training.labels import Labelled, read_policy
 from training.rollout import make_batch
 

@@ -14,8 +14,8 @@ from training.completion import (
 )
 from training.deviations import go_on
 from training.examples import make_lesson, places
-from training.judge import LEAST_RISE, PATH
-from training.judged import Buffer
+from training.mistakes import LEAST_RISE, PATH
+from training.train_by_labels import Buffer
 from training.labels import (
     Labelled, Origin, Pair, draw_origin, label, label_by_trials, main, read, write, Actor, NONE,
 )

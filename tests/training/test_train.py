@@ -15,7 +15,7 @@ from tests.conftest import eventually
 from training.config import TrainConfig
 from training.heuristics import nearest_neighbour
 from training.policies import POLICIES, widened
-from training.train import train, validation_batches
+from training.train import Leg, train, validation_batches
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
@@ -30,7 +30,7 @@ TINY = TrainConfig(sizes=((0, 6), (2, 8)), num_problems=4, num_rollouts=3, warm_
 def test_training_runs_and_logs(policy: str, baseline: str, tmp_path: Path) -> None:
     config = TrainConfig(policy=policy, baseline=baseline, sizes=((0, 6),),  # type: ignore[arg-type]
                          num_problems=4, num_rollouts=3)
-    ratios = train(config, tmp_path, 5.0, "cpu", max_steps=2, validation_size=8)
+    ratios = train(Leg(tmp_path, config, max_steps=2, validation_size=8))
     assert set(ratios) > {"all", "cvrp", "vrptw", "mixed"}
     with (tmp_path / "log.csv").open() as file:
         rows = list(csv.DictReader(file))
@@ -41,9 +41,9 @@ def test_training_runs_and_logs(policy: str, baseline: str, tmp_path: Path) -> N
 
 def test_resumed_run_equals_an_uninterrupted_one(tmp_path: Path) -> None:
     whole, parted = tmp_path / "whole", tmp_path / "parted"
-    train(TINY, whole, 5.0, "cpu", max_steps=4, validation_size=8)
-    train(TINY, parted, 5.0, "cpu", max_steps=2, validation_size=8)
-    train(TINY, parted, 5.0, "cpu", max_steps=4, validation_size=8)
+    train(Leg(whole, TINY, max_steps=4, validation_size=8))
+    train(Leg(parted, TINY, max_steps=2, validation_size=8))
+    train(Leg(parted, TINY, max_steps=4, validation_size=8))
     first, second = (torch.load(folder / "checkpoint.pt", weights_only=False)
                      for folder in (whole, parted))
     assert first["step"] == second["step"] == 4
@@ -65,7 +65,7 @@ def test_a_policy_that_sees_more_begins_with_weights_that_saw_less() -> None:
 
 def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
     config = replace(TINY, policy="attention", baseline="shared")
-    train(config, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8, begin_with=EXPORTED)
+    train(Leg(tmp_path, config, max_steps=0, validation_size=8, begin_with=EXPORTED))
     content = torch.load(tmp_path / "checkpoint.pt", weights_only=False)
     weights = torch.load(EXPORTED / "weights.pt", weights_only=True)
     assert weights.keys() == content["policy"].keys()
@@ -75,13 +75,13 @@ def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
 
 def test_another_policys_weights_are_refused(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="begin_with"):
-        train(TINY, tmp_path, 5.0, "cpu", max_steps=0, validation_size=8, begin_with=EXPORTED)
+        train(Leg(tmp_path, TINY, max_steps=0, validation_size=8, begin_with=EXPORTED))
 
 
 def test_several_processes_train_one_policy(tmp_path: Path) -> None:
     command = [sys.executable, "-m", "torch.distributed.run", "--nproc-per-node=2",
                "--rdzv-backend=c10d", "--rdzv-endpoint=127.0.0.1:0", "-m", "training.train",
-               "--folder", str(tmp_path), "--max-steps", "2", "--sizes", "0:6",
+               "--folder", str(tmp_path), "--max-steps", "2", "--sizes", "0", "6",
                "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
     result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False,
                             env={**os.environ, "OMP_NUM_THREADS": "1"})
@@ -90,8 +90,8 @@ def test_several_processes_train_one_policy(tmp_path: Path) -> None:
 
 
 def test_terminated_run_saves_what_it_has(tmp_path: Path) -> None:
-    command = [sys.executable, "-m", "training.train", "--folder", str(tmp_path), "--sizes", "0:6",
-               "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
+    command = [sys.executable, "-m", "training.train", "--folder", str(tmp_path),
+               "--sizes", "0", "6", "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
                                env={**os.environ, "OMP_NUM_THREADS": "1"})
     log = tmp_path / "log.csv"

@@ -9,14 +9,16 @@ import torch
 
 from training.examples import make_lesson
 from training.export import WEIGHTS
-from training.judged import JudgedConfig, Run, compare, learn, logits_of, right_order, train
+from training.train_by_labels import (
+    LabelConfig, Leg, Run, compare, learn, logits_of, right_order, train,
+)
 from training.labels import (
     NEWEST, Actor, Labelled, Origin, label, label_by_trials, read, read_policy, write,
 )
 
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
-CONFIG = JudgedConfig(plans=3, problems=3, rollouts=2, learning_rate=3e-4, warm_up=1,
+CONFIG = LabelConfig(plans=3, problems=3, rollouts=2, learning_rate=3e-4, warm_up=1,
                       reinforce_every=3, calm=0.3)
 
 
@@ -91,28 +93,29 @@ def test_old_policy_is_at_no_distance_from_itself(labels: Path) -> None:
 def test_resumed_run_equals_an_uninterrupted_one(labels: Path, tmp_path: Path) -> None:
     for folder, stops in (("whole", (4,)), ("parted", (2, 4))):
         for steps in stops:
-            train(CONFIG, tmp_path / folder, labels, EXPORTED, 5.0, steps, validate_every=2)
+            train(Leg(tmp_path / folder, labels, CONFIG, EXPORTED, max_steps=steps,
+                      validate_every=2))
     first, second = (torch.load(tmp_path / folder / "checkpoint.pt", weights_only=False)
                      for folder in ("whole", "parted"))
     assert first["step"] == second["step"] == 4
     for part in ("policy", "last"):
         for name, value in first[part].items():
             assert torch.equal(value, second[part][name]), name
-    rows = (tmp_path / "parted" / "judged.csv").read_text().splitlines()
+    rows = (tmp_path / "parted" / "log.csv").read_text().splitlines()
     assert rows[0].startswith("step,seconds,plans,loss")
     assert len(rows) == 4
 
 
 def test_mean_of_weights_follows_the_policy(labels: Path, tmp_path: Path) -> None:
-    run: Run = train(CONFIG, tmp_path, labels, EXPORTED, 5.0, 3)
+    run: Run = train(Leg(tmp_path, labels, CONFIG, EXPORTED, max_steps=3))
     old, mean, last = (network.state_dict()["here.weight"]
                        for network in (run.old, run.average, run.policy))
     assert 0 < (mean - old).norm() < (last - old).norm()
 
 
 def test_pointer_learns_from_the_same_labels(labels: Path, tmp_path: Path) -> None:
-    run = train(replace(CONFIG, policy="pointer"), tmp_path, labels, EXPORTED.parent / "pointer",
-                5.0, 4)
+    run = train(Leg(tmp_path, labels, replace(CONFIG, policy="pointer"),
+                    EXPORTED.parent / "pointer", max_steps=4))
     assert run.policy.hidden_size > 0
     assert not (labels / NEWEST).exists()
     for mine, before in zip(run.policy.parameters(), run.old.parameters(), strict=True):
@@ -122,4 +125,4 @@ def test_pointer_learns_from_the_same_labels(labels: Path, tmp_path: Path) -> No
 
 def test_no_labels_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="labels"):
-        train(CONFIG, tmp_path, tmp_path, EXPORTED, 5.0, 1)
+        train(Leg(tmp_path, tmp_path, CONFIG, EXPORTED, max_steps=1))

@@ -1,6 +1,6 @@
 """Train a policy further by labels: which decision would have been better, and by how much.
 
-Run with `python -m training.judged --folder runs/judged --labels runs/labels`, beside
+Run with `python -m training.train_by_labels --folder runs/by-labels --labels runs/labels`, beside
 `training.labels`, which plans by the newest weights. A run that finds its checkpoint goes on from
 there. The weights worth exporting are the mean of those of late steps, which the checkpoint has as
 `policy`.
@@ -13,13 +13,13 @@ import threading
 import time
 from collections.abc import Sequence
 from copy import deepcopy
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
 
 import numpy as np
 import torch
-import typer
+import tyro
 from torch import Tensor
 from torch.nn.functional import softplus
 from tqdm import tqdm
@@ -50,7 +50,7 @@ STOP = threading.Event()
 
 
 @dataclass(frozen=True)
-class JudgedConfig:
+class LabelConfig:
     """A run."""
 
     policy: str = LABELLING
@@ -134,7 +134,7 @@ def logits_of(policy: PolicyNetwork, lesson: Lesson) -> Tensor:
 
 
 def learn(policy: PolicyNetwork, old: PolicyNetwork, lesson: Lesson,
-          config: JudgedConfig) -> tuple[Tensor, Seen]:
+          config: LabelConfig) -> tuple[Tensor, Seen]:
     """Return the loss of a lesson, and what it is made of."""
     logits = logits_of(policy, lesson)
     log_probability = torch.log_softmax(logits, dim=2)
@@ -197,7 +197,7 @@ def mean(values: Tensor, chosen: Tensor) -> Tensor:
 class Run:
     """What a checkpoint keeps: the policy, the mean of its weights, the optimiser, the step."""
 
-    def __init__(self, config: JudgedConfig, began_with: Path) -> None:
+    def __init__(self, config: LabelConfig, began_with: Path) -> None:
         self.config = config
         self.policy = POLICIES[config.policy]()
         self.policy.load_state_dict(torch.load(began_with / WEIGHTS, weights_only=True))
@@ -301,8 +301,32 @@ def right_order(policy: PolicyNetwork, plans: Sequence[Labelled],
     return right / max(1, total), saved / max(1, trials)
 
 
-def train(config: JudgedConfig, folder: Path, labels: Path, began_with: Path, minutes: float,
-          max_steps: int | None = None, validate_every: int = 200) -> Run:
+@dataclass(frozen=True)
+class Leg:
+    """Learn from labels; goes on from the checkpoint in the folder if there is one."""
+
+    folder: Path
+    """Where checkpoint and log go."""
+    labels: Path
+    """Folder of `training.labels`."""
+    config: Annotated[LabelConfig, tyro.conf.arg(name="")] = field(default_factory=LabelConfig)
+    """The run."""
+    begin_with: Path | None = None
+    """Folder of an exported policy, if not the one of its name."""
+    minutes: float = 60.0
+    """Length of this leg."""
+    max_steps: int | None = None
+    """Stop at this step even if time is left."""
+    validate_every: int = 200
+    """Steps between looks at the labels held out."""
+
+    @property
+    def began_with(self) -> Path:
+        """The folder of the policy that it begins with."""
+        return self.begin_with or Path("model/weights") / self.config.policy
+
+
+def train(leg: Leg) -> Run:
     """Train for some minutes or up to a step; return the run.
 
     Raises
@@ -310,27 +334,28 @@ def train(config: JudgedConfig, folder: Path, labels: Path, began_with: Path, mi
     ValueError
         If there are no labels.
     """
+    config, folder, labels = leg.config, leg.folder, leg.labels
     folder.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
     torch.set_num_threads(1)
-    run, buffer = Run(config, began_with), Buffer(labels, config.kept)
+    run, buffer = Run(config, leg.began_with), Buffer(labels, config.kept)
     if (folder / "checkpoint.pt").exists():
         run.load(folder / "checkpoint.pt")
     buffer.refresh()
     if not buffer.plans:
         raise ValueError(f"labels: {str(labels)!r} has none")
     began = saved = told = time.monotonic()
-    bar = tqdm(desc="judged", unit="step")
-    while (run.step != max_steps and time.monotonic() - began < 60 * minutes
+    bar = tqdm(desc="by labels", unit="step")
+    while (run.step != leg.max_steps and time.monotonic() - began < 60 * leg.minutes
            and not STOP.is_set()):
         buffer.refresh()
         row = run.train_step(buffer)
         bar.update()
-        is_validated = run.step % validate_every == 0
+        is_validated = run.step % leg.validate_every == 0
         if row or is_validated:
             order, best = (right_order(run.average, buffer.held_out) if is_validated
                            else (None, None))
-            log(folder / "judged.csv", {
+            log(folder / "log.csv", {
                 "step": run.step, "seconds": run.seconds(), "plans": len(buffer.plans),
                 **dict.fromkeys(Seen.__dataclass_fields__), **row, "held_out": order,
                 "held_out_best": best})
@@ -354,30 +379,14 @@ def log(path: Path, row: dict[str, float | None]) -> None:
         writer.writerow(row)
 
 
-def main(
-    folder: Annotated[Path, typer.Option(help="where checkpoint and log go")],
-    labels: Annotated[Path, typer.Option(help="of training.labels")],
-    policy: Annotated[str, typer.Option(help="which one learns")] = LABELLING,
-    begin_with: Annotated[Path | None, typer.Option(help="folder of an exported policy, if not "
-                                                         "the one of its name")] = None,
-    minutes: float = 60.0, seed: int = 0, learning_rate: float = 1e-4, plans: int = 16,
-    shown: float = 0.1, calm: float = 10.0, ordered: float = 1.0, compared: float = 1.0,
-    reinforce_every: int = 4,
-    decay: Annotated[str, typer.Option(help="steps first:last of the decay")] = "1000000:1000000",
-    max_steps: Annotated[int | None, typer.Option(help="stop at this step")] = None,
-) -> None:
-    """Learn from labels; goes on from the checkpoint in FOLDER if there is one."""
+def main() -> None:
+    """Learn by what the command line states."""
     os.environ.setdefault("OMP_NUM_THREADS", "1")
-    first, last = (int(step) for step in decay.split(":"))
-    config = JudgedConfig(policy=policy, seed=seed, learning_rate=learning_rate, plans=plans,
-                          shown=shown, calm=calm, ordered=ordered, compared=compared,
-                          reinforce_every=reinforce_every,
-                          decay=(first, last))
+    leg = tyro.cli(Leg)
     for name in (signal.SIGTERM, signal.SIGINT):
         signal.signal(name, lambda *_: STOP.set())
-    train(config, folder, labels, begin_with or Path("model/weights") / policy, minutes,
-          max_steps)
+    train(leg)
 
 
 if __name__ == "__main__":
-    typer.run(main)
+    main()
