@@ -106,7 +106,7 @@ clean: ## Remove caches, compiled code and plan.json; keep .venv and training ru
 .venv/testing: pyproject.toml .venv/tools
 	@echo "Installing Tandem and all that its tests need into .venv; PyTorch is large."
 	@$(PIP) install --quiet --no-build-isolation --editable '.[test,train]'
-	@$(BIN)/python -m tests.app.roads.wheels
+	@$(BIN)/python -m tests.app.maps.roads.wheels
 	@touch $@ .venv/serving
 
 .venv/benching: pyproject.toml .venv/tools

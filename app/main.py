@@ -11,36 +11,36 @@ from fastapi_offline import FastAPIOffline
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
-from app.access.gate import KeyScrubber
-from app.access.setup import control_access, guarding
 from app.console.routes import mount_console
-from app.dispatches.pages import mount_drivers_page
-from app.dispatches.routes import router as dispatches_router
-from app.dispatches.store import delete_expired
-from app.errors import InvalidRequestError, RequestError, problem_response, schema_error
-from app.health import router as health_router
-from app.jobs.gate import WorkerGate
-from app.jobs.routes import router as jobs_router
-from app.jobs.setup import running_jobs
-from app.kept.desk import keeping_plans
-from app.kept.routes import router as kept_router
-from app.load.courtesy import Courtesy
-from app.load.memory import giving_back
-from app.load.setup import is_asked, prepare_for_load
-from app.observe.observer import Observer
-from app.observe.routes import metrics_router
+from app.formats.sheets.lookups import new_lookups
+from app.formats.sheets.lookups import router as addresses_router
+from app.formats.sheets.routes import router as sheets_router
+from app.formats.vroom.routes import router as vroom_router
+from app.maps.roads.opening import extracts_of, opened_roads
+from app.maps.streets.gallery import Gallery
+from app.maps.streets.routes import router as streets_router
 from app.plans.routes import router as plans_router
 from app.plans.service import PlanService
+from app.records.dispatches.pages import mount_drivers_page
+from app.records.dispatches.routes import router as dispatches_router
+from app.records.dispatches.store import delete_expired
+from app.records.jobs.gate import WorkerGate
+from app.records.jobs.routes import router as jobs_router
+from app.records.jobs.setup import running_jobs
+from app.records.kept.desk import keeping_plans
+from app.records.kept.routes import router as kept_router
 from app.requests.bounds import Bounds
-from app.roads.opening import extracts_of, opened_roads
+from app.schemas.errors import InvalidRequestError, RequestError, problem_response, schema_error
 from app.schemas.openapi import TAGS, allowed_methods, describe, operation_id
-from app.settings import Settings
-from app.sheets.lookups import new_lookups
-from app.sheets.lookups import router as addresses_router
-from app.sheets.routes import router as sheets_router
-from app.streets.gallery import Gallery
-from app.streets.routes import router as streets_router
-from app.vroom.routes import router as vroom_router
+from app.serving.access.gate import KeyScrubber
+from app.serving.access.setup import control_access, guarding
+from app.serving.health import router as health_router
+from app.serving.load.courtesy import Courtesy
+from app.serving.load.memory import giving_back
+from app.serving.load.setup import is_asked, prepare_for_load
+from app.serving.observe.observer import Observer
+from app.serving.observe.routes import metrics_router
+from app.serving.settings import Settings
 from model.planner import PlanCheckError, Planner, load_planner
 
 logger = logging.getLogger(__name__)

@@ -16,7 +16,7 @@ import numpy as np
 import osmium
 from shapely import Point, Polygon
 
-from app.conversion.problem import to_problem
+from app.requests.conversion.problem import to_problem
 from app.schemas.openapi import EXAMPLES_DIR, EXAMPLES as DOCUMENTED
 from app.schemas.request import PlanRequest
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule

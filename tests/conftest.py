@@ -36,11 +36,11 @@ SLOW = (
     "tests/benchmarks/", "tests/console/", "tests/engine/rules/",
     "tests/engine/test_engine_tests.py", "tests/training/", "tests/test_end_to_end.py",
     *(f"tests/app/{name}" for name in (
-        "access/", "addresses/test_servers.py", "cli/test_plot.py", "dispatches/", "jobs/", "kept/",
-        "load/", "observe/", "pictures/", "plans/test_task.py",
-        "requests/test_bounds.py", "requests/test_wrong_bodies.py", "roads/",
-        "schemas/test_clients.py", "sheets/", "test_api_fuzz.py", "vroom/test_planning.py",
-        "vroom/test_windows.py")),
+        "cli/test_plot.py", "formats/sheets/", "formats/vroom/test_planning.py",
+        "formats/vroom/test_windows.py", "maps/addresses/test_servers.py", "maps/roads/",
+        "plans/pictures/", "plans/test_task.py", "records/", "requests/test_bounds.py",
+        "requests/test_wrong_bodies.py", "schemas/test_clients.py", "serving/",
+        "test_api_fuzz.py")),
     *(f"tests/model/{name}" for name in (
         "policy/test_features.py",
         "replanning/test_replan_random.py", "search/test_anneal.py",

@@ -22,13 +22,11 @@ FORBIDDEN = {
     "training": ("app", "benchmarks", "tests"),
     "benchmarks": ("tests",),
 }
-APP_ORDER = (
-    "settings", "errors", "schemas", "database", "access", "observe", "load", "streets", "remote",
-    "addresses", "roads", "conversion", "requests", "warnings", "plans", "files", "sheets",
-    "pictures", "jobs", "kept", "dispatches", "vroom", "console", "health", "main", "cli",
-    "__main__",
+APP = (
+    ("schemas", "database"), ("serving",), ("maps",), ("requests", "console"), ("plans",),
+    ("formats", "records"), ("main",), ("cli",),
 )
-"""Each folder or file of `app` imports only those to the left of its name."""
+"""Floors of `app`: a room imports only those on floors before its own."""
 
 MODEL = {
     "problem": (),
@@ -170,11 +168,12 @@ def test_parts_of_model_import_along_the_arrows() -> None:
     assert sum(map(len, arrows.values())) <= MOST_ARROWS
 
 
-def test_parts_of_app_import_only_those_before_them() -> None:
+def test_rooms_of_app_import_only_those_on_floors_before_theirs() -> None:
     arrows = between(imported_files("app"), first_level)
-    assert set(arrows) == set(APP_ORDER)
-    behind = {part: arrows[part] - set(APP_ORDER[:place]) for place, part in enumerate(APP_ORDER)}
-    assert {part: parts for part, parts in behind.items() if parts} == {}
+    assert set(arrows) == {room for floor in APP for room in floor}
+    above = [(room, other) for number, floor in enumerate(APP) for room in floor
+             for other in arrows[room] if not any(other in lower for lower in APP[:number])]
+    assert above == []
 
 
 @pytest.mark.parametrize("package", ["app", "model"])

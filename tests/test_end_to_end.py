@@ -23,7 +23,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
     port = free_port()
     path = tmp_path_factory.mktemp("serve") / "log.txt"
     with path.open("w") as log:
-        process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],
+        process = subprocess.Popen([sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
                                    stdout=log, stderr=log, cwd=ROOT)
     with httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=120, trust_env=False) as http:
         eventually(lambda: process.poll() is not None or is_ready(http))

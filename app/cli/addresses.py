@@ -7,13 +7,13 @@ from typing import Annotated
 
 import typer
 
-from app.addresses.index import build_index, num_houses
-from app.addresses.opening import opened_addresses
-from app.addresses.reading import AddressesError
-from app.addresses.setting import GeocoderSettingError
 from app.cli.file_errors import EXIT_BAD_INPUT
-from app.settings import Settings
-from app.streets.filing import folder_beside
+from app.maps.addresses.index import build_index, num_houses
+from app.maps.addresses.opening import opened_addresses
+from app.maps.addresses.reading import AddressesError
+from app.maps.addresses.setting import GeocoderSettingError
+from app.maps.streets.filing import folder_beside
+from app.serving.settings import Settings
 
 PATIENCE = 60.0
 """Seconds in which addresses are looked up."""

@@ -6,7 +6,7 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from app.load.memory import collect_seldom, loading
+from app.serving.load.memory import collect_seldom, loading
 
 COMMANDS = {
     "keys": "app.cli.keys:keys_cli",

@@ -10,7 +10,7 @@ from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.connections import make_engine
 from app.database.migrations import running
-from app.settings import Settings
+from app.serving.settings import Settings
 
 EXIT_FAILED = 1
 
@@ -50,7 +50,7 @@ def downgrade(
 def database() -> Iterator[Engine]:
     """Yield the database that the settings name; say in words why it can't be used."""
     try:
-        engine = make_engine(Settings())
+        engine = make_engine(Settings().database)
         try:
             yield engine
         finally:

@@ -5,7 +5,7 @@ from typing import NoReturn
 
 import typer
 
-from app.errors import RequestError
+from app.schemas.errors import RequestError
 
 EXIT_BAD_INPUT = 2
 

@@ -10,17 +10,17 @@ import typer
 from pydantic import ValidationError
 from pydantic_core import to_json
 
-from app.addresses.addresses import Addresses
-from app.addresses.opening import opened_addresses
-from app.addresses.setting import GeocoderSettingError
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
-from app.errors import RequestError
-from app.roads.setting import SettingError, read_setting
-from app.settings import Settings
-from app.sheets.addresses import Finder
-from app.sheets.importing import import_file
-from app.sheets.meanings import MEANINGS
-from app.sheets.schemas import ColumnReply, ImportReply, ImportSettings, Mapping
+from app.formats.sheets.addresses import Finder
+from app.formats.sheets.importing import import_file
+from app.formats.sheets.meanings import MEANINGS
+from app.formats.sheets.schemas import ColumnReply, ImportReply, ImportSettings, Mapping
+from app.maps.addresses.addresses import Addresses
+from app.maps.addresses.opening import opened_addresses
+from app.maps.addresses.setting import GeocoderSettingError
+from app.maps.roads.setting import SettingError, read_setting
+from app.schemas.errors import RequestError
+from app.serving.settings import Settings
 
 EXAMPLES = 3
 

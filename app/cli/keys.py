@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
-from app.access.keys import KeyStore
 from app.cli.database import database, fail
+from app.serving.access.keys import KeyStore
 
 keys_cli = typer.Typer(help="Make, list and revoke API keys.", no_args_is_help=True,
                        add_completion=False)

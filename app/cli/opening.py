@@ -5,12 +5,12 @@ from contextlib import ExitStack, contextmanager
 
 import typer
 
-from app.addresses.setting import GeocoderSettingError
 from app.cli.file_errors import EXIT_BAD_INPUT
-from app.roads.opening import opened_roads
-from app.roads.roads import Roads
-from app.roads.setting import SettingError
-from app.settings import Settings
+from app.maps.addresses.setting import GeocoderSettingError
+from app.maps.roads.opening import opened_roads
+from app.maps.roads.roads import Roads
+from app.maps.roads.setting import SettingError
+from app.serving.settings import Settings
 
 
 @contextmanager

@@ -8,15 +8,15 @@ import typer
 
 from app.cli.file_errors import refuse
 from app.cli.opening import roads_of
-from app.errors import RequestError
-from app.files.importers import FileFormat, convert_file
+from app.formats.files.importers import FileFormat, convert_file
 from app.plans.service import plan_options, preparing, reply_of
 from app.plans.task import Task, task_of
 from app.requests.bounds import UNBOUNDED
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
+from app.schemas.errors import RequestError
 from app.schemas.fields import Rounding
-from app.settings import Settings
+from app.serving.settings import Settings
 from model.judge.check import Evaluation
 from model.planner import load_planner
 from model.solution import COST_TERMS

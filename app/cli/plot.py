@@ -7,11 +7,11 @@ import typer
 
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
 from app.cli.opening import roads_of
-from app.errors import RequestError
-from app.pictures.scene import Scene
+from app.plans.pictures.scene import Scene
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
-from app.settings import Settings
+from app.schemas.errors import RequestError
+from app.serving.settings import Settings
 
 FORMATS = (".png", ".svg", ".html")
 
@@ -44,7 +44,7 @@ def plot(
 
 def _content(scene: Scene, ending: str) -> bytes:
     # Imported here: other commands needn't wait for matplotlib.
-    from app.pictures.drawing import draw_png, draw_svg
-    from app.pictures.page import draw_page
+    from app.plans.pictures.drawing import draw_png, draw_svg
+    from app.plans.pictures.page import draw_page
 
     return {".png": draw_png, ".svg": draw_svg, ".html": draw_page}[ending](scene)

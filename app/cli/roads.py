@@ -9,15 +9,15 @@ from typing import Annotated
 import typer
 from tqdm import tqdm
 
-from app.addresses.index import build_index
-from app.addresses.reading import AddressesError
 from app.cli.file_errors import EXIT_BAD_INPUT
-from app.roads.building import BuildError, Show, build_roads
-from app.roads.setting import Extract, Vehicle
-from app.roads.tools import ToolsMissingError, find_tools
-from app.streets.filing import folder_beside
-from app.streets.reading import StreetsError
-from app.streets.store import build_streets
+from app.maps.addresses.index import build_index
+from app.maps.addresses.reading import AddressesError
+from app.maps.roads.building import BuildError, Show, build_roads
+from app.maps.roads.setting import Extract, Vehicle
+from app.maps.roads.tools import ToolsMissingError, find_tools
+from app.maps.streets.filing import folder_beside
+from app.maps.streets.reading import StreetsError
+from app.maps.streets.store import build_streets
 
 BAR = "{desc} |{bar}| {percentage:3.0f} % [{elapsed}]"
 

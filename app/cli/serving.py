@@ -10,16 +10,16 @@ import typer
 import uvicorn
 from fastapi import FastAPI
 
-from app.access.setup import ExposedError, check_exposure
 from app.cli.file_errors import EXIT_BAD_INPUT
 from app.cli.opening import roads_of
 from app.database.files import FolderError, check_folder
-from app.load.memory import collect_seldom, keep_memory
-from app.load.protocol import HttpProtocol
 from app.main import create_app
-from app.observe.logs import log_config
-from app.observe.metrics import MULTIPROCESS_DIR
-from app.settings import Settings
+from app.serving.access.setup import ExposedError, check_exposure
+from app.serving.load.memory import collect_seldom, keep_memory
+from app.serving.load.protocol import HttpProtocol
+from app.serving.observe.logs import log_config
+from app.serving.observe.metrics import MULTIPROCESS_DIR
+from app.serving.settings import Settings
 
 HEALTHCHECK_SECONDS = 30
 """How long a process may not answer its parent, which then starts another in its place."""
@@ -40,7 +40,7 @@ def serve(
         raise typer.Exit(EXIT_BAD_INPUT) from error
     try:
         if settings.database_url is None or settings.role != "api":
-            check_folder(settings)
+            check_folder(settings.data_dir)
     except FolderError as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(EXIT_BAD_INPUT) from error

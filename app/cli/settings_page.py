@@ -8,7 +8,7 @@ import typer
 from pydantic.fields import FieldInfo
 from pydantic_core import to_json
 
-from app.settings import Settings
+from app.serving.settings import Settings
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -15,8 +15,8 @@ from fastapi.staticfiles import StaticFiles
 from pydantic import BaseModel
 from starlette.types import Scope
 
-from app.streets.routes import ATTRIBUTION
-from app.streets.sea import Box
+from app.maps.streets.routes import ATTRIBUTION
+from app.maps.streets.sea import Box
 
 STATIC_DIR = Path(__file__).parent / "static"
 

@@ -17,7 +17,7 @@ from sqlalchemy.exc import TimeoutError as PoolTimeoutError
 from sqlalchemy.pool import ConnectionPoolEntry
 
 from app.database.files import DatabaseFile
-from app.settings import Settings
+from app.database.settings import DatabaseSettings
 
 FILE_NAME = "tandem.db"
 
@@ -39,7 +39,7 @@ class Purpose(Enum):
     KEEPING_PLANS = 7_236_103
 
 
-def database_url(settings: Settings) -> URL:
+def database_url(settings: DatabaseSettings) -> URL:
     """Return the URL that the settings state, or that of a file in the data folder.
 
     Raises
@@ -47,10 +47,10 @@ def database_url(settings: Settings) -> URL:
     ValueError
         If the URL can't be read.
     """
-    if settings.database_url is None:
+    if settings.url is None:
         return URL.create("sqlite", database=str(settings.data_dir / FILE_NAME))
     try:
-        url = make_url(settings.database_url.get_secret_value())
+        url = make_url(settings.url.get_secret_value())
     except ArgumentError:
         # Without the cause, which repeats the URL and so the password.
         raise ValueError("TANDEM_DATABASE_URL: this is no database URL") from None
@@ -59,13 +59,13 @@ def database_url(settings: Settings) -> URL:
     return url
 
 
-def make_engine(settings: Settings) -> Engine:
+def make_engine(settings: DatabaseSettings) -> Engine:
     """Return a pool of connections to the database; makes the data folder if it is needed."""
     url = database_url(settings)
-    if settings.database_url is None:
+    if settings.url is None:
         settings.data_dir.mkdir(mode=0o700, parents=True, exist_ok=True)
     if url.get_backend_name() == "sqlite":
-        _keep_to_owner(Path(url.database or ""), is_ours=settings.database_url is None)
+        _keep_to_owner(Path(url.database or ""), is_ours=settings.url is None)
         file = DatabaseFile(Path(url.database or ""))
         engine = create_engine(url, creator=file.connect)
         folder = Path(url.database or "").parent

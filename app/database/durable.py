@@ -5,7 +5,7 @@ from typing import Any
 from sqlalchemy import Engine, create_engine, event
 
 from app.database.connections import CONNECT_SECONDS, database_url, make_engine
-from app.settings import Settings
+from app.database.settings import DatabaseSettings
 
 POOL_SIZE = 20
 
@@ -20,7 +20,7 @@ POSTGRESQL = {
 """Parameters of libpq, in seconds where they are times."""
 
 
-def connect(settings: Settings) -> Engine:
+def connect(settings: DatabaseSettings) -> Engine:
     """Return a pool of connections to the database that the settings name."""
     url = database_url(settings)
     if url.get_backend_name() == "sqlite":

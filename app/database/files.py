@@ -10,8 +10,6 @@ from sqlalchemy import Engine, event
 from sqlalchemy.exc import DisconnectionError, OperationalError
 from sqlalchemy.pool import ConnectionPoolEntry
 
-from app.settings import Settings
-
 GONE = ("The database's file is gone, so nothing can be kept: put it back, or start the service "
         "anew, which makes an empty one.")
 
@@ -29,7 +27,7 @@ class FolderError(OSError):
     """Nothing can be kept in the folder for data."""
 
 
-def check_folder(settings: Settings) -> None:
+def check_folder(folder: Path) -> None:
     """Make sure that files can be made in the folder for data, which is made if need be.
 
     Raises
@@ -37,7 +35,6 @@ def check_folder(settings: Settings) -> None:
     FolderError
         If not; its words say why.
     """
-    folder = settings.data_dir
     try:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()

@@ -106,7 +106,7 @@ PLAN_LINKS = Table(
     Column("id", String(12), primary_key=True),
     Column("owner", String(200), nullable=False),
     Column("plan", String(64), nullable=False),
-    Column("digest", LargeBinary(32), nullable=False),  # see `app.access.tokens`
+    Column("digest", LargeBinary(32), nullable=False),  # see `app.serving.access.tokens`
     Column("created_at", BigInteger, nullable=False),  # milliseconds since 1970
     Index("plan_links_by_plan", "owner", "plan"),
 )

@@ -7,25 +7,27 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, to_json
 
-from app.conversion.preparing import Preparing
-from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors
+from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data, cost_reply, summary_reply
 from app.plans.task import task_of, telling, warning_replies
 from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds, bound_errors
+from app.requests.conversion.preparing import Preparing
 from app.requests.draft import Draft
 from app.requests.plan_reading import Known, plan_errors
 from app.requests.reading import partial_draft, read_json, request_errors, tells_day
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
-from app.roads.roads import NO_ROADS, Roads
 from app.schemas.check import CheckReply, CheckRequest, PlannedProblem
 from app.schemas.day import DayOfBody
+from app.schemas.errors import (
+    InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors,
+)
 from app.schemas.hints import with_hints
+from app.schemas.limits import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 from app.schemas.times import read_body
 from app.schemas.untimed import UntimedPlanInput
-from app.settings import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 
 PROBLEM, PLAN = "problem", "plan"
 

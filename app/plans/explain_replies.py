@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Sequence
 
-from app.conversion.units import money, whole
 from app.plans.replies import Data, cost_reply, one_per_type, reason_reply, vehicle_name
 from app.plans.task import telling
+from app.requests.conversion.units import money, whole
 from model.judge.alternatives import Alternative, halt_of
 from model.judge.bench import Bench, Trial
 from model.judge.binding import Binding

@@ -6,19 +6,19 @@ from dataclasses import dataclass, replace
 
 from pydantic_core import to_json
 
-from app.conversion.preparing import Preparing
-from app.errors import InputError, InvalidRequestError
-from app.load.bodies import ReceivedBody
+from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
 from app.plans.explain_replies import customer_reply, drones_reply, idle_reply, nobody_reply
 from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies
 from app.requests.bounds import Bounds
+from app.requests.conversion.preparing import Preparing
 from app.requests.plan_reading import parse_plan, read_plan
-from app.roads.roads import NO_ROADS, Roads
+from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.explain import ExplainOptions, ExplainReply, ExplainRequest
 from app.schemas.request import PlanRequest
+from app.serving.load.bodies import ReceivedBody
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench, Setting
 from model.judge.binding import find_binding

@@ -4,9 +4,9 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from app.conversion.far_legs import Estimates
-from app.errors import NoRoadsError
-from app.roads.engine import RoadsError
+from app.maps.roads.engine import RoadsError
+from app.requests.conversion.far_legs import Estimates
+from app.schemas.errors import NoRoadsError
 from model.judge.check import check, judge_route
 from model.judge.past import Past
 from model.judge.retiming import read_route, time_route

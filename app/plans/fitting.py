@@ -6,8 +6,7 @@ from dataclasses import replace
 
 from pydantic_core import to_json
 
-from app.errors import InputError, InvalidRequestError
-from app.load.bodies import ReceivedBody
+from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
 from app.plans.explain_replies import here_reply, more_than_without, placed_reply, rules_reply
 from app.plans.explaining import LEAST_TRYING, preparing_within, require_known, require_within
@@ -16,8 +15,9 @@ from app.plans.replies import Data, cost_reply
 from app.plans.task import Task, task_of, warning_replies
 from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds
-from app.roads.roads import NO_ROADS, Roads
+from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.fit import FitReply, FitRequest
+from app.serving.load.bodies import ReceivedBody
 from model.judge.bench import Bench, Trial
 from model.judge.check import Evaluation
 from model.judge.fitting import find_fits, new_violations, spot_of, vehicle_of

@@ -5,12 +5,12 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
 from typing import Any
 
-from app.conversion.launches import drones_named
-from app.conversion.leg_origins import LegOrigin
-from app.conversion.places import depots_of
-from app.conversion.ground import Detours, Ground
+from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.road_lines import Line, RoadLines, encoded
-from app.roads.roads import NO_ROADS, Roads
+from app.requests.conversion.ground import Detours, Ground
+from app.requests.conversion.launches import drones_named
+from app.requests.conversion.leg_origins import LegOrigin
+from app.requests.conversion.places import depots_of
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
 from app.schemas.request import PlanRequest
 from model.problem import FloatArray

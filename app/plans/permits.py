@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
-from app.conversion.groups import Place, Roster
 from app.plans.replies import Data
+from app.requests.conversion.groups import Place, Roster
 from app.schemas.customer import VehiclesInput
 from app.schemas.request import PlanRequest
 

@@ -5,8 +5,8 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
-from app.conversion.units import money, whole
 from app.plans.energy import energy_models, energy_wh
+from app.requests.conversion.units import money, whole
 from model.judge.check import Evaluation
 from model.judge.explain import Reason, explain
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics

@@ -6,8 +6,8 @@ from itertools import pairwise
 import numpy as np
 import polyline
 
-from app.roads.engine import NoWayError, RoadsError
-from app.roads.roads import Roads
+from app.maps.roads.engine import NoWayError, RoadsError
+from app.maps.roads.roads import Roads
 
 DECIMALS = 6
 """Of coordinates in lines, which each have latitude, or y, first."""

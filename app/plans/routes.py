@@ -4,10 +4,6 @@ from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, Response
 
-from app.access.guard import Plan
-from app.load.abandoned import Planning
-from app.load.bodies import Body
-from app.load.readings import Reading
 from app.plans.checking import answer_check
 from app.plans.explaining import answer_explain
 from app.plans.fitting import answer_fit
@@ -19,6 +15,10 @@ from app.schemas.fit import FitReply, FitRequest
 from app.schemas.openapi import ERROR_RESPONSES, EXAMPLES, json_body
 from app.schemas.request import PlanRequest
 from app.schemas.response import PlanReply, WarningsReply
+from app.serving.access.guard import Plan
+from app.serving.load.abandoned import Planning
+from app.serving.load.bodies import Body
+from app.serving.load.readings import Reading
 
 router = APIRouter()
 

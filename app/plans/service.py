@@ -5,15 +5,15 @@ from collections.abc import Callable
 
 from pydantic_core import to_json
 
-from app.conversion.preparing import Preparing, patience
-from app.load.bodies import ReceivedBody
+from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies
 from app.requests.bounds import UNBOUNDED, Bounds
+from app.requests.conversion.preparing import Preparing, patience
 from app.requests.reading import read_request
-from app.roads.roads import NO_ROADS, Roads
+from app.requests.warnings.finding import warnings_of
 from app.schemas.request import OptionsInput, PlanRequest
-from app.warnings.finding import warnings_of
+from app.serving.load.bodies import ReceivedBody
 from model.kernel.cores import num_cores
 from model.planner import ALONE, Listener, Planner, PlanOptions
 

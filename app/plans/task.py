@@ -8,16 +8,7 @@ from functools import partial
 
 from pydantic_core import to_json
 
-from app.conversion.leg_origins import LegOrigin
-from app.conversion.locating import Located, located
-from app.conversion.names import read_name
-from app.conversion.preparing import UNHURRIED, Preparing
-from app.conversion.problem import problem_of
-from app.conversion.ground import Ground
-from app.conversion.travels import Travels
-from app.conversion.units import optional_thousandths
-from app.conversion.work import replanning_seconds
-from app.errors import InputError, InvalidRequestError
+from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.carried import Info, carry, info_of
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
@@ -25,13 +16,22 @@ from app.plans.permits import Permits
 from app.plans.replan_replies import on_the_wire, replan_reply
 from app.plans.replies import Data, plan_reply, route_reply
 from app.plans.telling import IN_SECONDS, Telling
+from app.requests.conversion.ground import Ground
+from app.requests.conversion.leg_origins import LegOrigin
+from app.requests.conversion.locating import Located, located
+from app.requests.conversion.names import read_name
+from app.requests.conversion.preparing import UNHURRIED, Preparing
+from app.requests.conversion.problem import problem_of
+from app.requests.conversion.travels import Travels
+from app.requests.conversion.units import optional_thousandths
+from app.requests.conversion.work import replanning_seconds
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
-from app.roads.roads import NO_ROADS, Roads
+from app.requests.warnings.addresses import address_warnings
+from app.requests.warnings.finding import warnings_of
+from app.requests.warnings.warning import RequestWarning
+from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.request import PlanRequest, ReplanInput
 from app.schemas.response import PlanReply
-from app.warnings.addresses import address_warnings
-from app.warnings.finding import warnings_of
-from app.warnings.warning import RequestWarning
 from model.judge.bench import Setting
 from model.judge.check import Evaluation, JudgedRoute, check
 from model.judge.explain import Reason, explain

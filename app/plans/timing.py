@@ -2,8 +2,8 @@
 
 from dataclasses import replace
 
-from app.conversion.units import optional_thousandths
 from app.plans.task import Task
+from app.requests.conversion.units import optional_thousandths
 from app.requests.plan_reading import read_plan
 from app.schemas.untimed import UntimedPlanInput, UntimedRouteInput
 from model.judge.check import judge_route

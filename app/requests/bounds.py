@@ -3,12 +3,13 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from app.conversion.places import nowhere_of, places_of
-from app.conversion.travels import Travels
-from app.errors import InputError
+from app.requests.conversion.places import nowhere_of, places_of
+from app.requests.conversion.travels import Travels
 from app.requests.draft import Draft
+from app.schemas.errors import InputError
+from app.schemas.limits import MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 from app.schemas.request import PlanRequest, ReplanInput
-from app.settings import MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_TIME_LIMIT, Settings
+from app.serving.settings import Settings
 from model.planner import DECODED_UP_TO, decoding_seconds
 from model.replanning.workers import MAX_OWN_TYPES
 

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from itertools import islice, pairwise
 from typing import TypeVar
 
-from app.conversion.groups import Roster, groups_of
-from app.conversion.names import drones_of
-from app.conversion.units import thousandths
+from app.requests.conversion.groups import Roster, groups_of
+from app.requests.conversion.names import drones_of
+from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.customer import TimeWindowInput
 

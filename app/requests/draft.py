@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.conversion.places import Place, stands_of
-from app.errors import ErrorCode, InputError, json_path
+from app.requests.conversion.places import Place, stands_of
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day
 from app.schemas.drones import DronesInput
+from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.fields import Location
 from app.schemas.request import (
     AirspaceInput, DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput,

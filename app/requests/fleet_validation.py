@@ -1,8 +1,8 @@
 """What the schema can't tell of a vehicle type."""
 
-from app.conversion.amounts import counted, decimals_of
-from app.conversion.energy import is_countable
-from app.conversion.units import thousandths
+from app.requests.conversion.amounts import counted, decimals_of
+from app.requests.conversion.energy import is_countable
+from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.drones import DronesInput
 from app.schemas.energy import EnergyInput

@@ -5,7 +5,7 @@ import re
 from base64 import urlsafe_b64decode, urlsafe_b64encode
 from collections.abc import Callable
 
-from app.errors import InputError, InvalidRequestError
+from app.schemas.errors import InputError, InvalidRequestError
 
 MAX_INSTANT = 2**63 - 1
 """Latest instant in milliseconds that the database can be asked for."""

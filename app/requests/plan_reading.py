@@ -6,12 +6,12 @@ from typing import NamedTuple, TypeVar
 
 from pydantic import ValidationError
 
-from app.conversion.names import number_in
-from app.conversion.places import stands_of
-from app.conversion.units import thousandths
-from app.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
+from app.requests.conversion.names import number_in
+from app.requests.conversion.places import stands_of
+from app.requests.conversion.units import thousandths
 from app.requests.reading import read_json
 from app.schemas.customer import CustomerInput
+from app.schemas.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
 from app.schemas.hints import with_hints
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
 from app.schemas.request import DepotInput

@@ -5,12 +5,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
-from app.conversion.launches import launch_durations
-from app.conversion.names import drone_number, number_in, read_name
-from app.conversion.places import stands_of
-from app.conversion.units import thousandths
-from app.errors import ErrorCode, InputError, json_path
+from app.requests.conversion.launches import launch_durations
+from app.requests.conversion.names import drone_number, number_in, read_name
+from app.requests.conversion.places import stands_of
+from app.requests.conversion.units import thousandths
 from app.schemas.customer import CustomerInput
+from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.plan import MAX_INSTANT, RouteInput, StopInput, TripInput
 from app.schemas.request import DepotInput, ReplanInput
 from app.schemas.vehicle import VehicleTypeInput

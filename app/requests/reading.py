@@ -6,13 +6,15 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, from_json, to_json
 
-from app.errors import InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.requests.draft import Draft
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, DayOfBody
+from app.schemas.errors import (
+    InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors,
+)
 from app.schemas.hints import with_hints
 from app.schemas.request import (
     AirspaceInput,

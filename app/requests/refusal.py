@@ -15,8 +15,10 @@ import msgspec
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
-from app.errors import ErrorCode, InputError, InvalidRequestError, NotJsonError, schema_errors
 from app.requests.shapes import Loose, read_shape
+from app.schemas.errors import (
+    ErrorCode, InputError, InvalidRequestError, NotJsonError, schema_errors,
+)
 from app.schemas.hints import with_hints
 from app.schemas.times import read_body
 

@@ -4,9 +4,8 @@ from collections.abc import Collection, Sequence
 
 import numpy as np
 
-from app.conversion.amounts import amount_errors
-from app.errors import InputError, json_path
 from app.requests.airspace_validation import airspace_errors
+from app.requests.conversion.amounts import amount_errors
 from app.requests.customer_validation import (
     group_errors, service_errors, vehicle_errors, window_errors,
 )
@@ -16,6 +15,7 @@ from app.requests.fleet_validation import (
 )
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.customer import CustomerInput
+from app.schemas.errors import InputError, json_path
 from app.schemas.fields import point_of
 from app.schemas.request import DepotInput
 from app.schemas.rows import Row

@@ -4,8 +4,8 @@ from typing import Annotated
 
 from pydantic import Discriminator, Field, Tag
 
-from app.errors import ALONE, LISTED
 from app.schemas.energy import EnergyInput, Watts
+from app.schemas.errors import ALONE, LISTED
 from app.schemas.fields import Count, Demand, Duration, Input, Money, Name, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0

@@ -5,9 +5,9 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.check import PlannedProblem
+from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
 from app.schemas.times import InstantReply, WordsReply
-from app.settings import MAX_TIME_LIMIT
 
 OTHERS_STAY = "All other customers stay with their vehicles, in their order."
 

@@ -4,10 +4,10 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
-from app.errors import IN_PLACE, LISTED
+from app.schemas.errors import IN_PLACE, LISTED
+from app.schemas.limits import MAX_CUSTOMERS
 from app.schemas.rows import HeldAsArray, Row
 from app.schemas.times import READ_DURATION, READ_INSTANT, READ_OPENING
-from app.settings import MAX_CUSTOMERS
 from model.problem import MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000

@@ -11,7 +11,7 @@ from typing import Annotated, Any, Union, get_args, get_origin
 from pydantic import BaseModel
 from pydantic.fields import FieldInfo
 
-from app.errors import MAX_LISTED_ERRORS, InputError
+from app.schemas.errors import MAX_LISTED_ERRORS, InputError
 
 LONGEST_NAME = 40
 """Characters of a name up to which a field is looked for that was meant."""

@@ -9,7 +9,7 @@ from fastapi import FastAPI, Request
 from fastapi.routing import APIRoute
 from pydantic import BaseModel
 
-from app.errors import MEDIA_TYPE, ProblemDocument
+from app.schemas.errors import MEDIA_TYPE, ProblemDocument
 
 SCHEMA_REF = "#/components/schemas/{model}"
 

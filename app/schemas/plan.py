@@ -9,8 +9,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.fields import Location
+from app.schemas.limits import MAX_VEHICLES
 from app.schemas.times import READ_ANY_INSTANT, PlanStart, TimeZone
-from app.settings import MAX_VEHICLES
 from model.problem import UNLIMITED
 
 MAX_INSTANT = UNLIMITED / 1000

@@ -8,19 +8,19 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from app.errors import IN_PLACE, IN_WORDS
 from app.schemas.customer import CustomerInput
+from app.schemas.day import Day, Times
+from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
     LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, Input, Instant, Location, LocationIndex, Money,
     Name, PlaceLocation, Rounding, Table,
 )
-from app.schemas.day import Day, Times
+from app.schemas.limits import (
+    DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
+)
 from app.schemas.plan import PlanInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
-from app.settings import (
-    DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
-)
 from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE
 
 MAX_VEHICLE_TYPES = 100

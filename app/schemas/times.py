@@ -12,8 +12,8 @@ from pydantic import (
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from app.errors import AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
 from app.schemas.day import LONGEST_TEXT, Day, DayOfBody, is_instant, read_date_time, zone_of
+from app.schemas.errors import AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
 
 Model = TypeVar("Model", bound=BaseModel)
 

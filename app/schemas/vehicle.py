@@ -4,8 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Discriminator, Field, Tag
 
-from app.errors import IN_PLACE, IN_WORDS
 from app.schemas.drones import Drones, DronesInput
+from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
@@ -24,7 +24,7 @@ from app.schemas.fields import (
     Skills,
     Speed,
 )
-from app.settings import MAX_VEHICLES
+from app.schemas.limits import MAX_VEHICLES
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 

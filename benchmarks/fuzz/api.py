@@ -47,7 +47,7 @@ def service(folder: Path) -> Iterator[Target]:
         "TANDEM_DATA_DIR": str(folder), "TANDEM_LOG_LEVEL": "error",
         "TANDEM_WRONG_KEYS_PER_MINUTE": "0",
     }
-    tandem = [sys.executable, "-m", "app"]
+    tandem = [sys.executable, "-m", "app.cli"]
     scopes = [f"--scope={scope}" for scope in ("plan", "jobs", "admin")]
     key = subprocess.run([*tandem, "keys", "create", "fuzz", *scopes], env=environment, check=True,
                          text=True, stdout=subprocess.PIPE).stdout.strip()

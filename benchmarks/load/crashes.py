@@ -89,7 +89,7 @@ class Service:
 
     def start(self) -> None:
         """Start the service and wait until it can plan. In place."""
-        command = [sys.executable, "-m", "app", "serve", "--port", str(self._port)]
+        command = [sys.executable, "-m", "app.cli", "serve", "--port", str(self._port)]
         self._process = subprocess.Popen(command, cwd=ROOT, env=self._environment,
                                          stdout=self._log, stderr=self._log)
         deadline = time.monotonic() + LONGEST_START

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import typer
 
-from app.settings import DEFAULT_POLICY
+from app.schemas.limits import DEFAULT_POLICY
 from benchmarks.load.load import Client, Service, Tally, encoded, running
 
 MOST_CUSTOMERS = 8

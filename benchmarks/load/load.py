@@ -27,7 +27,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.settings import DEFAULT_POLICY
+from app.schemas.limits import DEFAULT_POLICY
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "table1.json"
 
@@ -156,7 +156,7 @@ def running(workers: int) -> Iterator[Service]:
         environment = {**os.environ, "TANDEM_ACCESS": "keys", "TANDEM_DATA_DIR": folder,
                        "TANDEM_ROLE": "api", "TANDEM_WRONG_KEYS_PER_MINUTE": "0",
                        "TANDEM_LOG_LEVEL": "warning"}
-        command = [sys.executable, "-m", "app"]
+        command = [sys.executable, "-m", "app.cli"]
         key = subprocess.run([*command, "keys", "create", "load", "--scope", "plan"], text=True,
                              env=environment, check=True, stdout=subprocess.PIPE).stdout.strip()
         process = subprocess.Popen(

@@ -3,7 +3,7 @@
 import time
 from functools import lru_cache
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from benchmarks.peers.answers import PeerAnswer
 from benchmarks.peers.published import Published
 from benchmarks.peers.tandem import plan_to_answer, problem_of

@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 from vrplib import read_solution  # type: ignore[import-untyped]
 
-from app.files.importers import read_instance_file
-from app.files.instance import FileVehicles, InstanceFile, distances
+from app.formats.files.importers import read_instance_file
+from app.formats.files.instance import FileVehicles, InstanceFile, distances
 from app.schemas.fields import Rounding
 from model.problem import (
     MM_PER_KM, UNLIMITED, BoolArray, Customer, Depot, FloatArray, IntArray, Problem, Travel,

@@ -16,7 +16,7 @@ import typer
 from numpy.typing import ArrayLike
 from vrplib import read_instance  # type: ignore[import-untyped]
 
-from app.conversion.rounding import rounded
+from app.requests.conversion.rounding import rounded
 from benchmarks.peers.answers import judge, stated_cost
 from benchmarks.peers.published import (
     NO_LIMIT, Convention, Gaps, Published, PublishedVehicle, best_known_beside, read_routes,

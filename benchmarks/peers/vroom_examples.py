@@ -15,7 +15,8 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.peers.vroom_requests import by_tandem, by_vroom
 from model.planner import load_planner
 from model.travel.matrices import great_circle_distances

@@ -20,9 +20,10 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.load.bodies import ReceivedBody
-from app.settings import DEFAULT_POLICY, Settings
-from app.vroom.answering import answer
+from app.formats.vroom.answering import answer
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.load.bodies import ReceivedBody
+from app.serving.settings import Settings
 from model.planner import Planner, load_planner
 
 Data = dict[str, Any]

@@ -20,10 +20,11 @@ import numpy as np
 import typer
 from tqdm import tqdm
 
-from app.settings import DEFAULT_POLICY, Settings
-from app.vroom.places import find_places
-from app.vroom.reading import read_request
-from app.vroom.translate import translate
+from app.formats.vroom.places import find_places
+from app.formats.vroom.reading import read_request
+from app.formats.vroom.translate import translate
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.peers.vroom_requests import (
     CLASSES, both_ways, limits, mixed_fleet, priorities, setups, several_windows,
 )

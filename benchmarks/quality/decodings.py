@@ -13,7 +13,7 @@ from typing import Annotated
 
 import typer
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from benchmarks.quality.policies import cheapest_insertion
 from benchmarks.quality.weights import CLASSES, Case, costs_by_class, judged_costs, print_table
 from model.kernel.instance import pack

@@ -16,17 +16,18 @@ from typing import Any
 
 import numpy as np
 
-from app.conversion.preparing import Preparing
+from app.maps.roads.building import build_roads
+from app.maps.roads.engine import Block
+from app.maps.roads.opening import opened_roads
+from app.maps.roads.roads import Roads
+from app.maps.roads.setting import Extract
+from app.maps.roads.tools import find_tools
 from app.plans.service import plan_options
 from app.plans.task import task_of
+from app.requests.conversion.preparing import Preparing
 from app.requests.reading import read_request
-from app.roads.building import build_roads
-from app.roads.engine import Block
-from app.roads.opening import opened_roads
-from app.roads.roads import Roads
-from app.roads.setting import Extract
-from app.roads.tools import find_tools
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.speed.roads import PATIENCE, drawn
 from model.planner import load_planner
 from model.problem import FloatArray

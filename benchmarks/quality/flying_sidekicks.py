@@ -24,7 +24,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from app.conversion.powers import murray_raj_flight, murray_raj_vertical
+from app.requests.conversion.powers import murray_raj_flight, murray_raj_vertical
 from benchmarks.peers.versus import machine
 from benchmarks.results import gap_percent
 from benchmarks.rows import appended, read_rows

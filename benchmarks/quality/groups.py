@@ -11,7 +11,8 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.quality.group_problems import best_plan, draw_group, draw_streets, what_comes
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem

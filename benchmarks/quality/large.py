@@ -24,7 +24,7 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.files.importers import read_instance_file
+from app.formats.files.importers import read_instance_file
 from benchmarks.clock import count_processor_time
 from benchmarks.peers import filo2 as filo2_peer
 from benchmarks.peers.answers import cost_of_all, timed_plan

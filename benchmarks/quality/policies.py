@@ -14,7 +14,7 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from benchmarks.rows import append_rows, read_rows
 from model.judge.check import check
 from model.kernel.instance import pack

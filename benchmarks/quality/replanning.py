@@ -19,7 +19,8 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from model.judge.past import known_trips
 from model.planner import ALONE, Listener, Planner, PlanOptions, PlanResult
 from model.policy.decode import Policy, load_policy

@@ -18,7 +18,7 @@ import numpy as np
 import typer
 from tqdm import tqdm
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from benchmarks.quality.replanning import day_of, nothing
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem

@@ -12,11 +12,11 @@ import json
 import time
 from pathlib import Path
 
+from app.maps.roads.opening import opened_roads
 from app.plans.service import plan_options
 from app.plans.task import Task, task_of
 from app.requests.reading import read_request
-from app.roads.opening import opened_roads
-from app.settings import Settings
+from app.serving.settings import Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.planner import Planner, PlanOptions, load_planner

@@ -13,7 +13,8 @@ from typing import Annotated
 import numpy as np
 import typer
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.rows import append_rows, read_rows
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem

@@ -15,7 +15,7 @@ from typing import Annotated
 
 import typer
 
-from app.conversion.problem import to_problem
+from app.requests.conversion.problem import to_problem
 from app.schemas.request import PlanRequest
 from benchmarks.clock import count_processor_time
 from benchmarks.many import mixed_customers

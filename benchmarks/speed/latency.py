@@ -24,11 +24,12 @@ from pydantic_core import to_json
 from rich.console import Console
 from rich.table import Table
 
-from app.conversion.problem import to_problem
 from app.plans.replies import plan_reply
 from app.plans.service import plan_options
+from app.requests.conversion.problem import to_problem
 from app.requests.reading import read_request
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from model.judge.check import check
 from model.kernel.instance import pack
 from model.planner import Elapsed, PlanResult
@@ -59,7 +60,7 @@ def service() -> Iterator[str]:
         probe.bind(("127.0.0.1", 0))
         port = probe.getsockname()[1]
     address = f"http://127.0.0.1:{port}"
-    process = subprocess.Popen([sys.executable, "-m", "app", "serve", "--port", str(port)],
+    process = subprocess.Popen([sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     try:
         began = time.perf_counter()

@@ -22,13 +22,14 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
-from app.roads.building import build_roads
-from app.roads.opening import opened_roads
-from app.roads.roads import Roads
-from app.roads.setting import Extract
-from app.roads.tools import find_tools
-from app.settings import DEFAULT_POLICY, Settings
-from app.vroom.errors import VroomError
+from app.formats.vroom.errors import VroomError
+from app.maps.roads.building import build_roads
+from app.maps.roads.opening import opened_roads
+from app.maps.roads.roads import Roads
+from app.maps.roads.setting import Extract
+from app.maps.roads.tools import find_tools
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.peers.vroom_requests import STOPPED, Compared, cells, compare
 from benchmarks.speed.roads import PATIENCE, drawn
 from model.planner import Planner, load_planner

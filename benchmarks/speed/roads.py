@@ -18,13 +18,13 @@ from tempfile import TemporaryDirectory
 import numpy as np
 import osmium
 
-from app.roads.building import build_roads
-from app.roads.nearness import nearness
-from app.roads.opening import opened_roads
-from app.roads.roads import Roads
-from app.roads.setting import Extract
-from app.roads.tools import find_tools
-from app.settings import Settings
+from app.maps.roads.building import build_roads
+from app.maps.roads.nearness import nearness
+from app.maps.roads.opening import opened_roads
+from app.maps.roads.roads import Roads
+from app.maps.roads.setting import Extract
+from app.maps.roads.tools import find_tools
+from app.serving.settings import Settings
 from model.problem import FloatArray
 
 FULL = (200, 1000, 2000)

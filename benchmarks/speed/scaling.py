@@ -32,12 +32,12 @@ def measured(number: int, is_planned: bool, turns: int = TURNS) -> Data:
 
     Beside them what its first plan costs, and by which share less after so many turns.
     """
-    from app import settings
+    from app.schemas import limits
 
     # Constants of the schema are made from it when they are imported.
-    settings.MAX_CUSTOMERS = MOST_CUSTOMERS
-    settings.MAX_LEGS = MOST_CUSTOMERS**2
-    from app.load.memory import collect_seldom
+    limits.MAX_CUSTOMERS = MOST_CUSTOMERS
+    limits.MAX_LEGS = MOST_CUSTOMERS**2
+    from app.serving.load.memory import collect_seldom
     from benchmarks.many import many_customers
 
     collect_seldom()
@@ -51,14 +51,14 @@ def measured(number: int, is_planned: bool, turns: int = TURNS) -> Data:
 
 def _steps(body: bytes, found: Data, is_planned: bool, turns: int) -> None:
     """Take all steps, or those before the legs, and note how long each takes. In place."""
-    from app.conversion.problem import to_problem
+    from app.requests.conversion.problem import to_problem
     from app.plans.checking import read_check
     from app.plans.replies import plan_reply
     from app.plans.service import plan_options
     from app.requests.bounds import UNBOUNDED
     from app.requests.plan_reading import read_plan
     from app.requests.reading import read_request
-    from app.warnings.finding import warnings_of
+    from app.requests.warnings.finding import warnings_of
     from benchmarks.many import swept
     from model.judge.check import check
     from model.judge.timing import RouteDecision, TripDecision, schedule

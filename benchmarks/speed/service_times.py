@@ -21,11 +21,11 @@ from typing import Any, TypeVar
 import numpy as np
 from pydantic_core import to_json
 
-from app.conversion.problem import to_problem
-from app.jobs.incumbent import Incumbent
-from app.jobs.region_task import ERRANDS, Errand
 from app.plans.replies import plan_reply
 from app.plans.service import plan_options
+from app.records.jobs.incumbent import Incumbent
+from app.records.jobs.region_task import ERRANDS, Errand
+from app.requests.conversion.problem import to_problem
 from app.requests.reading import read_request
 from benchmarks.load.crashes import Service
 from benchmarks.many import many_customers, swept

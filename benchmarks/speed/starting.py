@@ -53,7 +53,7 @@ def start() -> Start:
         probe.close()
         began = time.perf_counter()
         process = subprocess.Popen(
-            [sys.executable, "-m", "app", "serve", "--port", str(port)],
+            [sys.executable, "-m", "app.cli", "serve", "--port", str(port)],
             env=os.environ | {"TANDEM_DATA_DIR": folder},
             stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from app.pictures.colours import BLACK, GREY, INK, VEHICLES, VERMILLION
+from app.plans.pictures.colours import BLACK, GREY, INK, VEHICLES, VERMILLION
 from benchmarks.study.cases import HOUR, example
 from benchmarks.study.printed import Group
 from benchmarks.study.tables import REFERENCE, over_seeds, surface_of, way_of

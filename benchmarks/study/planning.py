@@ -10,9 +10,10 @@ from typing import NamedTuple
 
 from pydantic_core import to_json
 
-from app.conversion.problem import to_problem
 from app.plans.replies import plan_reply
-from app.settings import DEFAULT_POLICY, Settings
+from app.requests.conversion.problem import to_problem
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.peers.versus import machine
 from benchmarks.study.cases import request_of
 from benchmarks.study.tasks import GREEDY, NOBODY, NUM_SAMPLES, POLICIES, Planned, Task, TripRow

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from app.conversion.problem import to_problem
+from app.requests.conversion.problem import to_problem
 from benchmarks.rows import append_rows
 from benchmarks.study import figures, findings, tables
 from benchmarks.study.cases import request_of

@@ -16,7 +16,8 @@ from sqlalchemy import Connection, Engine, event
 
 from app.database.connections import make_engine
 from app.main import create_app
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
@@ -33,7 +34,7 @@ APP_DIR = Path(__file__).parents[2] / "app"
 @contextmanager
 def opened(settings: Settings) -> Iterator[Engine]:
     """Yield the service's database, which nobody else closes: else a later test is told of it."""
-    engine = make_engine(settings)
+    engine = make_engine(settings.database)
     try:
         yield engine
     finally:

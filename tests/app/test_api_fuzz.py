@@ -8,10 +8,10 @@ import subprocess
 import sys
 from pathlib import Path
 
-from app.access.keys import SCOPES, KeyStore
 from app.database.connections import make_engine
-from app.settings import Settings
-from tests.app.observe.server import running
+from app.serving.access.keys import SCOPES, KeyStore
+from app.serving.settings import Settings
+from tests.app.serving.observe.server import running
 
 CASES = 1
 """Most of each operation in a phase."""
@@ -23,7 +23,7 @@ UNCHECKED = "positive_data_acceptance"
 
 def test_generated_requests_are_answered_as_described(tmp_path: Path) -> None:
     settings = Settings(data_dir=tmp_path / "data")
-    engine = make_engine(settings)
+    engine = make_engine(settings.database)
     key = KeyStore(engine).create("fuzz", SCOPES)
     engine.dispose()
     with running(TANDEM_ACCESS="keys", TANDEM_DATA_DIR=str(settings.data_dir), TANDEM_ROLE="all",

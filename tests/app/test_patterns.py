@@ -16,17 +16,17 @@ from typing import Any
 
 import pytest
 
-import app.addresses
-import app.sheets
-from app.sheets.cells import LONGEST_READ, MisreadError
-from app.sheets.clocks import Style
-from app.sheets.importing import import_file
-from app.sheets.meanings import MEANINGS
-from app.sheets.readers import READERS
-from app.sheets.schemas import ImportSettings
-from app.sheets.table import NotASheetError
+import app.formats.sheets
+import app.maps.addresses
+from app.formats.sheets.cells import LONGEST_READ, MisreadError
+from app.formats.sheets.clocks import Style
+from app.formats.sheets.importing import import_file
+from app.formats.sheets.meanings import MEANINGS
+from app.formats.sheets.readers import READERS
+from app.formats.sheets.schemas import ImportSettings
+from app.formats.sheets.table import NotASheetError
 
-PACKAGES = (app.sheets, app.addresses)
+PACKAGES = (app.formats.sheets, app.maps.addresses)
 
 STARTS = ("", "8", "8:30", "8:30 am", "2026-01-01", "1.", "48.1", "a@b", "ab ", "pt1", "(",
           "between 8", "POINT(1", "$.customers[1", "https://maps.google.com/", "geo:1", "1\u00b0",

@@ -30,7 +30,7 @@ MODULES = """Object.defineProperty(window, 'modules', { get() {
 
 
 @contextmanager
-def serving(folder: Path, module: str = "app", **settings: str) -> Iterator[str]:
+def serving(folder: Path, module: str = "app.cli", **settings: str) -> Iterator[str]:
     """Serve with the real planner and yield the address.
 
     Parameters

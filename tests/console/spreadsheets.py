@@ -7,7 +7,7 @@ from typing import Any
 
 import xlsxwriter
 
-from tests.app.sheets.makes import workbook
+from tests.app.formats.sheets.makes import workbook
 
 Data = dict[str, Any]
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.app.addresses.conftest import helsinki  # noqa: F401
+from tests.app.maps.addresses.conftest import helsinki  # noqa: F401
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, open_tab, planned, state
 

@@ -11,9 +11,9 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, expect
 from sqlalchemy import text
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, opened, ready, serving
-from tests.app.dispatches.days import (
+from tests.app.records.dispatches.days import (
     DEPART, FIRST, LAUNCH, PLAN, PROBLEM, dispatched, event, holding,
 )
 from tests.console.steps import open_example, open_tab
@@ -22,7 +22,7 @@ from tests.console.test_everyone import findings
 Data = dict[str, Any]
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "locale": "en-GB"}
-STATIC = Path(__file__).parents[2] / "app" / "dispatches" / "static"
+STATIC = Path(__file__).parents[2] / "app" / "records" / "dispatches" / "static"
 
 
 @pytest.fixture(scope="module")

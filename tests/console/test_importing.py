@@ -7,7 +7,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from playwright.sync_api import Locator, Page, expect
 
-from tests.app.sheets import makes
+from tests.app.formats.sheets import makes
 from tests.console.steps import open_example, open_file, open_tab, planned, state
 
 SHEET = """name,lat,lon,kg,duration,open time,closes,notes

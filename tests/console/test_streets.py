@@ -10,11 +10,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from app.roads.building import build_roads
-from app.roads.setting import Extract
-from app.roads.tools import Tools
-from tests.app.roads.conftest import HELSINKI
-from tests.app.roads.wheels import WHEELS, pinned, unpacked
+from app.maps.roads.building import build_roads
+from app.maps.roads.setting import Extract
+from app.maps.roads.tools import Tools
+from tests.app.maps.roads.conftest import HELSINKI
+from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, place_of, planned, state
 

@@ -10,8 +10,8 @@ import pytest
 import yaml
 from compose_spec import PyCompose
 
-from app.access.hosts import TrustedHosts
-from app.settings import Settings
+from app.serving.access.hosts import TrustedHosts
+from app.serving.settings import Settings
 
 ROOT = Path(__file__).parents[2]
 TEXT = (ROOT / "compose.yaml").read_text("utf-8")

@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from app.main import create_app
-from app.settings import Settings
+from app.serving.settings import Settings
 
 FOLDER = Path(__file__).parents[2] / "deploy" / "kubernetes"
 KUSTOMIZATION = yaml.safe_load((FOLDER / "kustomization.yaml").read_text("utf-8"))

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 from app.cli import commands
 from app.cli.file_errors import EXIT_BAD_INPUT
-from tests.app.pictures.conftest import planned
+from tests.app.plans.pictures.conftest import planned
 
 Request = dict[str, Any]
 

@@ -5,7 +5,7 @@ from pathlib import Path
 from typer.testing import CliRunner
 
 from app.cli.commands import cli
-from app.settings import Settings
+from app.serving.settings import Settings
 
 PAGE = Path(__file__).parents[3] / "docs" / "operate" / "settings.md"
 

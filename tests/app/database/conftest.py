@@ -1,5 +1,5 @@
 """Databases, as for jobs."""
 
-from tests.app.jobs.conftest import postgres, settings
+from tests.app.records.jobs.conftest import postgres, settings
 
 __all__ = ["postgres", "settings"]

@@ -7,7 +7,7 @@ import pytest
 from sqlalchemy import text
 
 from app.database.connections import close_for_good, make_engine
-from app.settings import Settings
+from app.serving.settings import Settings
 
 
 def ask(connection: Any) -> None:
@@ -18,7 +18,7 @@ def ask(connection: Any) -> None:
 
 @pytest.mark.parametrize("begun", ["before", "after"])
 def test_connection_given_back_too_late_is_closed(settings: Settings, begun: str) -> None:
-    engine = make_engine(settings)
+    engine = make_engine(settings.database)
     if begun == "after":
         close_for_good(engine)
     late = engine.connect()

@@ -13,9 +13,9 @@ from typer.testing import CliRunner
 from app.cli.commands import cli
 from app.database.connections import FILE_NAME
 from app.database.durable import connect
-from app.settings import Settings
+from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, ready
-from tests.app.jobs.stepping import request_of
+from tests.app.records.jobs.stepping import request_of
 from tests.conftest import eventually
 
 Serve = Callable[..., httpx.Client]
@@ -71,7 +71,7 @@ def test_an_empty_file_in_its_place_is_told(serve: Serve, tmp_path: Path) -> Non
 @pytest.mark.parametrize("ends", [("",), ("-wal",), ("", "-wal", "-shm")])
 def test_a_transaction_under_way_commits_to_no_file_that_is_gone(
         tmp_path: Path, ends: tuple[str, ...]) -> None:
-    engine = connect(Settings(data_dir=tmp_path))
+    engine = connect(Settings(data_dir=tmp_path).database)
     with engine.begin() as connection:
         connection.execute(text("CREATE TABLE a (x INTEGER)"))
     with engine.connect() as connection:
@@ -83,7 +83,7 @@ def test_a_transaction_under_way_commits_to_no_file_that_is_gone(
 
 
 def test_a_file_that_is_put_back_is_written_again(tmp_path: Path) -> None:
-    engine = connect(Settings(data_dir=tmp_path))
+    engine = connect(Settings(data_dir=tmp_path).database)
 
     def write() -> Any:
         with engine.begin() as connection:

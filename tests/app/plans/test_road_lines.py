@@ -5,11 +5,11 @@ from itertools import pairwise
 import polyline
 import pytest
 
+from app.maps.roads.engine import NoWayError, RoadRoute, RoadsUnavailableError
+from app.maps.roads.roads import Roads
 from app.plans.road_lines import RoadLines
-from app.roads.engine import NoWayError, RoadRoute, RoadsUnavailableError
-from app.roads.roads import Roads
 from model.problem import FloatArray
-from tests.app.roads.fake import StatedRoads, table_of
+from tests.app.maps.roads.fake import StatedRoads, table_of
 
 A, B, ISLAND = (24.94, 60.17), (24.95, 60.18), (24.96, 60.16)
 Place = tuple[float, float]

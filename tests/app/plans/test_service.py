@@ -8,13 +8,14 @@ from typing import Any
 import httpx
 import pytest
 
-from app.load.bodies import ReceivedBody
 from app.main import create_app
 from app.plans.service import PlanService, plan_options, reply_to
 from app.requests.bounds import Bounds
 from app.requests.reading import read_request
+from app.schemas.limits import DEFAULT_POLICY
 from app.schemas.request import OptionsInput
-from app.settings import DEFAULT_POLICY, Settings
+from app.serving.load.bodies import ReceivedBody
+from app.serving.settings import Settings
 from model.planner import ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem
 from model.solution import Solution

@@ -7,8 +7,8 @@ import httpx
 import pytest
 from pydantic_core import to_json
 
-from app.errors import InvalidRequestError
 from app.requests.reading import read_request
+from app.schemas.errors import InvalidRequestError
 from app.schemas.request import PlanRequest
 from app.schemas.times import read_body
 from tests.app.plans.asking import planned

@@ -7,7 +7,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.conftest import soon
 

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from app.errors import InvalidRequestError, RequestError
 from app.plans.service import reply_to
 from app.requests.reading import read_request
+from app.schemas.errors import InvalidRequestError, RequestError
 from app.schemas.response import PlanReply
 from model.planner import Planner
 

@@ -6,9 +6,9 @@ from typing import Any
 import pytest
 from pydantic_core import to_json
 
-from app.conversion.problem import to_problem
+from app.requests.conversion.problem import to_problem
 from app.requests.reading import read_request
-from app.warnings.finding import warnings_of
+from app.requests.warnings.finding import warnings_of
 from tests.growth import growth_of
 
 Request = dict[str, Any]

@@ -5,12 +5,12 @@ from typing import Any
 
 import pytest
 
-from app.conversion.problem import to_problem
-from app.errors import InvalidRequestError, NotJsonError
 from app.plans.replies import plan_reply
 from app.plans.service import plan_options
+from app.requests.conversion.problem import to_problem
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
+from app.schemas.errors import InvalidRequestError, NotJsonError
 from model.planner import Planner
 from model.problem import Problem
 from model.solution import Solution

@@ -16,18 +16,18 @@ import numpy as np
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from app.errors import InvalidRequestError
-from app.jobs.schemas import CompareRequest, SweepRequest
+from app.formats.vroom.schemas import VroomRequest
+from app.records.jobs.schemas import CompareRequest, SweepRequest
 from app.requests import refusal
 from app.requests.refusal import require_readable
 from app.requests.shapes import LONG, read_shape
 from app.schemas.check import CheckRequest
+from app.schemas.errors import InvalidRequestError
 from app.schemas.explain import ExplainRequest
 from app.schemas.fit import FitRequest
 from app.schemas.request import PlanRequest
 from app.schemas.times import read_body
-from app.settings import Settings
-from app.vroom.schemas import VroomRequest
+from app.serving.settings import Settings
 from tests.app.conftest import APP_DIR, FirstFitPlanner, ready
 from tests.app.requests.wrong_bodies import SHAPES, body_of
 from tests.conftest import PATIENCE, made_once

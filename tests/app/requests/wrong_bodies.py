@@ -12,15 +12,15 @@ import time
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from app.errors import RequestError
-from app.jobs.reading import JobReader
+from app.formats.vroom.errors import VroomError
+from app.formats.vroom.reading import read_request as read_vroom
 from app.plans.checking import read_check
 from app.plans.explaining import read_explain
+from app.records.jobs.reading import JobReader
 from app.requests.bounds import UNBOUNDED
 from app.requests.reading import read_request
-from app.settings import Settings
-from app.vroom.errors import VroomError
-from app.vroom.reading import read_request as read_vroom
+from app.schemas.errors import RequestError
+from app.serving.settings import Settings
 
 SIZE = 8 * 2**20
 

@@ -13,7 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.commands import cli
-from tests.app.observe.server import Server, running
+from tests.app.serving.observe.server import Server, running
 
 ROOT = Path(__file__).parents[3]
 GUIDE = (ROOT / "docs" / "use" / "clients.md").read_text("utf-8")

@@ -4,11 +4,11 @@ from pathlib import Path
 
 import pytest
 
-from app.conversion.problem import to_problem
+from app.requests.conversion.problem import to_problem
 from app.requests.reading import read_request
+from app.schemas.limits import DEFAULT_POLICY
 from app.schemas.openapi import EXAMPLES as DOCUMENTED
 from app.schemas.openapi import EXAMPLES_DIR
-from app.settings import DEFAULT_POLICY
 from model.problem import UNREACHABLE, Problem
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from app.formats.vroom.schemas import VroomMatricesInput
 from app.schemas.request import MatrixInput
-from app.vroom.schemas import VroomMatricesInput
 
 
 def matrix(durations: str) -> MatrixInput:

@@ -10,7 +10,7 @@ from typing import Any
 import httpx
 import pytest
 
-from app.vroom.schemas import VroomRequest
+from app.formats.vroom.schemas import VroomRequest
 from benchmarks.fuzz.problems import Fault
 from benchmarks.fuzz.vroom import Study, judge
 from benchmarks.fuzz.wild_vroom import wild_vroom

@@ -7,12 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.peers.vroom_requests import (
     CLASSES, by_tandem, by_vroom, compare, cvrp, priorities, setups, skills, windows,
 )
 from model.planner import Planner, load_planner
-from tests.app.vroom.judge import judge
+from tests.app.formats.vroom.judge import judge
 
 Data = dict[str, Any]
 

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.quality.ablation import (
     BEST_SECONDS, MOVES, MOVES_SECONDS, Sample, Trial, Way, measure, sample, table_of_moves,
     table_of_pairs, table_of_starts, trial, ways,

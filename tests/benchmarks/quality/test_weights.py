@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import torch
 
-from app.settings import Settings
+from app.serving.settings import Settings
 from benchmarks.quality.weights import CLASSES, Case, plan_costs, rows
 from training.export import WEIGHTS
 

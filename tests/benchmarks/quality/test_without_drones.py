@@ -4,7 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.settings import DEFAULT_POLICY, Settings
+from app.schemas.limits import DEFAULT_POLICY
+from app.serving.settings import Settings
 from benchmarks.quality.without_drones import POLICY, SEARCH, Pair, grounded, plan_pairs, table
 from model.planner import load_planner
 from training.instances import generate

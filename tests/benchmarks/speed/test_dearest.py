@@ -17,9 +17,9 @@ import httpx
 import pytest
 import typer
 
+from app.formats.vroom.schemas import VroomRequest
 from app.requests.reading import read_request
 from app.schemas.request import PlanRequest
-from app.vroom.schemas import VroomRequest
 from benchmarks.speed.dear_requests import (
     KINDS, LARGEST, PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )

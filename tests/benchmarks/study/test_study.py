@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from app.conversion.problem import to_problem
+from app.requests.conversion.problem import to_problem
 from benchmarks.study.__main__ import keep_cheaper, run
 from benchmarks.study.cases import customers_of, example, request_of, windows_of
 from benchmarks.study.findings import on_fleets, on_search

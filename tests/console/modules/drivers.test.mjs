@@ -6,10 +6,10 @@ import { goOnAsTold, linksByVehicle, nextOrder, openDispatches, standingText, wi
 import { pointText } from '../../../app/console/static/js/core/format.js';
 
 register('./as-served.mjs', import.meta.url);
-const { clock, windowText } = await import('../../../app/dispatches/static/js/clocks.js');
-const { linkOf, tokenOf } = await import('../../../app/dispatches/static/js/link.js');
-const { chosenNavigator, NAVIGATORS, navigation } = await import('../../../app/dispatches/static/js/navigators.js');
-const { isBroken, isOther, nextStep, standings, telephone } = await import('../../../app/dispatches/static/js/steps.js');
+const { clock, windowText } = await import('../../../app/records/dispatches/static/js/clocks.js');
+const { linkOf, tokenOf } = await import('../../../app/records/dispatches/static/js/link.js');
+const { chosenNavigator, NAVIGATORS, navigation } = await import('../../../app/records/dispatches/static/js/navigators.js');
+const { isBroken, isOther, nextStep, standings, telephone } = await import('../../../app/records/dispatches/static/js/steps.js');
 
 const PLACE = { latitude: 48.1, longitude: 11.5 };
 

@@ -6,7 +6,7 @@ import { test } from 'node:test';
 import { speaking } from '../../../app/console/static/js/language.js';
 
 const APP = new URL('../../../app/', import.meta.url);
-const PAGES = ['console/static/', 'dispatches/static/'];
+const PAGES = ['console/static/', 'records/dispatches/static/'];
 const PLURAL = /_(one|other)$/;
 
 async function textsOf(page, language) {

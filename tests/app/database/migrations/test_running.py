@@ -11,14 +11,14 @@ from alembic.migration import MigrationContext
 from alembic.script import ScriptDirectory
 from sqlalchemy import Engine, inspect, text
 
-from app.access.keys import KeyStore, find_key
 from app.database.connections import make_engine
 from app.database.migrations.running import (
     SchemaError, downgrade, find_misfit, newest, upgrade, version_of,
 )
 from app.database.migrations.version import VERSION_TABLE
 from app.database.tables import TABLES
-from app.settings import Settings
+from app.serving.access.keys import KeyStore, find_key
+from app.serving.settings import Settings
 
 FIRST = "0001"
 FOLDER = Path(__file__).parents[4] / "app" / "database" / "migrations"
@@ -32,7 +32,7 @@ JOB = {"id": "j1", "kind": "plan", "owner": "ann", "state": "queued", "fingerpri
 @pytest.fixture
 def engine(settings: Settings) -> Iterator[Engine]:
     """Return an empty database."""
-    engine = make_engine(settings)
+    engine = make_engine(settings.database)
     yield engine
     engine.dispose()
 
@@ -112,7 +112,7 @@ def test_half_of_the_tables_are_taken_over_too(engine: Engine) -> None:
 
 def test_processes_may_upgrade_at_once(settings: Settings) -> None:
     def start(_: int) -> None:
-        engine = make_engine(settings)
+        engine = make_engine(settings.database)
         upgrade(engine)
         engine.dispose()
 
@@ -144,7 +144,7 @@ def test_tables_that_do_not_fit_are_told_in_words(
 
 
 def test_column_that_would_have_to_be_filled_is_told(settings: Settings) -> None:
-    engine = make_engine(settings)
+    engine = make_engine(settings.database)
     upgrade(engine)
     run(engine, "ALTER TABLE jobs ADD COLUMN note TEXT")
     assert find_misfit(engine) is None

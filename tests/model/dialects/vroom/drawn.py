@@ -7,9 +7,9 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from app.vroom.places import find_places
-from app.vroom.reading import read_request
-from app.vroom.translate import translate
+from app.formats.vroom.places import find_places
+from app.formats.vroom.reading import read_request
+from app.formats.vroom.translate import translate
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Request

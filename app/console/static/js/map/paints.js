@@ -67,7 +67,7 @@ export function paint(context, shapes, { zoom, pixel, dark }) {
   for (const [kind, , colours] of lines) stroke(kind, widthOf(kind, zoom), colours[tint]);
 }
 
-/** Return a path for each kind of a tile's content (see `app/streets/cutting.py`). */
+/** Return a path for each kind of a tile's content (see `app/maps/streets/cutting.py`). */
 export function shapesOf(content) {
   return Object.fromEntries(
     Object.entries(content).map(([kind, lines]) => [kind, pathOf(lines)]),

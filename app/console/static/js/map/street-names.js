@@ -147,7 +147,7 @@ export const StreetNames = L.Renderer.extend({
   },
 });
 
-/** Return a line of a tile in pixels of the map; see `app/streets/cutting.py`. */
+/** Return a line of a tile in pixels of the map; see `app/maps/streets/cutting.py`. */
 function pixelsOf(steps, size, [column, row], origin) {
   const points = [];
   let [x, y] = [0, 0];

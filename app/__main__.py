@@ -1,6 +1,0 @@
-"""`python -m app` is the command `tandem`."""
-
-from app.cli.commands import main
-
-if __name__ == "__main__":
-    main()

@@ -1,0 +1,1 @@
+"""Requests and problems in other forms: spreadsheets, files of instances, VROOM's."""

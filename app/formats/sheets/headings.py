@@ -1,0 +1,170 @@
+"""What a heading says its column means, in which unit and language."""
+
+import re
+import unicodedata
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cache, lru_cache
+
+from app.formats.sheets.meanings import CLOCK_UNITS, DURATION_UNITS, MEANINGS, UNITS
+from app.formats.sheets.words import BEGIN, END, WINDOW, WORDS
+
+SURE = 1.0
+HEADING = 0.66
+"""From this on, a heading counts as known."""
+
+SHORTEST_PART = 5
+"""Letters from which on a word is looked for within compounds, such as `adresse` in German."""
+
+LONGEST_HEADING = 60
+LONGEST_LOOK, MOST_LOOKED_AT = 200, 12
+"""Letters and words of a heading in which its meaning is looked for."""
+
+MOST_WORDS = 6
+"""Of a phrase."""
+
+AT_STOP = 0.7
+"""Score of a heading whose word is of stops or goods, but in minutes: the time that they take."""
+
+STOP_UNITS = ("minutes", "seconds")
+"""What a heading that is no more than a unit of time tells how long a stop takes in."""
+
+OF_STOPS = frozenset({"name", "demand", "address", "order"})
+
+_SIGNS = str.maketrans({"ß": "ss", "ł": "l", "ø": "o", "æ": "ae", "œ": "oe", "đ": "d", "³": "3",
+                        "²": "2", "№": " no ", "\u0131": "i", "#": " no ", "º": " ", "°": " "})
+_UNIT = re.compile(r"[(\[{](?P<unit>[^)\]}]{1,20})[)\]}]")
+_WORD = re.compile(r"[^\W\d_]{2,20}\.?")
+_WORDS = re.compile(r"[a-z0-9]++|[^\W\d_]++", re.ASCII)
+_CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What a heading may mean."""
+
+    meaning: str
+    score: float  # 0 to 1
+    unit: str | None = None
+    language: str = "en"
+
+
+@lru_cache(2**14)
+def simple(text: str) -> str:
+    """Return a text in lower case, without accents, a blank between words."""
+    text = _CAMEL.sub(" ", text)
+    split = unicodedata.normalize("NFKD", text.lower().translate(_SIGNS))
+    letters = "".join(sign for sign in split if not unicodedata.combining(sign))
+    return " ".join(_WORDS.findall(letters))
+
+
+def unit_named(text: str) -> str | None:
+    """Return the unit that a text is the name of."""
+    plain = text.strip().lower().translate(_SIGNS).rstrip(".")
+    return UNITS.get(plain) or UNITS.get(simple(text))
+
+
+def without_unit(heading: str) -> str:
+    """Return a heading without the unit that it states in brackets."""
+    return _UNIT.sub(" ", heading).strip() or heading
+
+
+def is_unit(text: str) -> bool:
+    """Tell whether a cell below a heading is its unit."""
+    return unit_named(text.strip("()[]{} ")) is not None
+
+
+@lru_cache(4096)
+def guesses(heading: str) -> tuple[Guess, ...]:
+    """Return what a heading may mean, the likeliest first."""
+    stated = _UNIT.search(heading)
+    unit = unit_named(stated["unit"]) if stated else None
+    words = simple(_UNIT.sub(" ", heading[:LONGEST_LOOK])).split()[:MOST_LOOKED_AT]
+    found = dict(_scored(words, unit))
+    last = UNITS.get(words[-1]) if unit is None and len(words) > 1 else None
+    if last:
+        for meaning, guess in _scored(words[:-1], last):
+            better = Guess(meaning, guess.score * 0.97, last, guess.language)
+            if _takes(meaning, last) and better.score > found.get(meaning, better).score - 1e-9:
+                found[meaning] = better
+    _read_as_time(found, unit or last)
+    if stated and unit is None and "demand" in found and _WORD.fullmatch(stated["unit"]):
+        found["demand"] = replace(found["demand"], unit=stated["unit"])
+    # A heading may say no more than the unit of an amount.
+    if not found and (unit or UNITS.get(words[0] if len(words) == 1 else "")) in STOP_UNITS:
+        found["service"] = Guess("service", 0.9, unit or UNITS[words[0]])
+    alone = unit or UNITS.get(words[0]) if len(words) == 1 else unit if not words else None
+    if alone and _takes("demand", alone):
+        found.setdefault("demand", Guess("demand", 0.9, alone))
+    return tuple(sorted(found.values(), key=lambda guess: -guess.score))
+
+
+def _read_as_time(found: dict[str, Guess], unit: str | None) -> None:
+    """Have stops and goods in a unit of time mean how long a stop takes. In place."""
+    if unit not in DURATION_UNITS or not OF_STOPS & found.keys():
+        return
+    language = max((found[meaning] for meaning in OF_STOPS & found.keys()),
+                   key=lambda guess: guess.score).language
+    for meaning in OF_STOPS & found.keys():
+        del found[meaning]
+    found.setdefault("service", Guess("service", AT_STOP, unit, language))
+
+
+def is_known(heading: str, least: float = HEADING) -> bool:
+    """Tell whether a text is likely the heading of a column; `least` is the score it needs."""
+    found = guesses(heading) if len(heading) <= LONGEST_HEADING else ()
+    return bool(found) and found[0].score >= least
+
+
+def _takes(meaning: str, unit: str) -> bool:
+    """Tell whether cells of a meaning may be in a unit."""
+    units = MEANINGS[meaning].units
+    is_amount = MEANINGS[meaning].kind == "amount" and unit not in (*CLOCK_UNITS, *DURATION_UNITS)
+    return unit in units if units else is_amount
+
+
+def _scored(words: list[str], unit: str | None) -> Iterator[tuple[str, Guess]]:
+    """Yield the best guess for each meaning that fits any of the words."""
+    best: dict[str, tuple[float, int, str]] = {}
+    phrases = _phrases()
+    for phrase, score in _fitting(words):
+        for place, meaning, language in phrases.get(phrase, ()):
+            found = (score, -place, language)
+            best[meaning] = max(best.get(meaning, found), found)
+    for meaning, (score, _, language) in best.items():
+        yield meaning, Guess(meaning, score, unit if unit and _takes(meaning, unit) else None,
+                             language)
+
+
+def _fitting(words: list[str]) -> Iterator[tuple[tuple[str, ...], float]]:
+    """Yield what phrases a heading may hold, and how well each fits: 1 exactly."""
+    length = sum(map(len, words))
+    yield tuple(words), SURE
+    for start, word in enumerate(words):
+        for end in range(start + 1, min(len(words), start + MOST_WORDS) + 1):
+            if end - start < len(words):
+                phrase = tuple(words[start:end])
+                yield phrase, 0.62 + 0.3 * sum(map(len, phrase)) / length
+        for count in range(SHORTEST_PART, len(word)):
+            # German puts the main word of a compound last.
+            yield (word[-count:],), 0.62 + 0.2 * count / length
+            yield (word[:count],), 0.55 + 0.2 * count / length
+
+
+@cache
+def _phrases() -> dict[tuple[str, ...], list[tuple[int, str, str]]]:
+    """Return the meanings and languages of all phrases, as words, each with its place."""
+    listed = [(phrase, meaning, language) for meaning, languages in WORDS.items()
+              for language, phrases in languages.items() for phrase in phrases.split("|")]
+    for meaning, ends in (("earliest", BEGIN), ("latest", END)):
+        for language, phrases in ends.items():
+            whole = WINDOW[language].split("|")
+            for word in phrases.split("|"):
+                listed += [(text, meaning, language) for window in whole
+                           for text in (f"{window} {word}", f"{word} {window}")]
+                listed += [(f"{word} {filler}", meaning, language)
+                           for filler in ("time", "uhr", "zeit", "uhrzeit", "heure", "hora", "ora")]
+    found: dict[tuple[str, ...], list[tuple[int, str, str]]] = {}
+    for place, (phrase, meaning, language) in enumerate(listed):
+        found.setdefault(tuple(phrase.split()), []).append((place, meaning, language))
+    return found

@@ -1,0 +1,134 @@
+"""Customers, a depot and a fleet -> a request of `POST /plan`; what is assumed is told."""
+
+import re
+from collections.abc import Collection, Sequence
+from typing import Any
+
+from pydantic_core import to_json
+
+from app.formats.sheets.amounts import dimensions
+from app.formats.sheets.cells import CellError, Doubt, MisreadError
+from app.formats.sheets.columns import Column
+from app.formats.sheets.customers import Entry, placed
+from app.formats.sheets.fleet import Incomplete, fleet_of
+from app.formats.sheets.geography import Ground, Pair, depot_pair, on_globe
+from app.formats.sheets.headings import without_unit
+from app.formats.sheets.rows import Row
+from app.formats.sheets.schemas import ImportSettings
+from app.formats.sheets.vans import Van
+from app.requests.reading import read_request
+from app.requests.warnings.finding import warnings_of
+from app.requests.warnings.warning import RequestWarning
+from app.schemas.errors import InputError, InvalidRequestError
+
+CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "demand": ("demand",),
+         "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
+         "service_duration": ("service",), "release_time": ("ready",), "skills": ("skills",),
+         "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",)}
+"""Meanings of the columns that fields of a customer come from."""
+
+_PATH = re.compile(r"\$\.customers\[(\d+)\]\.?(\w*)")
+
+LONGEST_NAME, LONGEST_UNIT = 200, 50
+"""Letters of a dimension of the load."""
+
+Data = dict[str, Any]
+
+
+def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
+               columns: Sequence[Column], settings: ImportSettings,
+               vans: Sequence[Van] = ()) -> tuple[Data, list[Doubt]]:
+    """Return a request and what was assumed for it.
+
+    Raises
+    ------
+    Incomplete
+        If a setting doesn't fit.
+    """
+    depot, doubts = _depots(stops, depots, ground, settings)
+    fleet, assumed = fleet_of(stops, columns, settings, vans)
+    unit: Data = {}
+    if not ground.is_geographic:
+        in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)
+        unit = {"planar_unit": 1000} if in_km else {}
+        doubts.append(Doubt("PLANE", "x and y are taken for places on a plane, in "
+                            f"{'kilometres' if in_km else 'metres'}."))
+    system = "geographic" if ground.is_geographic else "planar"
+    currency = {"currency": settings.currency} if settings.currency else {}
+    request: Data = {"coordinate_system": system, **unit, **currency, **_loads(columns),
+                     "depots": depot,
+                     "customers": [stop.customer for stop in stops], "fleet": fleet}
+    return request, [*doubts, *assumed]
+
+
+def _loads(columns: Sequence[Column]) -> Data:
+    """Return what amounts are called and counted in, by the headings of their columns."""
+    amounts = dimensions(columns)
+    if not amounts or any(not column.heading for column in amounts):
+        return {}
+    return {"load_dimensions": [{"name": without_unit(column.heading)[:LONGEST_NAME],
+                                 **({"unit": column.unit[:LONGEST_UNIT]} if column.unit else {})}
+                                for column in amounts]}
+
+
+def look_over(request: Data, stops: Sequence[Entry], road_profiles: Collection[str]) -> tuple[
+        list[CellError], tuple[RequestWarning, ...]]:
+    """Return what planning doesn't take, at the cells where it comes from, and what looks wrong."""
+    try:
+        read = read_request(to_json(request), policies=None)
+    except InvalidRequestError as error:
+        return [_at_cell(item, stops) for item in error.errors], ()
+    return [], warnings_of(read, road_profiles)
+
+
+def stated_depot(settings: ImportSettings) -> Pair | None:
+    """Return the two numbers of the depot that the settings state.
+
+    Raises
+    ------
+    Incomplete
+        If they are none.
+    """
+    if settings.depot is None:
+        return None
+    try:
+        return depot_pair(settings.depot)
+    except MisreadError as error:
+        raise Incomplete("DEPOT", f"The depot can't be read: {error}.") from error
+
+
+def _at_cell(error: InputError, stops: Sequence[Entry]) -> CellError:
+    found = _PATH.match(error.path)
+    if found is None:
+        return CellError(error.code, error.message)
+    row = stops[int(found[1])].rows[0]
+    return CellError(error.code, error.message, row.cell(*CELLS.get(found[2], ("name",))))
+
+
+def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: Ground,
+            settings: ImportSettings) -> tuple[list[Data], list[Doubt]]:
+    stated = stated_depot(settings)
+    if stated is not None:
+        place = (stated[1], stated[0]) if ground.is_geographic else stated
+        if ground.is_geographic and not on_globe(place):
+            raise Incomplete("DEPOT", f"The depot {settings.depot!r} is not on the globe: write "
+                             "its latitude first, as maps show it.")
+        return [{"id": "depot", "location": list(place)}], []
+    known = [(row, pair) for row in rows if (pair := ground.pair(row)) is not None]
+    if known:
+        names = ", ".join(row.cell("name", "kind") for row, _ in known)
+        single = len(known) == 1
+        return ([{"id": "depot" if single else f"depot-{number}", "location": list(pair)}
+                 for number, (_, pair) in enumerate(known, 1)],
+                [Doubt("DEPOT_IN_FILE", f"{names} {'is' if single else 'are'} taken for the depot"
+                       f"{'' if single else 's'}, not for customers.")])
+    places = [pair for _, pair in placed(stops)]
+    if stops and not places:
+        raise Incomplete("DEPOT", "No depot is stated, and no customer's place is known: state "
+                         "the depot, latitude first.")
+    middle = [round(sum(pair[axis] for pair in places) / max(len(places), 1), 6)
+              for axis in (0, 1)]
+    shown = ", ".join(f"{number:.10g}"
+                      for number in (middle[::-1] if ground.is_geographic else middle))
+    return [{"id": "depot", "location": middle}], [Doubt(
+        "DEPOT_ASSUMED", f"No depot is stated: the middle of the customers is taken, {shown}.")]

@@ -1,0 +1,170 @@
+"""A sheet that lists vehicles -> their names, capacities, shifts and costs."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters
+from app.formats.sheets.clocks import Style
+from app.formats.sheets.headings import simple, unit_named, without_unit
+from app.formats.sheets.layout import Table, table_of
+from app.formats.sheets.meanings import FAMILIES, Kind
+from app.formats.sheets.numbers import own_unit
+from app.formats.sheets.readers import read
+from app.formats.sheets.table import Sheet
+from app.formats.sheets.units import clock_unit
+
+WORDS = {
+    "name": "fahrzeug|fahrzeuge|kennzeichen|vehicle|vehicles|van|truck|lkw|wagen|fzg|plate|"
+            "license plate|licence plate|registration|auto|vehicule|vehicules|camion|camions|"
+            "immatriculation|vehiculo|vehiculos|matricula|veicolo|veicoli|mezzo|targa|voertuig|"
+            "kenteken|pojazd|veiculo|fahrzeugtyp|vehicle type|transporter",
+    "driver": "fahrer|driver|chauffeur|conducteur|conductor|autista|kierowca|motorista",
+    "count": "anzahl|count|number|stuck|how many|nombre|numero|cantidad|quantita|aantal|ilosc",
+    "capacity": "kapazitat|capacity|nutzlast|zuladung|payload|max load|load|capacite|"
+                "charge utile|capacidad|capacita|portata|capaciteit|laadvermogen|ladownosc|"
+                "max gewicht|max weight|stellplatze|ladevolumen|volume|volumen",
+    "earliest": "von|ab|from|start|begin|beginn|dienstbeginn|schichtbeginn|shift start|start time|"
+                "debut|de|desde|inicio|dalle|vanaf|od|arbeitsbeginn",
+    "latest": "bis|to|until|end|ende|dienstende|schichtende|shift end|end time|fin|a|hasta|alle|"
+              "tot|do|arbeitsende|feierabend",
+    "window": "schicht|shift|arbeitszeit|dienst|working hours|hours|dienstzeit|horaire|turno|"
+              "orario|einsatzzeit",
+    "speed": "geschwindigkeit|speed|tempo|vitesse|velocidad|velocita|km h|kmh",
+    "per_km": "kosten km|kosten pro km|cost per km|euro km|eur km|per km|km kosten|cout km|"
+              "km cost|cost km",
+    "per_hour": "kosten stunde|kosten pro stunde|stundensatz|stundenlohn|cost per hour|hourly rate|"
+                "eur h|per hour|cout heure|kosten h|eur std|hour cost|cost hour",
+    "fixed": "fixkosten|tagessatz|fixed cost|fixed|daily rate|grundkosten|cout fixe",
+    "max_trips": "touren|fahrten|max touren|max trips|trips|rotations|max fahrten",
+    "skills": "ausstattung|skills|equipment|merkmale|eigenschaften|equipement|hebebuhne|kuhlung",
+    "drones": "drohnen|drones|drone|drohne",
+}
+"""Headings of columns, in simple letters; `|` stands between phrases."""
+
+KINDS: dict[str, Kind] = {
+    "name": "text", "driver": "text", "count": "number", "capacity": "amount", "earliest": "clock",
+    "latest": "clock", "window": "windows", "speed": "number", "per_km": "number",
+    "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names"}
+"""What is read; of drones nothing is made, though a number of them is none of vehicles."""
+
+MEANINGS = {phrase: meaning for meaning, phrases in WORDS.items() for phrase in phrases.split("|")}
+
+MOST_VANS = 1000
+
+
+@dataclass
+class Van:
+    """A row of a sheet with vehicles."""
+
+    cell: str
+    name: str = ""
+    capacities: list[tuple[str, str | None, float]] = field(default_factory=list)
+    values: dict[str, float] = field(default_factory=dict)
+    shift: tuple[float | None, float | None] | None = None
+    skills: list[str] = field(default_factory=list)
+
+
+def lists_vans(sheet: Sheet) -> bool:
+    """Tell whether a sheet lists vehicles: they have names, and hold or work for how long."""
+    table = table_of(sheet)
+    if not table.header_rows or len(table.rows) > MOST_VANS:
+        return False
+    meant = {_meaning_of(heading) for heading in table.headings}
+    heads = {simple(heading) for heading in table.headings}
+    is_customers = heads & {"lat", "latitude", "breite", "adresse", "address", "kunde", "customer",
+                            "client", "adresse de livraison", "plz", "postcode", "strasse"}
+    return bool({"name", "driver"} & meant and meant & {"capacity", "window", "earliest"}
+                and not is_customers)
+
+
+def vans_of(sheet: Sheet, style: Style) -> tuple[list[Van], list[Doubt]]:
+    """Return the vehicles of a sheet, and what of it isn't used."""
+    table = table_of(sheet)
+    meant = _columns(table)
+    units = {column: clock_unit([raw for _, raw in table.column(column)], None).unit
+             for column, meaning in meant.items() if meaning in ("earliest", "latest")}
+    vans = [van for row in table.rows[:MOST_VANS]
+            if (van := _van(table, row, meant, units, style)) is not None]
+    unused = [heading or letters(column) for column, heading in enumerate(table.headings)
+              if column not in meant and table.column(column)]
+    doubts = [Doubt("FLEET_IN_FILE", f"The sheet {sheet.name} is read as the vehicles: "
+                    f"{len(vans)} rows.")]
+    if unused:
+        doubts.append(Doubt("FLEET_UNUSED", f"Of the sheet {sheet.name} nothing is made of "
+                            f"{', '.join(unused[:10])}."))
+    return vans, doubts
+
+
+def _meaning_of(heading: str) -> str | None:
+    """Return what a heading says of vehicles; a unit in brackets doesn't count."""
+    words = simple(without_unit(heading)).split()
+    if len(words) > 1 and unit_named(words[-1]) and " ".join(words) not in MEANINGS:
+        words = words[:-1]
+    whole = " ".join(words)
+    if whole in MEANINGS:
+        return MEANINGS[whole]
+    found = [(len(phrase), meaning) for phrase, meaning in MEANINGS.items()
+             if len(phrase) > 3 and f" {phrase} " in f" {whole} "]
+    return max(found)[1] if found else None
+
+
+def _columns(table: Table) -> dict[int, str]:
+    """Return what columns mean; all but capacities stand once."""
+    meant: dict[int, str] = {}
+    for column, heading in enumerate(table.headings):
+        meaning = _meaning_of(heading)
+        if meaning in KINDS and (meaning == "capacity" or meaning not in meant.values()):
+            meant[column] = meaning
+    return meant
+
+
+def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, str | None],
+         style: Style) -> Van | None:
+    """Return the vehicle of a row; None: there is none, or no name and no capacity."""
+    van = Van(table.name(row, 0))
+    ends: dict[str, float] = {}
+    for column, meaning in meant.items():
+        value = _value(table, row, column, KINDS[meaning], units.get(column), style)
+        if value is None:
+            continue
+        if meaning in ("name", "driver"):
+            van.name = str(value) if meaning == "name" or not van.name else van.name
+        elif meaning == "capacity":
+            heading = table.headings[column]
+            van.capacities.append((heading, _unit_of(heading, table.cell(row, column)), value))
+        elif meaning == "window":
+            van.shift = value[0]
+        elif meaning in ("earliest", "latest"):
+            ends[meaning] = value
+        elif meaning == "skills":
+            van.skills = value
+        else:
+            van.values[meaning] = value
+    if ends:
+        van.shift = ends.get("earliest"), ends.get("latest")
+    is_there = van.values.get("count") != 0
+    return van if is_there and (van.name or van.capacities) else None
+
+
+def _value(table: Table, row: int, column: int, kind: Kind, unit: str | None,
+           style: Style) -> Any:
+    try:
+        return read(table.cell(row, column), kind, unit, style)
+    except MisreadError as error:
+        raise MisreadError(f"{table.sheet.name}!{table.name(row, column)}: {error}") from error
+
+
+def _unit_of(heading: str, raw: Raw) -> str | None:
+    if unit := own_unit(raw):
+        return unit
+    words = simple(heading).split()
+    return next((unit for word in reversed(words) if (unit := unit_named(word))), None)
+
+
+def factor_between(unit: str | None, other: str | None) -> float | None:
+    """Return how many of another unit one is; None: they are not of one kind."""
+    if unit == other:
+        return 1.0
+    return next((family[unit] / family[other] for family in FAMILIES
+                 if unit in family and other in family), None)

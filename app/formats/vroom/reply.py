@@ -1,0 +1,181 @@
+"""Routes -> VROOM's reply, as plain data."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import polyline
+
+from app.formats.vroom.places import StatedPlaces
+from app.formats.vroom.schemas import VroomJobInput, VroomRequest
+from app.formats.vroom.translate import amount_of
+from model.dialects.vroom.places import NOWHERE
+from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE, TimedRoute
+
+Data = dict[str, Any]
+
+SECONDS_PER_HOUR = 3600
+METRES_PER_KM = 1000
+
+
+class Writer:
+    """Writes the reply to one request."""
+
+    def __init__(self, request: VroomRequest, places: StatedPlaces, is_timed: bool) -> None:
+        """Begin with what is asked for; `is_timed` if anything in it has a time window."""
+        self._request = request
+        self._places = places
+        self._num_amounts = len(request.vehicles[0].capacity or ())
+        self._is_timed = is_timed
+
+    def reply(self, routes: Sequence[TimedRoute], loading: int, solving: int) -> Data:
+        """Return the reply.
+
+        Parameters
+        ----------
+        routes
+            Of the vehicles used, in the request's order.
+        loading, solving
+            Milliseconds for the reply to report.
+        """
+        written = [self._route(route) for route in routes]
+        served = {job for route in routes for job in route.jobs}
+        unassigned = [self._unassigned(job) for job in range(len(self._request.jobs))
+                      if job not in served]
+        return {
+            "code": 0,
+            "summary": {
+                **_totals(written, ("cost",)),
+                "routes": len(written),
+                "unassigned": len(unassigned),
+                **self._amounts(served),
+                **_totals(written, ("setup", "service", "duration", "waiting_time", "priority")),
+                **(_totals(written, ("distance",)) if self._places.tells_distances else {}),
+                "violations": [],
+                "computing_times": {"loading": loading, "solving": solving, "routing": 0},
+            },
+            "unassigned": unassigned,
+            "routes": written,
+        }
+
+    def _route(self, route: TimedRoute) -> Data:
+        vehicle = self._request.vehicles[route.vehicle]
+        steps = self._steps(route)
+        setup = sum(halt.setup for halt in route.halts)
+        service = sum(halt.service for halt in route.halts)
+        return {
+            "vehicle": vehicle.id,
+            "cost": self._cost(route, steps[-1]["duration"], setup + service),
+            **_described(vehicle.description),
+            **self._amounts(route.jobs),
+            "setup": setup // TIME_SCALE,
+            "service": service // TIME_SCALE,
+            "duration": steps[-1]["duration"],
+            "waiting_time": sum(step["waiting_time"] for step in steps),
+            "priority": sum(self._request.jobs[job].priority for job in route.jobs),
+            **self._distance(route.distances[-1]),
+            "steps": steps,
+            "violations": [],
+            **self._geometry(steps),
+        }
+
+    def _cost(self, route: TimedRoute, duration: int, task_time: int) -> int:
+        """Return a route's cost, rounded where VROOM rounds."""
+        costs = self._request.vehicles[route.vehicle].costs
+        legs = self._places.legs[self._request.vehicles[route.vehicle].profile]
+        travel = route.travel_cost // COST_SCALE
+        if self._is_timed and legs.costs is None:
+            travel = int(duration * costs.per_hour / SECONDS_PER_HOUR
+                         + route.distances[-1] * costs.per_km / METRES_PER_KM + 0.5)
+        return costs.fixed + travel + costs.per_task_hour * task_time // COST_SCALE
+
+    def _steps(self, route: TimedRoute) -> list[Data]:
+        places, vehicle = self._places, route.vehicle
+        sites = [int(places.jobs[job]) for job in route.jobs]
+        first, last = int(places.starts[vehicle]), int(places.ends[vehicle])
+        load = self._sum(route.jobs, "delivery")
+        start = self._step("start", sites[0] if first == NOWHERE else first, load,
+                           route.departure // TIME_SCALE)
+        steps = [{**start, "duration": 0, "violations": [], **self._distance(0)}]
+        for halt, site, travel, distance in zip(route.halts, sites, route.travels, route.distances,
+                                                strict=False):
+            job = self._request.jobs[halt.job]
+            load = [amount + taken - brought for amount, taken, brought
+                    in zip(load, self._amount(job, "pickup"), self._amount(job, "delivery"),
+                           strict=True)]
+            arrival, begin = halt.arrival // TIME_SCALE, halt.start // TIME_SCALE
+            times = (halt.setup // TIME_SCALE, halt.service // TIME_SCALE, begin - arrival)
+            step = self._step("job", site, load, arrival, job, times)
+            steps.append({**step, "duration": self._duration(steps[-1], step, travel),
+                          "violations": [], **self._distance(distance)})
+        step = self._step("end", sites[-1] if last == NOWHERE else last, load,
+                          route.end // TIME_SCALE)
+        steps.append({**step, "duration": self._duration(steps[-1], step, route.travels[-1]),
+                      "violations": [], **self._distance(route.distances[-1])})
+        return steps
+
+    def _duration(self, before: Data, step: Data, travel: int) -> int:
+        """Return the travel time up to a step; with windows, what makes all seconds add up."""
+        if not self._is_timed:
+            return travel // TIME_SCALE
+        left = before["arrival"] + before["waiting_time"] + before["setup"] + before["service"]
+        duration: int = before["duration"] + step["arrival"] - left
+        return duration
+
+    def _step(self, kind: str, site: int, load: list[int], arrival: int,
+              job: VroomJobInput | None = None, times: tuple[int, int, int] = (0, 0, 0)) -> Data:
+        setup, service, waiting = times
+        return {
+            "type": kind,
+            **_described("" if job is None else job.description),
+            **self._place(site),
+            **({} if job is None else {"id": job.id}),
+            "setup": setup,
+            "service": service,
+            "waiting_time": waiting,
+            **({} if job is None else {"job": job.id}),
+            **({"load": load} if self._num_amounts else {}),
+            "arrival": arrival,
+        }
+
+    def _unassigned(self, index: int) -> Data:
+        job = self._request.jobs[index]
+        return {"id": job.id, **self._place(int(self._places.jobs[index])), "type": "job",
+                **_described(job.description)}
+
+    def _place(self, site: int) -> Data:
+        point, index = self._places.coordinates[site], self._places.indices[site]
+        return {**({} if point is None else {"location": list(point)}),
+                **({} if index is None else {"location_index": index})}
+
+    def _amounts(self, jobs: Iterable[int]) -> Data:
+        if not self._num_amounts:
+            return {}
+        jobs = list(jobs)
+        delivery = self._sum(jobs, "delivery")
+        return {"delivery": delivery, "amount": delivery, "pickup": self._sum(jobs, "pickup")}
+
+    def _sum(self, jobs: Iterable[int], side: str) -> list[int]:
+        amounts = [self._amount(self._request.jobs[job], side) for job in jobs]
+        return [sum(column) for column in zip([0] * self._num_amounts, *amounts, strict=True)]
+
+    def _amount(self, job: VroomJobInput, side: str) -> Sequence[int]:
+        return amount_of(job, side) or [0] * self._num_amounts
+
+    def _distance(self, metres: int) -> Data:
+        return {"distance": metres} if self._places.tells_distances else {}
+
+    def _geometry(self, steps: list[Data]) -> Data:
+        """Return straight lines between the steps, if they are asked for."""
+        if not self._request.options.g:
+            return {}
+        points = [(latitude, longitude) for longitude, latitude
+                  in (step["location"] for step in steps)]
+        return {"geometry": polyline.encode(points)}
+
+
+def _totals(routes: list[Data], names: tuple[str, ...]) -> Data:
+    return {name: sum(route[name] for route in routes) for name in names}
+
+
+def _described(text: str) -> Data:
+    return {"description": text} if text else {}

@@ -1,0 +1,83 @@
+"""A vehicle's day as its driver sees it, and what the driver tells; waits for the database."""
+
+from datetime import timedelta
+
+from app.records.dispatches.errors import LinkOverError, TooManyEventsError
+from app.records.dispatches.instants import instant, milliseconds
+from app.records.dispatches.links import find_link
+from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
+from app.records.dispatches.schemas import DriverDay, EventInput, EventsReply, EventsRequest
+from app.records.dispatches.standing import Standing, standing_of, standing_reply
+from app.records.dispatches.store import DispatchStore, now_ms
+
+MAX_EVENTS = 5_000
+"""Most events of a vehicle's day."""
+
+TRUE_ENOUGH = timedelta(minutes=1)
+"""By how much a phone's clock may be wrong before what it tells is set right."""
+
+
+def read_day(store: DispatchStore, token: str) -> DriverDay:
+    """Return the day of the link that a token opens, and note that it was opened. In place.
+
+    Raises
+    ------
+    UnknownLinkError
+        If the token is none.
+    LinkOverError
+        If the link was revoked, or its day is over.
+    """
+    link, dispatch = find_link(store, token)
+    if link.revoked_at is not None or dispatch.ends_at <= now_ms():
+        raise LinkOverError(link.revoked_at is not None)
+    if link.opened_at is None:
+        store.note_opening(link.id)
+    steps = store.steps(link.id)
+    return DriverDay(
+        link=link.id, vehicle=link.vehicle, time_zone=dispatch.time_zone,
+        plan_start=instant(dispatch.plan_start, dispatch.zone_offset),
+        ends_at=instant(dispatch.ends_at, dispatch.zone_offset), steps=steps,
+        standing=standing_reply(_standing(store, link, dispatch), steps))
+
+
+def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsReply:
+    """Keep what a driver tells, and return what is known then. In place.
+
+    What was told without network may come after the day's end, as long as it is kept, and be of
+    steps that were taken out of the plan meanwhile.
+
+    Raises
+    ------
+    UnknownLinkError
+        If the token is none.
+    LinkOverError
+        If the link was revoked.
+    TooManyEventsError
+        If the link told too much.
+    """
+    link, dispatch = find_link(store, token)
+    if link.revoked_at is not None:
+        raise LinkOverError(was_revoked=True)
+    now = now_ms()
+    wrong_by = now - milliseconds(request.now)
+    if abs(wrong_by) < TRUE_ENOUGH / timedelta(milliseconds=1):
+        wrong_by = 0
+    store.add_events(link, [_row(event, wrong_by, now) for event in request.events], _refuse_more)
+    return EventsReply(accepted=[event.id for event in request.events],
+                       standing=standing_reply(_standing(store, link, dispatch),
+                                               store.steps(link.id)))
+
+
+def _row(event: EventInput, wrong_by: int, now: int) -> EventRow:
+    """Return an event as it is kept; none is of the future."""
+    time = min(milliseconds(event.time) + wrong_by, now)
+    return EventRow(event.id, event.step, event.kind, time, event.reason)
+
+
+def _standing(store: DispatchStore, link: LinkRow, dispatch: DispatchRow) -> Standing:
+    return standing_of(store.events(dispatch.id).get(link.position, []), dispatch.plan_start)
+
+
+def _refuse_more(count: int) -> None:
+    if count > MAX_EVENTS:
+        raise TooManyEventsError(MAX_EVENTS)

@@ -1,0 +1,137 @@
+"""What drivers told -> the plan to go on from."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from app.records.dispatches.retiming import Retimed, retime
+from app.records.dispatches.schemas import FailedReply, GoingOnReply, StepKind, StepReply
+from app.records.dispatches.standing import Standing, is_broken, of_steps
+from app.records.dispatches.steps import flight_id, stop_id
+from app.schemas.plan import PlanInput, RouteInput, TripInput
+
+GROUNDING = frozenset({"Did not come back", "Drone is broken"})
+"""What drivers tell of a drone that flies no more, as their page offers it."""
+
+
+@dataclass(frozen=True)
+class OnTheRoad:
+    """What is known of a vehicle."""
+
+    steps: Sequence[StepReply]
+    standing: Standing
+
+
+def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float) -> GoingOnReply:
+    """Return how to plan on, by what drivers told.
+
+    Parameters
+    ----------
+    plan
+        As it was sent out.
+    vehicles
+        What is known of each, by name. One whose driver told nothing is where the plan has it.
+    now
+        From when on, in seconds since plan start.
+    """
+    routes, failed, told = [], [], []
+    for route in plan.routes:
+        known = vehicles[route.vehicle]
+        standing = of_steps(known.standing)
+        if known.standing:
+            told.append(route.vehicle)
+        if not standing:
+            routes.append(route)
+            continue
+        durations = {step.id: step.duration for step in known.steps}
+        driven, failures = _driven(route, retime(route, standing, durations, now), standing)
+        failed += failures
+        if driven.trips:
+            routes.append(driven)
+    given = plan.model_copy(update={"routes": tuple(routes)})
+    broken = [route.vehicle for route in routes if is_broken(vehicles[route.vehicle].standing)]
+    grounded = list(dict.fromkeys(drone for known in vehicles.values() for drone in _lost(known)))
+    replan = {"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now}
+    if broken or grounded:
+        replan["unavailable"] = [*broken, *grounded]
+    return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed)
+
+
+def _lost(known: OnTheRoad) -> Iterator[str]:
+    """Yield the drones of a vehicle that fly no more, by their names."""
+    standing = of_steps(known.standing)
+    for step in known.steps:
+        if (step.drone is not None and _has_failed(standing, step.id)
+                and standing[step.id].reason in GROUNDING):
+            yield step.drone
+
+
+def _driven(route: RouteInput, trips: Sequence[Retimed],
+            standing: Standing) -> tuple[RouteInput, list[FailedReply]]:
+    """Return a route without what failed, and who wasn't served."""
+    left, failed = [], []
+    for index, retimed in enumerate(trips):
+        trip, failures = _without_failed(route.vehicle, index, retimed, standing)
+        failed += failures
+        if trip is not None:
+            left.append(trip)
+    return route.model_copy(update={"trips": tuple(left)}), failed
+
+
+def _without_failed(vehicle: str, index: int, retimed: Retimed,
+                    standing: Standing) -> tuple[TripInput | None, list[FailedReply]]:
+    """Return a trip without what failed, None if nothing is left of it; and who wasn't served.
+
+    A stop where a drone is launched or met stays, and so does the last of a trip that is under
+    way: the truck was there.
+    """
+    trip = retimed.trip
+    stops, failed = trip.stops, list[FailedReply]()
+
+    def note(customer: str, kind: StepKind, step: str, is_open: bool) -> None:
+        told = standing[step]
+        failed.append(FailedReply(customer=customer, vehicle=vehicle, step=kind, time=told.time,
+                                  reason=told.reason, is_open=is_open,
+                                  parcel_back=stops[-1].arrival))
+
+    flown = []
+    for sortie in trip.sorties:
+        ids = {kind: flight_id(index, kind, sortie) for kind in _FLIGHTS}
+        for kind, step in ids.items():
+            if _has_failed(standing, step):
+                for visit in sortie.customers:
+                    note(visit.id, kind, step, is_open=kind == "launch")
+        if not _has_failed(standing, ids["launch"]):
+            flown.append(sortie)
+    meetings = {stop for sortie in flown for stop in (sortie.launch_stop, sortie.recovery_stop)}
+    in_vain = [place for place, stop in enumerate(stops) if stop.kind == "customer"
+               and _has_failed(standing, stop_id(index, trip, place))]
+    dropped = [place for place in in_vain if place not in meetings]
+    served = sum(stop.kind == "customer" for stop in stops) - len(dropped)
+    if not served and not flown and dropped and not retimed.is_over:
+        dropped.pop()
+    for place in in_vain:
+        note(stops[place].id, "stop", stop_id(index, trip, place), place in dropped)
+    if not served and not flown and retimed.is_over:
+        return None, failed
+    return _cut(trip, flown, dropped), failed
+
+
+_FLIGHTS: tuple[StepKind, ...] = ("launch", "recover")
+
+
+def _has_failed(standing: Standing, step: str) -> bool:
+    told = standing.get(step)
+    return told is not None and told.outcome == "failed"
+
+
+def _cut(trip: TripInput, flown: Sequence[object], dropped: Sequence[int]) -> TripInput:
+    """Return a trip with some of its flights, and without some of its stops."""
+    stops = tuple(stop for place, stop in enumerate(trip.stops) if place not in dropped)
+
+    def moved(place: int) -> int:
+        return place - sum(other < place for other in dropped)
+
+    sorties = [sortie.model_copy(update={"launch_stop": moved(sortie.launch_stop),
+                                         "recovery_stop": moved(sortie.recovery_stop)})
+               for sortie in trip.sorties if sortie in flown]
+    return trip.model_copy(update={"stops": stops, "sorties": tuple(sorties)})

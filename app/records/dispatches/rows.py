@@ -1,0 +1,45 @@
+"""Dispatches as the database has them. Times in milliseconds since 1970."""
+
+from dataclasses import dataclass
+
+from app.records.dispatches.schemas import EventKind
+
+
+@dataclass(frozen=True)
+class DispatchRow:
+    """A plan on the road, without the plan."""
+
+    id: str
+    owner: str
+    client: str
+    created_at: int
+    plan_start: int
+    ends_at: int
+    expires_at: int
+    zone_offset: int  # minutes
+    time_zone: str | None
+
+
+@dataclass(frozen=True)
+class LinkRow:
+    """A vehicle's link, without its steps."""
+
+    id: str
+    dispatch: str
+    position: int
+    vehicle: str
+    digest: bytes
+    opened_at: int | None = None
+    revoked_at: int | None = None
+
+
+@dataclass(frozen=True)
+class EventRow:
+    """What a driver told."""
+
+    id: str
+    step: str
+    kind: EventKind
+    time: int
+    reason: str | None
+    number: int = 0  # in order of arrival

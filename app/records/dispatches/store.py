@@ -1,0 +1,213 @@
+"""Dispatches in the database."""
+
+import time
+import zlib
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from pydantic import TypeAdapter
+from sqlalchemy import Connection, Engine, delete, func, insert, select, update
+
+from app.database.tables import DISPATCHES, EVENTS, LINKS
+from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
+from app.records.dispatches.schemas import StepReply
+from app.schemas.plan import PlanInput
+
+FAST = 1
+"""zlib's level."""
+
+STEPS = TypeAdapter(list[StepReply])
+
+BATCH = 200
+"""Dispatches deleted at a time."""
+
+# A plan that is gone on from is read by what decides; lines and words aren't needed twice.
+_SHOWN = {"geometry": True, "info": True, "load": True, "lateness": True}
+LEFT_OUT: dict[str, Any] = {
+    **dict.fromkeys(("cost", "summary", "solver", "energy_models", "replan", "legs", "warnings"),
+                    True),
+    "routes": {"__all__": {"trips": {"__all__": {
+        "stops": {"__all__": {**_SHOWN, "waiting": True}},
+        "sorties": {"__all__": {"recovery_geometry": True, "customers": {"__all__": _SHOWN}}},
+    }}}},
+    "unassigned": {"__all__": {"reasons": True}},
+}
+"""What is left out of plans that are kept."""
+
+_DISPATCH = [column for column in DISPATCHES.c if column.name != "plan"]
+_LINK = [column for column in LINKS.c if column.name != "steps"]
+_EVENT = [EVENTS.c[name] for name in ("id", "step", "kind", "time", "reason", "number")]
+
+
+def now_ms() -> int:
+    """Return the milliseconds since 1970."""
+    return time.time_ns() // 1_000_000
+
+
+class DispatchStore:
+    """The dispatches of all processes that share a database."""
+
+    def __init__(self, engine: Engine) -> None:
+        self._engine = engine
+
+    def add(self, dispatch: DispatchRow, plan: PlanInput,
+            links: Sequence[tuple[LinkRow, Sequence[StepReply]]],
+            refuse: Callable[[int], None]) -> None:
+        """Keep a dispatch unless `refuse` raises, told how many its client has open. In place."""
+        open_ones = (select(func.count()).select_from(DISPATCHES)
+                     .where(DISPATCHES.c.client == dispatch.client,
+                            DISPATCHES.c.ends_at > now_ms()))
+        with self._engine.begin() as connection:
+            refuse(connection.scalar(open_ones) or 0)
+            connection.execute(insert(DISPATCHES).values(
+                **asdict(dispatch), plan=_packed_plan(plan)))
+            for link, steps in links:
+                _add_link(connection, link, _packed(steps))
+
+    def find(self, dispatch: str) -> DispatchRow | None:
+        """Return a dispatch."""
+        statement = select(*_DISPATCH).where(DISPATCHES.c.id == dispatch)
+        with self._engine.connect() as connection:
+            row = connection.execute(statement).mappings().first()
+        return None if row is None else DispatchRow(**row)
+
+    def page(self, owner: str, limit: int) -> list[DispatchRow]:
+        """Return an owner's dispatches, the youngest first."""
+        statement = (select(*_DISPATCH).where(DISPATCHES.c.owner == owner)
+                     .order_by(DISPATCHES.c.created_at.desc(), DISPATCHES.c.id).limit(limit))
+        with self._engine.connect() as connection:
+            return [DispatchRow(**row) for row in connection.execute(statement).mappings()]
+
+    def plan(self, dispatch: str) -> PlanInput:
+        """Return the plan of a dispatch that there is."""
+        with self._engine.connect() as connection:
+            content = connection.scalar(
+                select(DISPATCHES.c.plan).where(DISPATCHES.c.id == dispatch))
+        return PlanInput.model_validate_json(zlib.decompress(content or b""))
+
+    def link(self, link: str) -> tuple[LinkRow, DispatchRow] | None:
+        """Return a link and the dispatch that it is of."""
+        with self._engine.connect() as connection:
+            row = connection.execute(select(*_LINK).where(LINKS.c.id == link)).mappings().first()
+        found = None if row is None else LinkRow(**row)
+        dispatch = None if found is None else self.find(found.dispatch)
+        return None if found is None or dispatch is None else (found, dispatch)
+
+    def links(self, dispatch: str) -> list[LinkRow]:
+        """Return each vehicle's youngest link, in the plan's order."""
+        statement = (select(*_LINK).where(LINKS.c.dispatch == dispatch)
+                     .order_by(LINKS.c.position, LINKS.c.revoked_at.is_(None)))
+        with self._engine.connect() as connection:
+            rows = [LinkRow(**row) for row in connection.execute(statement).mappings()]
+        return list({row.position: row for row in rows}.values())
+
+    def steps(self, link: str) -> list[StepReply]:
+        """Return the steps of a link that there is."""
+        with self._engine.connect() as connection:
+            content = connection.scalar(select(LINKS.c.steps).where(LINKS.c.id == link))
+        return STEPS.validate_json(zlib.decompress(content or b""))
+
+    def replace_link(self, former: LinkRow, link: LinkRow) -> None:
+        """Put a link in place of another, which is revoked. In place."""
+        with self._engine.begin() as connection:
+            steps = connection.scalar(select(LINKS.c.steps).where(LINKS.c.id == former.id))
+            _revoke(connection, [former.id])
+            _add_link(connection, link, steps or b"")
+
+    def change(self, dispatch: str, plan: PlanInput, steps: Mapping[str, Sequence[StepReply]],
+               links: Sequence[tuple[LinkRow, Sequence[StepReply]]]) -> None:
+        """Put another plan in a dispatch's place. In place.
+
+        Parameters
+        ----------
+        steps
+            Those that links have from now on, by their ids.
+        links
+            Links of vehicles that had none, and their steps.
+        """
+        with self._engine.begin() as connection:
+            connection.execute(update(DISPATCHES).where(DISPATCHES.c.id == dispatch)
+                               .values(plan=_packed_plan(plan)))
+            for link, listed in steps.items():
+                connection.execute(update(LINKS).where(LINKS.c.id == link)
+                                   .values(steps=_packed(listed)))
+            for new, listed in links:
+                _add_link(connection, new, _packed(listed))
+
+    def revoke(self, links: Collection[str]) -> None:
+        """Let links open nothing any more. In place."""
+        with self._engine.begin() as connection:
+            _revoke(connection, links)
+
+    def end(self, dispatch: str) -> None:
+        """End a dispatch now, unless it has ended. In place."""
+        now = now_ms()
+        with self._engine.begin() as connection:
+            connection.execute(update(DISPATCHES).values(ends_at=now).where(
+                DISPATCHES.c.id == dispatch, DISPATCHES.c.ends_at > now))
+
+    def note_opening(self, link: str) -> None:
+        """Note when a link was opened first. In place."""
+        with self._engine.begin() as connection:
+            connection.execute(update(LINKS).values(opened_at=now_ms()).where(
+                LINKS.c.id == link, LINKS.c.opened_at.is_(None)))
+
+    def add_events(self, link: LinkRow, events: Sequence[EventRow],
+                   refuse: Callable[[int], None]) -> None:
+        """Keep events that aren't there yet, in order, unless `refuse` raises. In place.
+
+        `refuse` is told how many there would be.
+        """
+        mine = (EVENTS.c.dispatch == link.dispatch, EVENTS.c.position == link.position)
+        with self._engine.begin() as connection:
+            # Of two that tell at once, one waits.
+            connection.execute(select(LINKS.c.id).where(LINKS.c.id == link.id).with_for_update())
+            there = set(connection.scalars(select(EVENTS.c.id).where(*mine)))
+            new = {event.id: event for event in events if event.id not in there}
+            refuse(len(there) + len(new))
+            for number, event in enumerate(new.values(), len(there)):
+                connection.execute(insert(EVENTS).values(
+                    **{**asdict(event), "number": number}, dispatch=link.dispatch,
+                    position=link.position, received_at=now_ms()))
+
+    def events(self, dispatch: str) -> dict[int, list[EventRow]]:
+        """Return what was told, by the position of the vehicle."""
+        statement = (select(EVENTS.c.position, *_EVENT).where(EVENTS.c.dispatch == dispatch)
+                     .order_by(EVENTS.c.position, EVENTS.c.number))
+        found: dict[int, list[EventRow]] = {}
+        with self._engine.connect() as connection:
+            for position, *row in connection.execute(statement):
+                found.setdefault(position, []).append(EventRow(*row))
+        return found
+
+
+def delete_expired(engine: Engine) -> None:
+    """Delete all that is kept of dispatches that expired. In place."""
+    expired = select(DISPATCHES.c.id).where(DISPATCHES.c.expires_at <= now_ms()).limit(BATCH)
+    while True:
+        with engine.begin() as connection:
+            ids = list(connection.scalars(expired))
+            for table, column in ((EVENTS, EVENTS.c.dispatch), (LINKS, LINKS.c.dispatch),
+                                  (DISPATCHES, DISPATCHES.c.id)):
+                connection.execute(delete(table).where(column.in_(ids)))
+        if len(ids) < BATCH:
+            return
+
+
+def _packed_plan(plan: PlanInput) -> bytes:
+    content = plan.model_dump_json(exclude=LEFT_OUT, exclude_none=True)
+    return zlib.compress(content.encode(), FAST)
+
+
+def _packed(steps: Sequence[StepReply]) -> bytes:
+    return zlib.compress(STEPS.dump_json(list(steps)), FAST)
+
+
+def _add_link(connection: Connection, link: LinkRow, steps: bytes) -> None:
+    connection.execute(insert(LINKS).values(**asdict(link), steps=steps))
+
+
+def _revoke(connection: Connection, links: Collection[str]) -> None:
+    connection.execute(update(LINKS).values(revoked_at=now_ms()).where(
+        LINKS.c.id.in_(links), LINKS.c.revoked_at.is_(None)))

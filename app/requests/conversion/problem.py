@@ -1,0 +1,61 @@
+"""`PlanRequest` -> `Problem` and planning options; quantities are rounded here, once."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from app.requests.conversion.amounts import decimals_of
+from app.requests.conversion.customer import to_customer
+from app.requests.conversion.ground import Ground
+from app.requests.conversion.groups import groups_of, part_of
+from app.requests.conversion.leaving_out import default_unassigned_cost
+from app.requests.conversion.places import depots_of
+from app.requests.conversion.preparing import UNHURRIED, Preparing
+from app.requests.conversion.service import with_service_durations
+from app.requests.conversion.sites import sites_of
+from app.requests.conversion.travels import Travels
+from app.requests.conversion.vehicle import to_vehicle_type
+from app.schemas.request import PlanRequest
+from model.problem import IncompatibleGoods, Problem
+
+
+def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
+               ground: Ground | None = None) -> Problem:
+    """Convert a valid request, unless the work on it is to end; `ground` may be known already."""
+    return problem_of(request, Travels(request, preparing, ground))
+
+
+def problem_of(request: PlanRequest, travels: Travels) -> Problem:
+    """Convert a valid request, with its legs, unless the work on it is to end."""
+    travels.expect_legs()
+    depots = depots_of(request)
+    decimals = decimals_of(request.customers, request.fleet)
+    sites = sites_of(request)
+    customers = tuple([
+        to_customer(customer, decimals, site)
+        for customer, site in zip(request.customers, sites[len(depots):], strict=True)])
+    amounts = [amount for customer in customers for amount in (customer.demand, customer.taken_in)]
+    vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, amounts)
+                           for stated in request.fleet])
+    vehicle_types = with_service_durations(vehicle_types, request.customers)
+    groups = list(groups_of(request.fleet, request.customers))
+    if groups:
+        vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
+    unassigned_cost = request.unassigned_cost
+    if unassigned_cost is None:
+        unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
+                                                  decimals)
+    return Problem(
+        depots=tuple([replace(depot, site=site)
+                      for depot, site in zip(depots, sites, strict=False)]),
+        customers=customers,
+        vehicle_types=vehicle_types,
+        travel=travels.built(),
+        coordinates=travels.coordinates(),
+        unassigned_cost=unassigned_cost,
+        amount_decimals=decimals,
+        may_serve=np.array([group.serves for group in groups]) if groups else None,
+        must_serve=request.unassigned_cost is None,
+        incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
+                                 for each in request.incompatible_goods),
+    )

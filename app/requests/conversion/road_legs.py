@@ -1,0 +1,228 @@
+"""A table of roads -> the legs of a request by it, or which of its places have none."""
+
+import time
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Protocol
+
+import numpy as np
+
+from app.maps.roads.engine import RoadsError, RoadsStoppedError, RoadsUnavailableError, RoadTable
+from app.maps.roads.nearness import Nearness, estimated, nearness
+from app.maps.roads.roads import Roads
+from app.requests.conversion.far_legs import Ask, FarLegs
+from app.requests.conversion.places import paths_of, places_of
+from app.requests.conversion.preparing import Preparing, StoppedError
+from app.schemas.errors import InputError, InvalidRequestError, NoRoadsError, json_path
+from app.schemas.request import PlanRequest, RoadsInput
+from model.problem import BoolArray, FloatArray
+
+LONGEST_WALK_M = 2000.0
+"""A place farther from any road is off the roads: an extract of another town, or the sea."""
+
+FALLBACK_SHARE = 0.5
+"""Of the time left before the search, in which roads may answer where a request can do without."""
+
+ON_DEMAND = ("Of so many places, legs to far ones were estimated in the search; those that the "
+             "plan drives are of roads.")
+
+WALKED_METRES = 3.6
+"""Metres that one walks in a second at one km/h, the other way round."""
+
+
+class Straight(Protocol):
+    """Where places are, on the globe."""
+
+    @property
+    def locations(self) -> FloatArray:
+        """(place, 2) longitudes and latitudes."""
+        ...
+
+    @property
+    def distances_m(self) -> FloatArray:
+        """(place, place) metres on great circles."""
+        ...
+
+
+@dataclass(frozen=True)
+class RoadLegs:
+    """Legs on roads from each place to each, ways from and to the road included."""
+
+    durations_s: FloatArray  # nan: to be estimated
+    distances_m: FloatArray  # nan: to be estimated
+    engine: str
+    farthest_m: float | None  # from a place to the road
+    estimated: int = 0  # legs that vehicles may drive and no road tells
+    note: str | None = None
+    far: FarLegs | None = None  # those that are estimated until a plan drives them
+
+
+def road_legs(roads: Roads, profile: str, request: PlanRequest, ground: Straight,
+              preparing: Preparing) -> RoadLegs:
+    """Return a request's legs by the roads of a profile.
+
+    Of many places only legs to near ones are asked for, and the others are estimated; a plan that
+    goes on from another has all of them.
+
+    Raises
+    ------
+    NoRoadsError
+        If there is no answer.
+    InvalidRequestError
+        If places are off the roads and the request states no fallback, or time is over before
+        there are legs.
+    StoppedError
+        If the work is to end.
+    """
+    with preparing.waiting() as latest:
+        return _legs_by(roads, profile, request, ground, preparing, latest)
+
+
+def _legs_by(roads: Roads, profile: str, request: PlanRequest, ground: Straight,
+             preparing: Preparing, latest: float) -> RoadLegs:
+    """Return the legs that roads tell until an instant; arguments and errors of `road_legs`."""
+    stated = request.roads if isinstance(request.roads, RoadsInput) else RoadsInput()
+    engine, lon_lat = roads.engine_name(profile), ground.locations
+    parts = None
+    if len(lon_lat) > roads.full_up_to and request.replan is None:
+        parts = nearness(lon_lat, range(len(lon_lat) - len(request.customers)))
+    until = _until(latest, stated)
+    try:
+        table = (roads.table(profile, lon_lat, until, preparing.should_stop) if parts is None
+                 else roads.near_legs(profile, lon_lat, parts, until, preparing.should_stop))
+    except RoadsStoppedError as error:
+        raise StoppedError("The work was stopped before there was a plan: try again.") from error
+    except RoadsError as error:
+        if stated.fallback is None and _is_late(error):
+            raise _too_slow(profile, len(lon_lat), latest, preparing) from error
+        if stated.fallback is None:
+            raise NoRoadsError(f"The roads of {profile!r}: {error} Try again, or state "
+                               "roads.fallback.") from error
+        size = len(lon_lat)
+        nothing = np.where(np.eye(size, dtype=bool), 0.0, np.nan)
+        return RoadLegs(nothing, nothing, engine, None, size * (size - 1),
+                        f"All legs are estimated: {error}")
+    legs = _Legs(request, profile, engine, stated, table, None if parts is None else parts.asked())
+    if parts is None:
+        return legs.legs()
+    return legs.with_far_ones(parts, ground.distances_m, partial(roads.some_legs, profile), lon_lat)
+
+
+def _is_late(error: RoadsError) -> bool:
+    return isinstance(error, RoadsUnavailableError) and error.is_late
+
+
+def _too_slow(profile: str, count: int, latest: float,
+              preparing: Preparing) -> InvalidRequestError:
+    message = (f"The roads of {profile!r} didn't tell the legs between {count} places within "
+               f"{latest - preparing.began:.1f} s, as long as may be spent on them by "
+               f"{preparing.limit}: state a longer time_limit, or submit a job (POST /jobs), whose "
+               "time begins when its legs are there. Legs that were told are kept: the same "
+               "places are quick from then on.")
+    return InvalidRequestError([InputError(code="TOO_MUCH_WORK", path="$.options.time_limit",
+                                           message=message)])
+
+
+def _until(latest: float, stated: RoadsInput) -> float:
+    now = time.perf_counter()
+    if stated.fallback is None or latest == float("inf"):
+        return latest
+    return now + FALLBACK_SHARE * (latest - now)
+
+
+class _Legs:
+    """A table with all places of a request, some of which may be off the roads."""
+
+    def __init__(self, request: PlanRequest, profile: str, engine: str, stated: RoadsInput,
+                 table: RoadTable, asked: BoolArray | None) -> None:
+        self._request = request
+        self._profile = profile
+        self._engine = engine
+        self._stated = stated
+        self._table = table
+        self._asked = asked  # None: all
+        self._is_near = table.snap_m <= LONGEST_WALK_M
+
+    def legs(self) -> RoadLegs:
+        """Return the legs; raises as `road_legs` does."""
+        off = ~self._is_reached()
+        # Whom only drones serve needs no road: nobody drives there.
+        missing = np.flatnonzero(off & ~self._is_flown_to())
+        if len(missing) and self._stated.fallback is None:
+            raise InvalidRequestError([self._error(node) for node in missing.tolist()])
+        durations, distances = self._whole(off)
+        walks = self._walks_s(off)
+        durations = durations + walks[:, None] + walks[None, :]
+        np.fill_diagonal(durations, 0.0)
+        size, count = len(off), len(missing)
+        estimated = size * (size - 1) - (size - count) * (size - count - 1)
+        walked = self._table.snap_m[~off]
+        places = "1 place" if count == 1 else f"{count} places"
+        note = f"Legs to and from {places} off the roads are estimated." if count else None
+        return RoadLegs(durations, distances, self._engine,
+                        round(float(walked.max()), 1) if len(walked) else None, estimated, note)
+
+    def _walks_s(self, off: BoolArray) -> FloatArray:
+        """Return how long one walks between each place and the road."""
+        return np.where(off, 0.0, self._table.snap_m) * WALKED_METRES / self._stated.walking_kmh
+
+    def with_far_ones(self, parts: Nearness, straight_m: FloatArray, ask: Ask,
+                      lon_lat: FloatArray) -> RoadLegs:
+        """Return the legs, and estimates of those that weren't asked for."""
+        legs, off, table = self.legs(), ~self._is_reached(), self._table
+        unknown = ~parts.asked() & ~off[:, None] & ~off
+        durations = estimated(straight_m, legs.durations_s, parts)
+        distances = estimated(straight_m, legs.distances_m, parts)
+        for numbers in (durations, distances):
+            numbers[off, :] = numbers[:, off] = np.nan
+            np.fill_diagonal(numbers, 0.0)
+        far = FarLegs(ask, lon_lat, table.snapped, self._walks_s(off), unknown,
+                      (table.durations_s[:, 0], table.distances_m[:, 0]),
+                      (table.durations_s[0], table.distances_m[0]))
+        return replace(legs, durations_s=durations, distances_m=distances, far=far,
+                       note=" ".join(filter(None, (legs.note, ON_DEMAND))))
+
+    def _is_reached(self) -> BoolArray:
+        """Tell which places have ways to and from the first depot, by any roads."""
+        ways = np.isfinite(self._table.durations_s) & np.isfinite(self._table.distances_m)
+        return self._is_near & self._is_near[0] & ways[0] & ways[:, 0]
+
+    def _is_flown_to(self) -> BoolArray:
+        places = places_of(self._request)
+        first = len(places) - len(self._request.customers)
+        return np.array([False] * first + [customer.served_by == "drone"
+                                           for customer in self._request.customers])
+
+    def _whole(self, off: BoolArray) -> tuple[FloatArray, FloatArray]:
+        """Return what is driven, nan to and from places that are off the roads.
+
+        Where no way is known between two others, there is that by the first depot.
+        """
+        tables = []
+        unknown = ~np.isfinite(self._table.durations_s)
+        if self._asked is not None:
+            unknown &= self._asked
+        for table in (self._table.durations_s, self._table.distances_m):
+            whole = np.where(unknown, table[:, :1] + table[:1, :], table)
+            whole[off, :] = np.nan
+            whole[:, off] = np.nan
+            np.fill_diagonal(whole, 0.0)
+            tables.append(whole)
+        return tables[0], tables[1]
+
+    def _error(self, node: int) -> InputError:
+        away = self._table.snap_m[node]
+        if not np.isfinite(away):
+            found = f"No road for {self._profile!r} is near"
+        elif not self._is_near[node]:
+            found = (f"The nearest road for {self._profile!r} is {away:.0f} m away, and at most "
+                     f"{LONGEST_WALK_M:.0f} m are walked")
+        elif not self._is_near[0]:
+            found = "The first depot is off the roads, so no way leads here"
+        else:
+            found = (f"The nearest road for {self._profile!r}, {away:.0f} m away, has no way to "
+                     "or from the first depot")
+        return InputError(
+            code="PLACE_OFF_ROADS", path=json_path(paths_of(self._request)[node]),
+            message=f"{found}: correct the location, have drones serve it (served_by), check that "
+            "the map covers it, or state roads.fallback.")

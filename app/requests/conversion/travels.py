@@ -1,0 +1,304 @@
+"""Travel matrices of a request, from locations or the client's matrices, equal ones built once."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from app.maps.roads.roads import NO_ROADS, Roads
+from app.requests.conversion.energy import climb_duration
+from app.requests.conversion.far_legs import Estimates, FarTravel
+from app.requests.conversion.ground import Ground
+from app.requests.conversion.leg_origins import AS_ASKED, AS_THE_CROW_FLIES, LegOrigin
+from app.requests.conversion.places import nowhere_of, places_of
+from app.requests.conversion.preparing import UNHURRIED, Preparing
+from app.requests.conversion.road_legs import RoadLegs, road_legs
+from app.requests.conversion.units import thousandths
+from app.requests.conversion.work import COMPUTED, legs_seconds
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
+from app.schemas.rows import Row
+from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
+from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
+from model.problem.straight import fits
+from model.travel.matrices import (
+    embed,
+    flight_travel,
+    longer_legs,
+    matrix_travel,
+    speed_profile,
+    truck_travel,
+    with_nowhere,
+)
+
+
+class _Key(NamedTuple):
+    """What tells one pair of matrices from another."""
+
+    means: Literal["drive", "matrix", "road", "flight"]
+    profile: str  # of the client's matrix or of roads, else empty
+    speed: float  # km/h, or a multiple of the speed of the matrix or on roads
+    climb: int = 0  # ms more for each leg
+    flown: bool = False  # which matters where some end nowhere
+    estimated_kmh: float = 0.0  # where roads may not be known
+
+
+COMPUTED_FROM = 3000
+"""Above how many places legs from coordinates are computed wherever they are looked up. Tables are
+read in less time, but to make them takes so long that a search of ten seconds gains nothing by
+them; and they take 50 bytes for each of places squared, and way to travel."""
+
+SECONDS_PER_METRE = 3.6
+"""Seconds that a metre takes at one km/h."""
+
+
+class Travels:
+    """Collects the matrices of one valid request, unless the work on them is to end."""
+
+    def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED,
+                 ground: Ground | None = None, roads: Roads = NO_ROADS) -> None:
+        self._request = request
+        self._preparing = preparing
+        self._ground = ground or Ground(request, preparing)
+        self._roads = roads
+        self._road_legs: dict[str, RoadLegs] = {}
+        self._places = places_of(request)
+        self._nowhere = nowhere_of(request)
+        self._index: dict[_Key, int] = {}
+        self._travels: list[Travel] = []
+
+    def count(self, on_roads: bool = False) -> int:
+        """Return how many pairs of matrices planning needs at most, without building any.
+
+        What is computed needs none.
+        Where customers ask for a setup, ways back to trucks are apart from those to customers;
+        where profiles may have roads, equal speeds make no equal legs.
+        """
+        request = self._request
+        sets_up = any(customer.setup_duration for customer in request.customers)
+        flown = {self._flying(drones) for kind in request.fleet for drones in kind.drone_types}
+        driven = len(self._stated(self._keys() - flown))
+        flown = self._stated(flown)
+        if on_roads and self._ground.is_geographic and request.roads != "none":
+            driven = max(driven, len({kind.profile for kind in request.fleet}))
+        return driven + len(flown) + (len(flown) if sets_up else 0)
+
+    def expect_legs(self) -> None:
+        """Make sure that there is time to build all matrices, if none is flown around areas.
+
+        Where legs are computed, time for what is done for each place before a search begins.
+
+        Raises
+        ------
+        RequestError
+            If the work is to end.
+        """
+        keys = self._keys()
+        stated = self._stated(keys)
+        if len(stated) < len(keys):
+            replace(self._preparing, work="Plans of so many places",
+                    advice="send fewer customers").expect(COMPUTED * len(self._places))
+        if not stated:
+            self._preparing.pause()
+            return
+        flights = sum(key.means == "flight" for key in stated)
+        self._preparing.expect(legs_seconds(len(self._places), len(stated) - flights, flights,
+                                            self._ground.is_geographic))
+
+    def built(self) -> tuple[Travel, ...]:
+        """Return the matrices built so far."""
+        return tuple(self._travels)
+
+    def drive(self, vehicle_type: VehicleTypeInput) -> tuple[int, SpeedProfile | None]:
+        """Return the index of the trucks' matrices, and their speeds by time of day."""
+        key, profile = self._driving(vehicle_type)
+        return self._at(key), profile
+
+    def fly(self, drones: DronesInput) -> int:
+        """Return the index of the drones' matrices."""
+        return self._at(self._flying(drones))
+
+    def origins(self) -> tuple[LegOrigin, ...]:
+        """Return what the legs of each profile are made of, trucks' first."""
+        fleet = self._request.fleet
+        driven = {kind.profile: self._origin(kind.profile) for kind in fleet}
+        flown = {drones.profile: LegOrigin(
+                     drones.profile, "flight" if self._matrix(drones.profile) is None else "matrix")
+                 for kind in fleet for drones in kind.drone_types if drones.count > 0}
+        return (*driven.values(), *(origin for origin in flown.values()
+                                    if origin not in driven.values()))
+
+    def _origin(self, profile: str) -> LegOrigin:
+        stated = self._request.roads
+        if self._matrix(profile) is not None:
+            return LegOrigin(profile, "matrix")
+        if not self._ground.is_geographic:
+            return LegOrigin(profile, "straight")
+        if not self._has_roads(profile):
+            return LegOrigin(profile, "great_circle",
+                             note=AS_ASKED if stated == "none" else AS_THE_CROW_FLIES)
+        legs = self._legs_on_roads(profile)
+        detour = stated.detour if isinstance(stated, RoadsInput) and legs.estimated else None
+        return LegOrigin(profile, "roads", legs.engine, legs.estimated, detour, legs.farthest_m,
+                         legs.note)
+
+    def estimates(self) -> Estimates | None:
+        """Return what is estimated of the legs on roads until a plan drives them."""
+        travels = {}
+        for key, index in self._index.items():
+            far = self._road_legs[key.profile].far if key.means == "road" else None
+            if far is not None:
+                travels[index] = FarTravel(far, key.speed, self._travels[index])
+        return Estimates(travels, self._nowhere) if travels else None
+
+    def coordinates(self) -> FloatArray:
+        """Return the (node, 2) coordinates that the policy sees, in any planar unit."""
+        nowhere = self._nowhere
+        if all(place.location is not None for place in self._places):
+            points = self._ground.points_m
+        else:
+            duration = self._travels[0].duration[:]
+            if nowhere is not None:
+                duration = np.delete(np.delete(duration, nowhere, 0), nowhere, 1)
+            points = embed(duration)
+        # Whoever ends anywhere is seen to do so amid all places.
+        return points if nowhere is None else np.insert(points, nowhere, points.mean(axis=0), 0)
+
+    def _keys(self) -> set[_Key]:
+        fleet = self._request.fleet
+        return ({self._driving(kind)[0] for kind in fleet}
+                | {self._flying(drones) for kind in fleet for drones in kind.drone_types})
+
+    def _stated(self, keys: set[_Key]) -> set[_Key]:
+        """Return those of which there are matrices."""
+        return {key for key in keys if not self._is_computed(key)}
+
+    def _is_computed(self, key: _Key) -> bool:
+        """Tell whether legs are computed where they are looked up."""
+        return (key.means == "drive" and len(self._places) > COMPUTED_FROM
+                and fits(self._points.longest(), key.speed, key.climb))
+
+    @cached_property
+    def _points(self) -> Points:
+        """Where nodes are."""
+        points = self._ground.points
+        if self._nowhere is None:
+            return points
+        return replace(points, at=np.insert(points.at, self._nowhere, np.nan, axis=0))
+
+    def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
+        matrix = self._matrix(vehicle_type.profile)
+        usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
+        on_roads = matrix is None and self._has_roads(vehicle_type.profile)
+        scale = usual if matrix is None and not on_roads else 1.0
+
+        def key_at(speed: float) -> _Key:
+            return (self._on_roads(vehicle_type.profile, speed, usual) if on_roads
+                    else self._driving_at(vehicle_type.profile, speed))
+
+        if not vehicle_type.speed_profile:
+            return key_at(scale), None
+        changes = [
+            (thousandths(change.from_time),
+             scale * (change.factor or (change.speed_kmh or usual) / usual))
+            for change in vehicle_type.speed_profile
+        ]
+        fastest, profile = speed_profile(scale, changes)
+        return key_at(fastest), profile
+
+    def _flying(self, drones: DronesInput) -> _Key:
+        airspace = self._request.airspace
+        speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
+        if self._matrix(drones.profile) is not None:
+            key = self._driving_at(drones.profile, 1.0)
+        elif not airspace.no_fly and not airspace.wind.speed_kmh:
+            key = self._driving_at(drones.profile, speed)._replace(climb=climb)
+        else:
+            key = _Key("flight", "", speed, climb)
+        return key._replace(flown=self._nowhere is not None)
+
+    def _driving_at(self, profile: str, speed: float) -> _Key:
+        return (_Key("drive", "", speed) if self._matrix(profile) is None
+                else _Key("matrix", profile, speed))
+
+    def _has_roads(self, profile: str) -> bool:
+        return (self._ground.is_geographic and self._request.roads != "none"
+                and profile in self._roads.profiles)
+
+    def _on_roads(self, profile: str, speed: float, usual_kmh: float) -> _Key:
+        stated = self._request.roads
+        falls_back = isinstance(stated, RoadsInput) and stated.fallback is not None
+        return _Key("road", profile, speed, estimated_kmh=usual_kmh if falls_back else 0.0)
+
+    def _matrix(self, profile: str) -> MatrixInput | None:
+        return (self._request.matrices or {}).get(profile)
+
+    def _at(self, key: _Key) -> int:
+        """Return the index of a pair of matrices, which is built the first time."""
+        if key not in self._index:
+            self._index[key] = len(self._travels)
+            self._travels.append(self._computed(key) if self._is_computed(key)
+                                 else self._with_nowhere(key))
+        return self._index[key]
+
+    def _computed(self, key: _Key) -> Travel:
+        nowhere = UNREACHABLE if key.flown else 0
+        return Travel.along(StraightLegs(self._points, key.speed, key.climb, nowhere))
+
+    def _with_nowhere(self, key: _Key) -> Travel:
+        travel = self._build(key)
+        if self._nowhere is None:
+            return travel
+        return with_nowhere(travel, self._nowhere, key.flown)
+
+    def _build(self, key: _Key) -> Travel:
+        self._preparing.pause()
+        if key.climb:
+            return longer_legs(self._build(key._replace(climb=0)), key.climb)
+        matrix = self._matrix(key.profile) if key.means == "matrix" else None
+        if matrix is not None:
+            durations = self._at_places(matrix.durations)
+            durations /= key.speed
+            distances = (self._ground.legs_m if matrix.distances is None
+                         else self._at_places(matrix.distances))
+            return matrix_travel(durations, distances, self._preparing.pause)
+        if key.means == "road":
+            return self._build_on_roads(key)
+        if key.means == "drive":
+            return truck_travel(self._ground.legs_m, key.speed, self._preparing.pause)
+        return flight_travel(*self._ground.flights.legs(key.speed), self._preparing.pause)
+
+    def _build_on_roads(self, key: _Key) -> Travel:
+        legs = self._legs_on_roads(key.profile)
+        durations, distances = legs.durations_s, legs.distances_m
+        unknown = np.isnan(durations)
+        if unknown.any():
+            # Estimated, unless only drones go there: then no vehicle type drives these legs.
+            stated = self._request.roads
+            detour = stated.detour if isinstance(stated, RoadsInput) else 1.0
+            metres = self._ground.legs_m * detour
+            speed = key.estimated_kmh or DEFAULT_TRUCK_SPEED_KMH
+            durations = np.where(unknown, metres * SECONDS_PER_METRE / speed, durations)
+            distances = np.where(unknown, metres, distances)
+        return matrix_travel(durations / key.speed, distances, self._preparing.pause)
+
+    def _legs_on_roads(self, profile: str) -> RoadLegs:
+        if profile not in self._road_legs:
+            self._road_legs[profile] = road_legs(self._roads, profile, self._request, self._ground,
+                                                 self._preparing)
+        return self._road_legs[profile]
+
+    def _at_places(self, table: Sequence[Row]) -> FloatArray:
+        """Return a client's matrix with one row and column per node.
+
+        Whoever stays at a node travels nothing, whatever the diagonal says; between two nodes in
+        the same row it counts.
+        """
+        indices = [place.location_index or 0 for place in self._places]
+        legs = np.empty((len(indices), len(indices)))
+        for row, index in zip(legs, indices, strict=True):
+            row[:] = table[index][indices]
+        np.fill_diagonal(legs, 0.0)
+        return legs

@@ -1,0 +1,84 @@
+"""`VehicleTypeInput` -> `VehicleType`, with its drones."""
+
+from collections.abc import Collection, Sequence
+
+from app.requests.conversion.amounts import counted
+from app.requests.conversion.energy import to_energy
+from app.requests.conversion.places import places_of_type
+from app.requests.conversion.travels import Travels
+from app.requests.conversion.units import optional_thousandths, thousandths
+from app.schemas.drones import DronesInput, TurnaroundInput
+from app.schemas.vehicle import OvertimeInput, VehicleTypeInput
+from model.problem import UNLIMITED, Depot, DroneType, Overtime, VehicleType
+
+
+def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
+                    decimals: Sequence[int],
+                    amounts: Collection[Sequence[int]]) -> VehicleType:
+    """Convert a valid vehicle type; of the problem are `depots`, and `amounts` both ways."""
+    travel, speed_profile = travels.drive(stated)
+    places = places_of_type(stated, depots)
+    shift = stated.shift
+    drones = [_drones(each, travels, decimals, amounts) for each in stated.drone_types
+              if each.count > 0]
+    return VehicleType(
+        id=stated.id,
+        count=stated.count,
+        capacity=counted(stated.capacity, decimals),
+        travel=travel,
+        depot=places.depot,
+        start=places.start,
+        end=places.end,
+        reload_depots=places.reload,
+        fixed_cost=stated.costs.fixed,
+        cost_per_km=stated.costs.per_km,
+        cost_per_hour=stated.costs.per_hour,
+        cost_per_stop=stated.costs.per_stop,
+        cost_per_load_km=stated.costs.per_load_km,
+        speed_profile=speed_profile,
+        earliest=thousandths(shift.earliest),
+        latest=UNLIMITED if shift.latest is None else thousandths(shift.latest),
+        max_working_duration=optional_thousandths(stated.max_working_duration),
+        max_trip_distance=optional_thousandths(stated.max_trip_distance),
+        overtime=_overtime(stated.overtime),
+        max_trips=stated.max_trips,
+        max_stops=stated.max_stops,
+        max_sorties=stated.max_sorties,
+        reload_duration=thousandths(stated.reload_duration),
+        skills=frozenset(stated.skills),
+        pickups=stated.pickups,
+        drones=drones[0] if drones else None,
+        more_drones=tuple(drones[1:]),
+        co2_kg_per_km=stated.co2_kg_per_km,
+        co2_kg_per_kwh=stated.co2_kg_per_kwh,
+    )
+
+
+def _overtime(stated: OvertimeInput | None) -> Overtime | None:
+    if stated is None:
+        return None
+    longest = stated.max_duration
+    return Overtime(stated.cost_per_hour, UNLIMITED if longest is None else thousandths(longest))
+
+
+def _drones(stated: DronesInput, travels: Travels, decimals: Sequence[int],
+            amounts: Collection[Sequence[int]]) -> DroneType:
+    turnaround = stated.turnaround or TurnaroundInput()
+    return DroneType(
+        id=stated.id,
+        count=stated.count,
+        capacity=counted(stated.capacity, decimals),
+        travel=travels.fly(stated),
+        endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
+        endurance_includes_waiting=stated.endurance_includes_waiting,
+        launch_duration=thousandths(stated.launch_duration),
+        recovery_duration=thousandths(stated.recovery_duration),
+        service_duration=optional_thousandths(stated.service_duration),
+        swap_duration=thousandths(turnaround.swap_duration),
+        batteries=turnaround.batteries,
+        max_customers_per_sortie=stated.max_customers_per_sortie,
+        energy=(None if stated.energy is None
+                else to_energy(stated, stated.energy, decimals, amounts)),
+        cost_per_km=stated.costs.per_km,
+        cost_per_hour=stated.costs.per_hour,
+    )

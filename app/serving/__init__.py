@@ -1,0 +1,1 @@
+"""What every request passes, and what runs the service: keys, load, logs, settings."""

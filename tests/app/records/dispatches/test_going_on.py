@@ -1,0 +1,200 @@
+"""Planning on from what drivers told."""
+
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from typing import Any
+
+import httpx
+import pytest
+
+from app.records import dispatches
+from app.records.dispatches.going_on import GROUNDING, OnTheRoad, going_on
+from app.records.dispatches.schemas import DispatchRequest, GoingOnReply
+from app.records.dispatches.standing import Told
+from app.records.dispatches.steps import StepMaker
+from tests.app.records.dispatches.days import (
+    DEPART, DOOR, FIRST, LAUNCH, NEXT_DOOR, PLAN, PROBLEM, RECOVER, RETURN, SECOND, Data,
+    dispatched, event, holding, token_of,
+)
+
+REQUEST = DispatchRequest.model_validate({"problem": PROBLEM, "plan": PLAN}, strict=False)
+
+
+def gone_on(told: dict[str, dict[str, Told]], now: float) -> GoingOnReply:
+    """Return how to plan on, by what was told of each vehicle."""
+    maker = StepMaker(REQUEST.problem)
+    return going_on(REQUEST.plan, {
+        route.vehicle: OnTheRoad(maker.steps(route), told.get(route.vehicle, {}))
+        for route in REQUEST.plan.routes}, now)
+
+
+def route_of(reply: GoingOnReply, vehicle: str) -> Data:
+    """Return a vehicle's first trip."""
+    routes: list[Data] = reply.replan["plan"]["routes"]
+    return dict(next(route for route in routes if route["vehicle"] == vehicle)["trips"][0])
+
+
+def times(trip: Data) -> list[tuple[str, float, float]]:
+    """Return where a truck is and when."""
+    return [(stop["id"], stop["arrival"], stop["departure"]) for stop in trip["stops"]]
+
+
+def done(times: dict[str, float]) -> dict[str, Told]:
+    """Return what was told of steps."""
+    return {step: Told("done", time) for step, time in times.items()}
+
+
+def test_vehicle_that_told_nothing_is_where_the_plan_has_it() -> None:
+    reply = gone_on({}, 30_200)
+    assert (reply.told, reply.failed) == ([], [])
+    assert times(route_of(reply, "van-1")) == [
+        (stop["id"], stop["arrival"], stop["departure"])
+        for stop in PLAN["routes"][1]["trips"][0]["stops"]]
+
+
+def test_what_was_told_counts_and_all_behind_is_later() -> None:
+    reply = gone_on({"van-1": done({DEPART: 30_500, DOOR: 30_900})}, 31_000)
+    assert reply.told == ["van-1"]
+    assert times(route_of(reply, "van-1")) == [
+        ("hub", 30_000, 30_500), ("D", 30_640, 30_900), ("E", 31_000, 31_060),
+        ("hub", 31_300, 31_300)]
+
+
+def test_what_should_be_over_but_was_not_told_is_over_in_a_moment() -> None:
+    (_, first, second, home) = times(route_of(gone_on({"van-1": done({DEPART: 30_000})}, 35_000),
+                                              "van-1"))
+    assert first == ("D", 30_140, 35_060)
+    assert second[1] == 35_160
+    assert home[1] > second[2]
+
+
+def test_customer_passed_over_is_still_to_be_served() -> None:
+    trip = route_of(gone_on({"van-1": done({DEPART: 30_000, NEXT_DOOR: 30_300})}, 30_400), "van-1")
+    assert [stop["id"] for stop in trip["stops"]] == ["hub", "E", "D", "hub"]
+    assert trip["stops"][1]["departure"] == 30_300
+    assert trip["stops"][2]["departure"] > 30_400
+
+
+def test_whoever_was_not_served_is_open_again_once_the_parcel_is_back() -> None:
+    told = {**done({DEPART: 30_000}), DOOR: Told("failed", 30_200, "Nobody there")}
+    reply = gone_on({"van-1": told}, 30_250)
+    trip = route_of(reply, "van-1")
+    assert [stop["id"] for stop in trip["stops"]] == ["hub", "E", "hub"]
+    (failed,) = reply.failed
+    assert (failed.customer, failed.reason, failed.is_open) == ("D", "Nobody there", True)
+    assert failed.parcel_back == trip["stops"][-1]["arrival"]
+
+
+def test_vehicle_that_broke_down_does_nothing_more() -> None:
+    broken = {"vehicle": Told("failed", 30_250, "Broken down")}
+    reply = gone_on({"van-1": {**done({DEPART: 30_000, DOOR: 30_200}), **broken}}, 30_300)
+    assert reply.broken == reply.replan["unavailable"] == ["van-1"]
+    assert times(route_of(reply, "van-1"))[1][2] == 30_200
+    alone = gone_on({"van-1": broken}, 30_300)
+    assert (alone.broken, alone.told, alone.failed) == (["van-1"], ["van-1"], [])
+    assert times(route_of(alone, "van-1")) == times(PLAN["routes"][1]["trips"][0])
+    assert gone_on({"van-1": done({DEPART: 30_000})}, 30_300).broken == []
+
+
+def test_drone_that_was_not_launched_leaves_its_customers_open() -> None:
+    told = {**done({DEPART: 30_000}), LAUNCH: Told("failed", 30_140, "No wind")}
+    reply = gone_on({"truck-1": told}, 30_150)
+    assert route_of(reply, "truck-1")["sorties"] == []
+    assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("C", True)]
+
+
+@pytest.mark.parametrize(("step", "reason", "grounded"), [
+    (LAUNCH, "Drone is broken", ["truck-1/drone-1"]), (LAUNCH, "Too much wind", []),
+    (RECOVER, "Did not come back", ["truck-1/drone-1"]), (RECOVER, "Came back with the parcel", []),
+])
+def test_drone_that_is_lost_is_launched_no_more(step: str, reason: str,
+                                                grounded: list[str]) -> None:
+    told = {**done({DEPART: 30_000}), step: Told("failed", 30_450, reason)}
+    reply = gone_on({"truck-1": told}, 30_460)
+    assert reply.grounded == reply.replan.get("unavailable", []) == grounded
+
+
+def test_what_grounds_a_drone_is_what_the_page_offers() -> None:
+    page = (Path(dispatches.__file__).parent / "static" / "js" / "reasons.js").read_text("utf-8")
+    assert [reason for reason in GROUNDING if f"'{reason}'" not in page] == []
+
+
+def test_stop_where_a_drone_is_met_stays_though_nobody_was_served() -> None:
+    told = {**done({DEPART: 30_000, LAUNCH: 30_150}), FIRST: Told("failed", 30_200, "Shut")}
+    reply = gone_on({"truck-1": told}, 30_210)
+    assert [stop["id"] for stop in route_of(reply, "truck-1")["stops"]] == ["hub", "A", "B", "hub"]
+    assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("A", False)]
+
+
+def test_flights_are_timed_by_what_was_told() -> None:
+    told = done({DEPART: 30_100, LAUNCH: 30_400, FIRST: 30_420})
+    trip = route_of(gone_on({"truck-1": told}, 30_500), "truck-1")
+    (sortie,) = trip["sorties"]
+    assert sortie["launch_time"] == 30_400
+    assert sortie["customers"][0]["arrival"] == 30_400 + 120
+    assert trip["stops"][1]["departure"] == 30_420
+    later = done({DEPART: 30_100, LAUNCH: 30_400, FIRST: 30_420, RECOVER: 30_450, SECOND: 30_600})
+    (sortie,) = route_of(gone_on({"truck-1": later}, 30_700), "truck-1")["sorties"]
+    assert sortie["recovery_time"] == 30_450
+    assert sortie["customers"][0]["departure"] <= 30_450
+
+
+@pytest.mark.parametrize("told", [
+    {"truck-1": done({DEPART: 30_100, LAUNCH: 30_101})},
+    {"truck-1": done({SECOND: 30_050})},
+    {"truck-1": done({RECOVER: 30_050}), "van-1": done({RETURN: 30_010})},
+    {"truck-1": done({DEPART: 29_000, LAUNCH: 29_001, FIRST: 29_002, SECOND: 29_003,
+                     RECOVER: 29_004, RETURN: 29_005})},
+    {"van-1": {DOOR: Told("failed", 30_100, "x"), NEXT_DOOR: Told("failed", 30_050, "x")}},
+    {"van-1": {DOOR: Told("failed", 30_100, "x"), NEXT_DOOR: Told("failed", 30_150, "x"),
+               RETURN: Told("done", 30_200)}},
+])
+@pytest.mark.parametrize("now", [30_105, 30_400, 40_000])
+def test_whatever_was_told_can_be_gone_on_from(
+        client: httpx.Client, told: dict[str, dict[str, Told]], now: float) -> None:
+    reply = gone_on(told, now)
+    served = {failed.customer for failed in reply.failed if failed.is_open}
+    plan = reply.replan["plan"]
+    checked = client.post("/check", json={
+        "problem": PROBLEM | {"replan": reply.replan},
+        "plan": {**plan, "unassigned": [{"id": name} for name in sorted(served)]}})
+    assert checked.status_code == 200, checked.text
+    codes = {violation["code"] for violation in checked.json()["violations"]}
+    assert not codes & {"FROZEN", "PAST", "ABOARD", "STRUCTURE"}, checked.json()["violations"]
+
+
+def told_at(client: httpx.Client, token: str, *events: Any) -> None:
+    """Tell events now."""
+    reply = client.post("/drive/events", headers=holding(token), json={
+        "now": datetime.now(UTC).isoformat(), "events": list(events)})
+    assert reply.status_code == 200, reply.text
+
+
+def test_drivers_words_are_planned_on_from_over_http(searching: httpx.Client) -> None:
+    start = datetime.now(UTC) - timedelta(seconds=30_500)
+    sent = dispatched(searching, plan_start=start.isoformat())
+    token = token_of(sent["links"][1])
+
+    def at(seconds: float) -> str:
+        return (start + timedelta(seconds=seconds)).isoformat()
+
+    told_at(searching, token, event("1", DEPART, at(30_000)),
+            event("2", DOOR, at(30_300), "failed", reason="Nobody there"))
+    reply = searching.get(f"/dispatches/{sent['id']}/replan")
+    assert reply.status_code == 200, reply.text
+    GoingOnReply.model_validate_json(reply.text)
+    going = reply.json()
+    assert 30_500 <= going["replan"]["freeze_before"] < 30_600
+    (failed,) = going["failed"]
+    customers = [customer | ({"release_time": failed["parcel_back"]}
+                             if customer["id"] == "D" else {})
+                 for customer in PROBLEM["customers"]]
+    plan = searching.post("/plan", json=PROBLEM | {
+        "customers": customers, "replan": going["replan"],
+        "options": {"time_limit": 0.3}}).json()
+    served = {stop["id"]: stop for route in plan["routes"] for trip in route["trips"]
+              for stop in trip["stops"] if stop["kind"] == "customer"}
+    assert served["D"]["arrival"] > failed["parcel_back"] - 1
+    first = next(route for route in plan["routes"] if route["vehicle"] == "van-1")["trips"][0]
+    assert [stop["id"] for stop in first["stops"]] == ["hub", "E", "hub"]
+    assert first["stops"][0]["departure"] == 30_000
