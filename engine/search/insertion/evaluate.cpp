@@ -79,6 +79,17 @@ Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& 
     return {stops[p].block, stops[stops[q].block].last};
 }
 
+// The move as it is in a part of the route that begins so many stops and sorties later.
+Move within(Move move, Int stops, Int sorties) {
+    if (move.kind == on_sortie) {
+        move.sortie -= sorties;
+    } else {
+        move.first -= stops;
+        move.last -= stops;
+    }
+    return move;
+}
+
 // Times the changed stops in slot `to`, which take the place of those from `first` on. False if a
 // rule is broken.
 //
@@ -229,9 +240,9 @@ Ending follow(const ProblemData& data, const Route& route, View<const Stop, 1> s
 
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                  bool by_drone, BlockSums& acc) {
-    const Int first_stop = data.type[k].begins_at, last_stop = data.type[k].ends_at;
+    const bool one_place = data.type[k].begins_at == data.type[k].ends_at;
     const Int first_way = by_drone ? from_start : by_truck;
-    const Int options = by_drone && first_stop != last_stop ? ways - from_start : 1;
+    const Int options = by_drone && !one_place ? ways - from_start : 1;
     const Int number = by_drone ? options * num_drone_rows(data.type, k) : 1;
     double best = infeasible;
     Int chosen = 0;
@@ -242,9 +253,8 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
         const Int row = drone_row_at(data.type, k, option / options);
         done = !by_drone || data.can(row, 1, node);
         if (done) {
-            begin_route(fleet.route[slot], fleet.stop[slot], fleet.sortie[slot], k, first_stop,
-                        last_stop, node, first_way + option % options,
-                        first_drone(data.type, k, row));
+            begin_route(sequence_in(fleet, slot), data.type[k], k, node,
+                        first_way + option % options, first_drone(data.type, k, row));
             done = refresh(data, fleet, slot, acc);
         }
         if (done && fleet.cost[slot] < best) {
@@ -262,7 +272,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int depot = data.type[k].depot;
     if (data.evaluation[k].priced || (is_apart(data, k) && kind >= new_trip)) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
-        apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, 0, 0);
+        apply(depot, sequence_in(fleet, to), move, node);
         if (!refresh_cost(data, fleet, to, acc)) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
@@ -273,8 +283,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const bool alone = kind == new_trip || kind == flight_trip;
     const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
-    apply(depot, fleet.route[to], fleet.stop[to], fleet.sortie[to], move, node, part.first,
-          skipped);
+    apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node);
     give_releases(fleet, to, alone, trip, release);
     double cost = price_part(data, fleet, slot, part, to, acc);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {

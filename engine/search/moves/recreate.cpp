@@ -91,7 +91,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node) {
     }
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
-    apply(data.type[route.type].depot, route, now.stop[slot], now.sortie[slot], move, node, 0, 0);
+    apply(data.type[route.type].depot, sequence_in(now, slot), move, node);
     const bool allowed = refresh(data, now, slot, *searcher.acc);
     if (!allowed) {
         keep_aside(now, spare, slot);

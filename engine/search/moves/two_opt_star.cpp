@@ -232,10 +232,9 @@ bool swap_tails(const ProblemData& data, Searcher& searcher, Cut a, Cut b) {
     Route& other = now.route[b.slot];
     if (other.length == 0) {
         other.type = k;
-        other.length = 2;
         other.sorties = 0;
-        put(now.stop[b.slot], 0, data.type[k].begins_at, start_stop);
-        put(now.stop[b.slot], 1, data.type[k].ends_at, end_stop);
+        insert_stops(sequence_in(now, b.slot), 0,
+                     {{data.type[k].begins_at, start_stop}, {data.type[k].ends_at, end_stop}});
         ++now.used[k];
     }
     const Cut one{now.route.size() - 2, a.stop};

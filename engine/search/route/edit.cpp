@@ -25,13 +25,16 @@ bool is_empty_trip(View<const Stop, 1> stops, View<const Sortie, 1> sorties,
 
 }  // namespace
 
-void make_room(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, Int p, Int room) {
+void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits) {
+    const auto& [route, stops, sorties] = sequence;
+    const Int room = Int(visits.size());
     for (Int q = route.length - 1; q >= p; --q) move_stop(stops[q], stops[q + room]);
     route.length += room;
     for (Sortie& sortie : sorties.first(route.sorties)) {
         if (sortie.launch >= p) sortie.launch += room;
         if (sortie.recovery >= p) sortie.recovery += room;
     }
+    for (const Visit& visit : visits) put(stops, p++, visit.node, visit.kind);
 }
 
 void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
@@ -59,68 +62,55 @@ void join_sortie(Sortie& sortie, Int place, Int node) {
     ++sortie.count;
 }
 
-void apply(Int depot, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, const Move& move,
-           Int node, Int offset, Int skipped) {
-    const Int p = move.first - offset;
+void apply(Int depot, const Sequence& sequence, const Move& move, Int node) {
+    const auto& [route, stops, sorties] = sequence;
+    const Visit start{depot, start_stop}, end{depot, end_stop}, served{node, customer_stop};
+    const Int behind = move.first + 1;
     switch (move.kind) {
         case at_stop:
-            make_room(route, stops, sorties, p + 1, 1);
-            put(stops, p + 1, node, customer_stop);
+            insert_stops(sequence, behind, {served});
             break;
         case by_sortie:
-            add_sortie(route, sorties, p, move.last - offset, move.drone, node);
+            add_sortie(route, sorties, move.first, move.last, move.drone, node);
             break;
         case on_sortie:
-            join_sortie(sorties[move.sortie - skipped], move.first, node);
+            join_sortie(sorties[move.sortie], move.first, node);
             break;
         case new_trip:
-            make_room(route, stops, sorties, p + 1, 3);
-            put(stops, p + 1, depot, start_stop);
-            put(stops, p + 2, node, customer_stop);
-            put(stops, p + 3, depot, end_stop);
+            insert_stops(sequence, behind, {start, served, end});
             break;
         case flight_trip:
-            make_room(route, stops, sorties, p + 1, 2);
-            put(stops, p + 1, depot, start_stop);
-            put(stops, p + 2, depot, end_stop);
-            add_sortie(route, sorties, p + 1, p + 1, move.drone, node);
+            insert_stops(sequence, behind, {start, end});
+            add_sortie(route, sorties, behind, behind, move.drone, node);
             break;
         case trip_from:
-            make_room(route, stops, sorties, p + 1, 3);
-            put(stops, p + 1, depot, end_stop);
-            put(stops, p + 2, depot, start_stop);
-            put(stops, p + 3, node, customer_stop);
+            insert_stops(sequence, behind, {end, start, served});
             break;
         case trip_until:
-            make_room(route, stops, sorties, p + 1, 3);
-            put(stops, p + 1, node, customer_stop);
-            put(stops, p + 2, depot, end_stop);
-            put(stops, p + 3, depot, start_stop);
+            insert_stops(sequence, behind, {served, end, start});
             break;
         default:
             break;
     }
 }
 
-void begin_route(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, Int k, Int start,
-                 Int end, Int node, Int way, Int drone) {
-    route.trips = route.sorties = route.end = route.cum = route.working = 0;
+void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
+                 Int drone) {
+    const auto& [route, stops, sorties] = sequence;
+    route.length = route.trips = route.sorties = route.end = route.cum = route.working = 0;
     route.offset = route.stamp = 0;
     route.type = k;
-    put(stops, 0, start, start_stop);
+    insert_stops(sequence, 0, {{type.begins_at, start_stop}, {type.ends_at, end_stop}});
     if (way == by_truck) {
-        put(stops, 1, node, customer_stop);
-        put(stops, 2, end, end_stop);
-        route.length = 3;
+        insert_stops(sequence, 1, {{node, customer_stop}});
     } else {
-        put(stops, 1, end, end_stop);
-        route.length = 2;
         add_sortie(route, sorties, way == from_end ? 1 : 0, way == from_start ? 0 : 1, drone, node);
     }
 }
 
-Int keep_sorties(Route& route, View<const Stop, 1> stops, View<Sortie, 1> sorties,
-                 View<bool, 1> marked, View<Int, 1> absent, Int num_absent) {
+Int keep_sorties(const Sequence& sequence, View<bool, 1> marked, View<Int, 1> absent,
+                 Int num_absent) {
+    const auto& [route, stops, sorties] = sequence;
     const auto is_removed = [&](Int p) {
         return stops[p].kind == customer_stop && marked[stops[p].node];
     };
@@ -143,8 +133,8 @@ Int keep_sorties(Route& route, View<const Stop, 1> stops, View<Sortie, 1> sortie
     return num_absent;
 }
 
-void close_ranks(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-                 View<const bool, 1> marked, View<Int, 1> moved) {
+void close_ranks(const Sequence& sequence, View<const bool, 1> marked, View<Int, 1> moved) {
+    const auto& [route, stops, sorties] = sequence;
     const View<Sortie, 1> flown = sorties.first(route.sorties);
     Int kept = 0;
     bool dropping = false;

@@ -1,9 +1,22 @@
 // Changes of a route's sequence: insertions, and the removal of marked customers.
 #pragma once
 
+#include <initializer_list>
+
 #include "search/route/layout.h"
 
 namespace tandem {
+
+// What is chosen of a route: its stops and sorties, in order.
+struct Sequence {
+    Route& route;
+    View<Stop, 1> stops;
+    View<Sortie, 1> sorties;
+};
+
+inline Sequence sequence_in(const Fleet& fleet, Int slot) {
+    return {fleet.route[slot], fleet.stop[slot], fleet.sortie[slot]};
+}
 
 // `Move.kind`: where a customer goes.
 constexpr Int at_stop = 0;      // behind stop `first`
@@ -33,8 +46,14 @@ inline void put(View<Stop, 1> stops, Int p, Int node, Int kind) {
     stop.hold = none;
 }
 
-// Move all stops from `p` on by `room` places. In place.
-void make_room(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, Int p, Int room);
+// A node, and what the truck stops there for.
+struct Visit {
+    Int node;
+    Int kind;
+};
+
+// Let some stops come at place `p`, and those from there on behind them. In place.
+void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits);
 
 // Add a sortie to one customer, in its place in the order. In place.
 void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
@@ -43,24 +62,22 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
 // Let a sortie serve a customer before its customer number `place`. In place.
 void join_sortie(Sortie& sortie, Int place, Int node);
 
-// Insert a customer, in a part that begins `offset` stops and `skipped` sorties later. In place.
-void apply(Int depot, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, const Move& move,
-           Int node, Int offset, Int skipped);
+// Insert a customer, on trips from a depot. In place.
+void apply(Int depot, const Sequence& sequence, const Move& move, Int node);
 
 // Write a route that serves one customer in one of the `ways`, by a `drone`. In place.
-void begin_route(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties, Int k, Int start,
-                 Int end, Int node, Int way, Int drone);
+void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
+                 Int drone);
 
 // Drop marked customers from sorties, and sorties that begin or end at marked stops.
 //
 // In place; their other customers are marked and listed in `absent`. Returns how many are there.
-Int keep_sorties(Route& route, View<const Stop, 1> stops, View<Sortie, 1> sorties,
-                 View<bool, 1> marked, View<Int, 1> absent, Int num_absent);
+Int keep_sorties(const Sequence& sequence, View<bool, 1> marked, View<Int, 1> absent,
+                 Int num_absent);
 
 // Remove marked stops and empty trips; sorties have been dealt with. In place.
 //
 // `moved` is scratch for a position per stop.
-void close_ranks(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-                 View<const bool, 1> marked, View<Int, 1> moved);
+void close_ranks(const Sequence& sequence, View<const bool, 1> marked, View<Int, 1> moved);
 
 }  // namespace tandem
