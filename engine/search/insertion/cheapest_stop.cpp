@@ -204,9 +204,12 @@ Serving serving_type(const ProblemData& data, const Fleet& fleet, Int slot, Int 
     if (!goods_may_join(data, fleet, slot, index, node)) return {nowhere, 0.0};
     if (takes(data, fleet, slot, index, k, node)) return {k, data.rate[k].stop};
     if (!enlarge) return {nowhere, 0.0};
-    const Int by = larger_type(data, fleet, slot, node);
+    const Haul haul = haul_of(fleet.trip(slot, 0));
+    const Int by = larger_type(data, fleet, k, haul, node, [&](Int other) {
+        return may_fit(data, fleet, slot, 0, other, node);
+    });
     if (by < 0) return {nowhere, 0.0};
-    const double cost = route_cost(data, by, fleet.trip(slot, 0)) + data.rate[by].stop;
+    const double cost = route_cost(data, by, haul) + data.rate[by].stop;
     return {by, cost - fleet.cost[slot]};
 }
 

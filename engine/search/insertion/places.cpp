@@ -14,6 +14,7 @@
 #include "search/route/ends.h"
 #include "search/route/goods.h"
 #include "search/route/refresh.h"
+#include "search/route/state.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -133,7 +134,7 @@ void offer_beside(const ProblemData& data, const Searcher& searcher, Int other, 
 double try_new_route(const ProblemData& data, const Searcher& searcher, Int node) {
     double best = infeasible;
     for (Int k = 0; k < data.num_types; ++k) {
-        if (searcher.now.used[k] >= data.type[k].count) continue;
+        if (!is_left(data, searcher.now, k)) continue;
         for (Int way = 0; way < (data.loops ? 2 : 1); ++way) {
             const double cost = searcher.alone(k, way, node);
             if (cost < best && uniform(searcher.rng) >= data.blink) {

@@ -269,10 +269,12 @@ private:
 
     [[gnu::noinline]] bool may_join_enlarged(Int slot, Joining& joins) const {
         const Run& run = linked_.run[slot];
-        const Int by = larger_for(data_, searcher_, run, newcomer_.node);
+        const Haul haul = haul_of(run);
+        const auto any = [](Int) { return true; };
+        const Int by = larger_type(data_, searcher_.now, run.type, haul, newcomer_.node, any);
         if (by < 0) return false;
         const Rate& rate = data_.rate[by];
-        const double more = cost_of_run(data_, by, run) - cost_of_run(data_, run.type, run);
+        const double more = route_cost(data_, by, haul) - route_cost(data_, run.type, haul);
         joins = {slot, by, rate.distance, more + rate.stop};
         return true;
     }

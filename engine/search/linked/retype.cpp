@@ -1,10 +1,8 @@
 #include "search/linked/retype.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "randomness.h"
-#include "rules/load.h"
 #include "search/route/state.h"
 
 namespace tandem {
@@ -17,27 +15,24 @@ constexpr Int most_traded = 64;
 // What another vehicle saves at least, so that costs that differ in their last bits don't count.
 constexpr double least_saved = 1e-9;
 
-// Whether there is a vehicle of a type that nobody drives.
-bool is_left(const ProblemData& data, const Searcher& searcher, Int k) {
-    return searcher.now.used[k] < data.type[k].count;
-}
-
 // Swaps vehicles with other routes where that is cheaper; returns the saving.
 double trade_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot) {
     const Run& run = linked.run[slot];
+    const Haul haul = haul_of(run);
     const Int number = searcher.count->active;
     const Int begin = below(searcher.rng, number);
     double saved = 0.0;
     for (Int index = begin; index < begin + std::min(number, most_traded); ++index) {
         const Int another = searcher.active[index < number ? index : index - number];
         const Run& other = linked.run[another];
+        const Haul other_haul = haul_of(other);
         const Int k = run.type;
         const Int by = other.type;
         if (!data.swap(k, by)) continue;
-        const double spared = cost_of_run(data, k, run) + cost_of_run(data, by, other) -
-                              cost_of_run(data, by, run) - cost_of_run(data, k, other);
-        if (spared > least_saved && holds(data.type[by], amount_of(run.load)) &&
-            holds(data.type[k], amount_of(other.load))) {
+        const double spared = route_cost(data, k, haul) + route_cost(data, by, other_haul) -
+                              route_cost(data, by, haul) - route_cost(data, k, other_haul);
+        if (spared > least_saved && holds(data.type[by], haul.load) &&
+            holds(data.type[k], other_haul.load)) {
             give_run(searcher, linked, slot, by);
             give_run(searcher, linked, another, k);
             saved += spared;
@@ -59,30 +54,15 @@ void give_run(Searcher& searcher, Linked& linked, Int slot, Int k) {
     run.type = k;
 }
 
-Int larger_for(const ProblemData& data, const Searcher& searcher, const Run& run, Int node) {
-    Int chosen = nowhere;
-    double best = std::numeric_limits<double>::infinity();
-    for (Int k = 0; k < data.num_types; ++k) {
-        if (!data.swap(run.type, k) || !data.can(k, 0, node) || !is_left(data, searcher, k)) {
-            continue;
-        }
-        const double cost = cost_of_run(data, k, run) + data.rate[k].stop;
-        if (cost < best && fits(data.type[k], amount_of(run.load), data.place[0][node])) {
-            chosen = k;
-            best = cost;
-        }
-    }
-    return chosen;
-}
-
 double cheapen_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot) {
     const Run& run = linked.run[slot];
     if (run.count == 0) return 0.0;
+    const Haul haul = haul_of(run);
     double saved = 0.0;
     for (Int k = 0; k < data.num_types; ++k) {
-        if (!data.swap(run.type, k) || !is_left(data, searcher, k)) continue;
-        const double spared = cost_of_run(data, run.type, run) - cost_of_run(data, k, run);
-        if (spared > least_saved && holds(data.type[k], amount_of(run.load))) {
+        if (!data.swap(run.type, k) || !is_left(data, searcher.now, k)) continue;
+        const double spared = route_cost(data, run.type, haul) - route_cost(data, k, haul);
+        if (spared > least_saved && holds(data.type[k], haul.load)) {
             give_run(searcher, linked, slot, k);
             saved += spared;
         }

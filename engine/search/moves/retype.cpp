@@ -19,8 +19,8 @@ void trade(const ProblemData& data, Searcher& searcher, Int slot) {
         const Int k = now.route[slot].type;
         const Int by = now.route[other].type;
         if (by == k || !data.swap(k, by)) continue;
-        const double cost =
-            route_cost(data, by, now.trip(slot, 0)) + route_cost(data, k, now.trip(other, 0));
+        const double cost = route_cost(data, by, haul_of(now.trip(slot, 0))) +
+                            route_cost(data, k, haul_of(now.trip(other, 0)));
         if (cost < now.cost[slot] + now.cost[other] - least_saving &&
             can_take(data, now, slot, by) && can_take(data, now, other, k)) {
             touch(searcher, other);
@@ -68,7 +68,7 @@ void give_type(const ProblemData& data, Searcher& searcher, Int slot, Int k, boo
     Fleet& now = searcher.now;
     const Int former = now.route[slot].type;
     const double cost = now.cost[slot];
-    if (k == former || data.swap(former, k) || now.used[k] >= data.type[k].count ||
+    if (k == former || data.swap(former, k) || !is_left(data, now, k) ||
         !may_drive(data, now, slot, k)) {
         return;
     }
@@ -94,10 +94,10 @@ void improve_types(const ProblemData& data, Searcher& searcher) {
         const Int slot = searcher.touched[index];
         const Route& route = now.route[slot];
         if (route.length == 0 || !data.evaluation[route.type].lean) continue;
-        const Trip& trip = now.trip(slot, 0);
+        const Haul haul = haul_of(now.trip(slot, 0));
         for (Int k = 0; k < data.num_types; ++k) {
-            if (data.swap(route.type, k) && now.used[k] < data.type[k].count &&
-                route_cost(data, k, trip) < now.cost[slot] - least_saving &&
+            if (data.swap(route.type, k) && is_left(data, now, k) &&
+                route_cost(data, k, haul) < now.cost[slot] - least_saving &&
                 can_take(data, now, slot, k)) {
                 change_type(data, now, slot, k);
             }

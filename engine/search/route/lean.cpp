@@ -80,7 +80,7 @@ bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
         stops[p].latest = latest;
     }
     stops[0].latest = latest - stops[0].gap;
-    fleet.cost[slot] = route_cost(data, k, trip);
+    fleet.cost[slot] = route_cost(data, k, haul_of(trip));
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     return time <= type.shift_latest;
 }

@@ -22,11 +22,16 @@ void list_anew(const Searcher& searcher, Int slot, bool used);
 // List the slots touched this turn where they belong. In place.
 void list_touched(const Searcher& searcher);
 
+// Tell whether there is a vehicle of type `k` that nobody drives.
+inline bool is_left(const ProblemData& data, const Fleet& fleet, Int k) {
+    return fleet.used[k] < data.type[k].count;
+}
+
 // Return an empty slot for a route more by type `k`; `nowhere` if there is none.
 inline Int free_slot(const ProblemData& data, const Searcher& searcher, Int k) {
-    const bool is_left = searcher.now.used[k] < data.type[k].count &&
-                         searcher.count->active < searcher.active.size();
-    return is_left ? searcher.active[searcher.count->active] : nowhere;
+    const Int active = searcher.count->active;
+    const bool may_open = is_left(data, searcher.now, k) && active < searcher.active.size();
+    return may_open ? searcher.active[active] : nowhere;
 }
 
 // Keep a route as it is before it changes this turn. In place.

@@ -1,7 +1,5 @@
 #include "search/route/vehicles.h"
 
-#include <limits>
-
 namespace tandem {
 
 bool may_launch(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,
@@ -71,30 +69,11 @@ bool may_fit_in_tiers(const ProblemData& data, const Fleet& fleet, Int slot, Int
     return true;
 }
 
-Int larger_type(const ProblemData& data, const Fleet& fleet, Int slot, Int node) {
-    const Int k = fleet.route[slot].type;
-    const Trip& trip = fleet.trip(slot, 0);
-    Int chosen = nowhere;
-    double best = std::numeric_limits<double>::infinity();
-    for (Int other = 0; other < data.num_types; ++other) {
-        if (!data.swap(k, other) || other == k || !data.can(other, 0, node) ||
-            fleet.used[other] >= data.type[other].count) {
-            continue;
-        }
-        const double cost = route_cost(data, other, trip) + data.rate[other].stop;
-        if (cost < best && takes(data, fleet, slot, 0, other, node)) {
-            chosen = other;
-            best = cost;
-        }
-    }
-    return chosen;
-}
-
 void change_type(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {
     --fleet.used[fleet.route[slot].type];
     ++fleet.used[k];
     fleet.route[slot].type = k;
-    fleet.cost[slot] = route_cost(data, k, fleet.trip(slot, 0));
+    fleet.cost[slot] = route_cost(data, k, haul_of(fleet.trip(slot, 0)));
 }
 
 }  // namespace tandem

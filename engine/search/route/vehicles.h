@@ -1,12 +1,15 @@
 // What trips and sorties carry, and what a lean route costs by vehicles of each type.
 #pragma once
 
+#include <limits>
+
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "search/route/layout.h"
 #include "search/route/rarer.h"
+#include "search/route/state.h"
 
 namespace tandem {
 
@@ -52,15 +55,24 @@ inline Int launches_before(const VehicleType& type, const Route& route,
 Int launch_changed(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,
                    const Trip& trip, Int p, bool is_sortie);
 
-// Return what a lean route's only trip costs by a vehicle of type `k`.
-inline double route_cost(const ProblemData& data, Int k, const Trip& trip) {
-    const Rate& rate = data.rate[k];
-    return rate.fixed + static_cast<double>(trip.distance) * rate.distance +
-           static_cast<double>(stops_on(trip)) * rate.stop;
-}
-
 // Return what a trip carries from the depot.
 inline Amount load_of(const Trip& trip) { return amount_of(trip.load); }
+
+// How far a route of one trip is driven where distance alone costs, to how many, with what.
+struct Haul {
+    Int distance;
+    Int stops;
+    Amount load;
+};
+
+inline Haul haul_of(const Trip& trip) { return {trip.distance, stops_on(trip), load_of(trip)}; }
+
+// Return what it costs by a vehicle of type `k`.
+inline double route_cost(const ProblemData& data, Int k, const Haul& haul) {
+    const Rate& rate = data.rate[k];
+    return rate.fixed + static_cast<double>(haul.distance) * rate.distance +
+           static_cast<double>(haul.stops) * rate.stop;
+}
 
 // Tell whether a vehicle of a type holds what a trip carries, and may stop so often.
 inline bool may_make(const VehicleType& type, const Trip& trip) {
@@ -94,10 +106,27 @@ inline bool takes(const ProblemData& data, const Fleet& fleet, Int slot, Int ind
            allows_stops(data.type[k], stops_on(fleet.trip(slot, index)) + 1);
 }
 
-// Return the type for which a route would be exchanged to take a customer more.
+// Return the type for which type `k` would be exchanged to take a customer more on a route.
 //
-// The cheapest that is left and holds them all; `nowhere` if there is none.
-Int larger_type(const ProblemData& data, const Fleet& fleet, Int slot, Int node);
+// The cheapest that is left and holds them all, as far as `may_fit` tells as well; `nowhere` if
+// there is none.
+template <class MayFit>
+Int larger_type(const ProblemData& data, const Fleet& fleet, Int k, const Haul& haul, Int node,
+                const MayFit& may_fit) {
+    Int chosen = nowhere;
+    double best = std::numeric_limits<double>::infinity();
+    for (Int by = 0; by < data.num_types; ++by) {
+        const VehicleType& type = data.type[by];
+        if (!data.swap(k, by) || !data.can(by, 0, node) || !is_left(data, fleet, by)) continue;
+        const double cost = route_cost(data, by, haul) + data.rate[by].stop;
+        if (cost < best && fits(type, haul.load, data.place[0][node]) &&
+            allows_stops(type, haul.stops + 1) && may_fit(by)) {
+            chosen = by;
+            best = cost;
+        }
+    }
+    return chosen;
+}
 
 // Let a vehicle of another type drive a lean route. In place.
 void change_type(const ProblemData& data, const Fleet& fleet, Int slot, Int k);
