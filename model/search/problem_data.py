@@ -8,7 +8,7 @@ import numpy as np
 from model.kernel.alarm import Alarm
 from model.kernel.drone_types import all_kinds
 from model.kernel.instance import Instance
-from model.kernel.leg import LEG_DURATION, ComputedLegs, are_the_same_back
+from model.kernel.leg import are_the_same_back
 from model.kernel.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.evaluation import evaluate
@@ -27,16 +27,6 @@ LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
 """How often a better place is overlooked: the last by the number of customers squared and that on a
 sortie, within the first two. Small problems have so few places that little else would differ from
 turn to turn, so that none are kept there where more than distance counts."""
-
-
-LEGS_LOOKED_AT = 10**7
-"""Ways of two legs that are looked at to see whether some are shorter than the direct leg."""
-
-DEPOTS_LOOKED_AT = 4
-"""Depots on the way from and to which all customers are looked at, of however many."""
-
-ROUNDED = 2
-"""ms by which the direct leg may be longer since legs are rounded."""
 
 
 @dataclass(frozen=True)
@@ -164,60 +154,11 @@ def only_loads_limit(data: ProblemData) -> bool:
 def can_be_linked(data: ProblemData) -> bool:
     """Tell whether the search may go by linked stops.
 
-    Vehicles then make one trip each by the same legs, distance alone costs, no rarer rule is
-    stated, and whoever is left out makes nobody late.
+    Vehicles then make one trip each by the same legs, distance alone costs, and no rarer rule is
+    stated.
     """
     travel = data.type["travel"][:data.num_types]
-    return (not (_states_rarer_rules(data) or data.general) and bool((travel == travel[0]).all())
-            and not (are_timed(data) and skipping_delays(data)))
-
-
-def skipping_delays(data: ProblemData) -> bool:
-    """Tell whether vehicles may come later to a place if they skip a customer on the way.
-
-    Where streets are one-way or legs are stated anyhow, the direct leg may be the longer one. Of
-    many customers all are looked at on the way from depots and back, elsewhere those nearest to
-    where a leg begins.
-    """
-    duration = _durations(data)
-    if duration is None:
-        return False
-    first, number = data.num_depots, data.num_nodes
-    service = data.place["service_duration"][0, :, 0]
-    looked_at = LEGS_LOOKED_AT // number**2
-    if looked_at >= number - first:
-        return any(bool((_by_way_of(duration, service, k) < duration).any())
-                   for k in range(first, number))
-    among = duration[first:, first:]
-    stay = service[first:] + ROUNDED
-    for depot in range(min(first, DEPOTS_LOOKED_AT)):
-        out, home = duration[depot, first:], duration[first:, depot]
-        if bool((((out + stay)[:, None] + among).min(axis=0) < out).any()
-                or ((among + (stay + home)).min(axis=1) < home).any()):
-            return True
-    origins = np.arange(first, number)
-    for rank in range(min(max(1, looked_at), data.near.shape[1])):
-        k = data.near[first:, rank]
-        way = duration[origins, k] + service[k] + ROUNDED
-        if bool(((way[:, None] + duration[k] < duration[first:]) & (k >= 0)[:, None]).any()):
-            return True
-    return False
-
-
-def _by_way_of(duration: IntArray, service: IntArray, k: int) -> IntArray:
-    """Return (origin, to) how long ways by a customer take at least, whom they serve."""
-    ways: IntArray = duration[:, k, None] + (service[k] + ROUNDED) + duration[k]
-    return ways
-
-
-def _durations(data: ProblemData) -> IntArray | None:
-    """Return (origin, to) how long legs take; None if they are straight, so that none is longer
-    than a way through others."""
-    legs, m = data.leg, int(data.type["travel"][0])
-    if isinstance(legs, ComputedLegs):
-        table = int(legs.law["table"][m])
-        return None if table < 0 else legs.table[0, table, :, :, LEG_DURATION]
-    return legs[m, :, :, LEG_DURATION].astype(np.int64)
+    return not (_states_rarer_rules(data) or data.general) and bool((travel == travel[0]).all())
 
 
 def are_timed(data: ProblemData) -> bool:

@@ -96,6 +96,18 @@ void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
     noted.removed = begin;
 }
 
+// Lets customers, and times that were noted, be as they were when so much was noted.
+void undo(const ProblemData& data, Searcher& searcher, Linked& linked, const Noted& before) {
+    Noted& noted = *linked.noted;
+    while (noted.entries > before.entries) untie(data, searcher, linked);
+    while (noted.pieces > before.pieces) put_back(data, searcher, linked);
+    while (noted.moments > before.moments) {
+        const Moment& moment = linked.moment[--noted.moments];
+        linked.link[moment.node].leave = moment.leave;
+        linked.link[moment.node].latest = moment.latest;
+    }
+}
+
 }  // namespace
 
 void open_run(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot, Int k) {
@@ -235,16 +247,16 @@ void retime(const ProblemData& data, Linked& linked, Int slot) {
     look_back(data, linked, slot, run.last, run.count);
 }
 
+void restore(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot,
+             const Noted& before) {
+    undo(data, searcher, linked, before);
+    if (linked.noted->over) retime(data, linked, slot);
+}
+
 void take_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
     Noted& noted = *linked.noted;
     take_types_back(searcher, linked);
-    while (noted.entries > 0) untie(data, searcher, linked);
-    while (noted.pieces > 0) put_back(data, searcher, linked);
-    while (noted.moments > 0) {
-        const Moment& moment = linked.moment[--noted.moments];
-        linked.link[moment.node].leave = moment.leave;
-        linked.link[moment.node].latest = moment.latest;
-    }
+    undo(data, searcher, linked, {});
     if (noted.over) {
         for (const Int slot : searcher.active.first(searcher.count->active)) {
             retime(data, linked, slot);

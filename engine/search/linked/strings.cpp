@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "randomness.h"
+#include "rules/window.h"
 #include "search/linked/chain.h"
 #include "search/moves/ruin.h"
 #include "search/route/refresh.h"
@@ -56,7 +57,16 @@ Cut draw_cut(View<std::uint64_t, 1> rng, Int stops, double longest) {
     return {size, spared};
 }
 
+// Whether a route is driven in time, by the times of one customer on it.
+bool is_in_time(const ProblemData& data, const Linked& linked, Int node) {
+    const Link& here = linked.link[node];
+    const VehicleType& type = data.type[linked.run[here.slot].type];
+    return here.leave - service_duration(places_of(data.place, type)[node]) <= here.latest;
+}
+
 // Takes out a string around a customer, or all but some within; returns the saving.
+//
+// Takes nobody out if a vehicle then came too late, as where the direct leg is the longer one.
 double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, Int customer,
                   double longest) {
     const View<Link, 1> link = linked.link;
@@ -67,6 +77,7 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
     const Int first = first_of_string(data, searcher, linked, customer, size + spared);
     const Int gap = spared > 0 ? 1 + below(searcher.rng, size - 1) : size;
     const Int before = link[first].before;
+    const Noted noted = *linked.noted;
     Int saved = cut_out(data, linked, slot, first, gap);
     const Int first_left = before < data.num_depots ? run.first : link[before].behind;
     Int last_left = before;
@@ -78,6 +89,10 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
     if (linked.timed && run.count > 0) {
         drive_on(data, linked, slot, first_left, spared + 1);
         look_back(data, linked, slot, last_left, spared + 1);
+        if (!is_in_time(data, linked, first_left < data.num_depots ? last_left : first_left)) {
+            restore(data, searcher, linked, slot, noted);
+            return 0.0;
+        }
     }
     double cost = double(saved) * rate.distance + double(size) * rate.stop;
     if (run.count == 0) {
@@ -104,8 +119,9 @@ Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) 
         const Int slot = linked.link[customer].slot;
         if (slot >= 0 && linked.hit[slot] != count.turn) {
             linked.hit[slot] = count.turn;
+            const Int removed = linked.noted->removed;
             saved += cut_string(data, searcher, linked, customer, longest);
-            --strings;
+            if (linked.noted->removed > removed) --strings;
         }
         ++rank;
         customer = rank < data.near.shape(1) ? data.near(seed, rank) : nowhere;

@@ -32,8 +32,7 @@ def savings_routes(data: ProblemData, k: int) -> list[list[int]]:
     -------
     The customers of each route, in order.
     """
-    ranks = min(NEIGHBOURS, data.near.shape[1])
-    return routes_of(data, k, joined(data, k, ranks, ranked_pairs(data, k, ranks)))
+    return routes_of(data, k, _chain(data, k))
 
 
 def ranked_pairs(data: ProblemData, k: int, ranks: int) -> IntArray:
@@ -87,9 +86,7 @@ def cost_by_savings(data: ProblemData, k: int) -> float:
     customers = int(np.count_nonzero(data.can[k, 0, data.num_depots:]))
     if customers == 0:
         return math.inf
-    ranks = min(NEIGHBOURS, data.near.shape[1])
-    chain = joined(data, k, ranks, ranked_pairs(data, k, ranks))
-    return cost_of(data, k, chain) / customers + float(data.rate[k].stop)
+    return cost_of(data, k, _chain(data, k)) / customers + float(data.rate[k].stop)
 
 
 def by_nearest(data: ProblemData) -> BoolArray:
@@ -102,6 +99,12 @@ def by_nearest(data: ProblemData) -> BoolArray:
     can = data.can.copy()
     can[:data.num_types, 0] &= nearest == np.arange(data.num_types)[:, None]
     return can
+
+
+def _chain(data: ProblemData, k: int) -> Records:
+    """Return chains (node,) joined by what following nearest neighbours saves."""
+    ranks = min(NEIGHBOURS, data.near.shape[1])
+    return joined(data, k, ranks, ranked_pairs(data, k, ranks))
 
 
 def _customers(behind: list[int], node: int) -> list[int]:

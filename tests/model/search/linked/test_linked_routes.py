@@ -157,7 +157,7 @@ def routes_of(data: ProblemData, searcher: Searcher, linked: Linked) -> list[lis
 
 @pytest.mark.parametrize("make", [
     loads_alone, with_windows, with_few_vehicles, with_two_depots, with_other_shifts,
-    with_several_types, with_one_way_streets, on_the_globe])
+    with_several_types, with_one_way_streets, with_legs_stated_anyhow, on_the_globe])
 @pytest.mark.parametrize("size", [40, 420])
 def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-untyped-def]
     problem = make(size)
@@ -186,7 +186,7 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
 
 
 @pytest.mark.parametrize("make", [
-    loads_alone, with_windows, with_several_types, with_one_way_streets])
+    loads_alone, with_windows, with_several_types, with_one_way_streets, with_legs_stated_anyhow])
 @pytest.mark.parametrize("moments", [None, 3])
 def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore[no-untyped-def]
     data, searcher, linked = begun(make(120))
@@ -236,19 +236,6 @@ def test_strings_grow_on_long_routes_alone(stops: int, longer: bool) -> None:
         write_back(data, searcher, linked)
         plans.append(read_plan(data, searcher))
     assert (plans[0] != plans[1]) == longer
-
-
-@pytest.mark.parametrize("size", [40, 400])
-def test_routes_that_are_late_without_a_customer_are_not_linked(size: int) -> None:
-    def may_be_linked(problem: Problem) -> bool:
-        return can_be_linked(make_data(problem, pack([problem], legs=False)))
-
-    problem = with_legs_stated_anyhow(size)
-    assert not may_be_linked(problem)
-    assert may_be_linked(replace(problem, customers=tuple(
-        replace(each, earliest=0, latest=UNLIMITED) for each in problem.customers),
-        vehicle_types=tuple(replace(kind, latest=UNLIMITED) for kind in problem.vehicle_types)))
-    assert may_be_linked(with_one_way_streets(size))
 
 
 def test_plans_are_sound_whatever_legs_are_stated() -> None:
