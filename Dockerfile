@@ -8,7 +8,8 @@ RUN apt-get update \
     && rm -rf /var/lib/apt/lists/* \
     && python3 -m venv /opt/tandem
 WORKDIR /src
-COPY pyproject.toml README.md LICENSE ./
+COPY pyproject.toml README.md LICENSE zensical.toml ./
+COPY docs ./docs
 COPY engine ./engine
 COPY app ./app
 COPY model ./model

@@ -17,7 +17,7 @@ URL := http://$(HOST):$(PORT)
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
-.PHONY: help engine serve plan test test-quick prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
+.PHONY: help engine guide serve plan test test-quick prepared lint train bench bench-quick bench-rules latency study study-quick screenshots fuzz settings clean
 
 help: ## List what can be made
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-11s %s\n", $$1, $$2 }' $(MAKEFILE_LIST)
@@ -25,8 +25,10 @@ help: ## List what can be made
 engine: .venv/tools ## Compile what of the engine changed
 	@$(BIN)/python engine/backend.py
 
-serve: .venv/serving engine ## Run the service (PORT=8000, HOST=127.0.0.1)
-	@echo "Starting. Open $(URL) for the console, $(URL)/docs for the API or, in another terminal and in this folder, run"
+guide: .venv/tools app/console/built_guide ## Build what changed of the guide, which the service shows at /guide
+
+serve: .venv/serving engine guide ## Run the service (PORT=8000, HOST=127.0.0.1)
+	@echo "Starting. Open $(URL) for the console, $(URL)/guide for help, $(URL)/docs for the API or, in another terminal and in this folder, run"
 	@echo
 	@echo "  curl -H 'Content-Type: application/json' --data-binary @examples/table1.json $(URL)/plan"
 	@echo
@@ -37,10 +39,10 @@ plan: .venv/serving engine ## Plan examples/table1.json, write plan.json and che
 	@$(BIN)/tandem check examples/table1.json plan.json
 	@echo "The plan is in plan.json."
 
-test: prepared .venv/testing engine ## Install what the tests need and run them
+test: prepared .venv/testing engine guide ## Install what the tests need and run them
 	$(PYTEST)
 
-test-quick: .venv/testing engine ## Run many tests in under a minute, without browser, database and services
+test-quick: .venv/testing engine guide ## Run many tests in under a minute, without browser, database and services
 	$(PYTEST) -m "not slow"
 
 prepared:
@@ -95,8 +97,12 @@ settings: .venv/serving engine ## Write docs/operate/settings.md
 	$(BIN)/tandem settings > docs/operate/settings.md
 
 clean: ## Remove caches, compiled code and plan.json; keep .venv and training runs
-	rm -rf build dist *.egg-info model/engine/libtandem.* plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis
+	rm -rf build dist *.egg-info model/engine/libtandem.* app/console/built_guide plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find app model training benchmarks examples tests -name __pycache__ -prune -exec rm -rf {} +
+
+app/console/built_guide: zensical.toml $(shell find docs)
+	@$(BIN)/python engine/backend.py guide
+	@touch $@
 
 .venv/serving: pyproject.toml .venv/tools
 	@echo "Installing Tandem into .venv."
@@ -117,7 +123,7 @@ clean: ## Remove caches, compiled code and plan.json; keep .venv and training ru
 # What is installed once builds faster than pip, which would get it anew for each build.
 .venv/tools: pyproject.toml engine/backend.py | .venv/created
 	@.ci/compiler
-	@$(PIP) install --quiet $$($(BIN)/python engine/backend.py requires)
+	@$(PIP) install --quiet --no-compile $$($(BIN)/python engine/backend.py requires)
 	@touch $@
 
 .venv/created:

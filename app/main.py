@@ -11,6 +11,7 @@ from fastapi_offline import FastAPIOffline
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
+from app.console.guide import mount_guide
 from app.console.routes import mount_console
 from app.formats.sheets.lookups import new_lookups
 from app.formats.sheets.lookups import router as addresses_router
@@ -73,7 +74,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     app = FastAPIOffline(title="Tandem", version=VERSION, lifespan=lifespan,
                          telemetry=observer.telemetry, openapi_tags=TAGS,
                          generate_unique_id_function=operation_id,
-                         description="Plans deliveries for trucks that carry drones.")
+                         description="Plans deliveries for trucks that carry drones. "
+                         "The [guide](guide/) tells of rules, clients and errors.")
     app.state.settings = settings
     drawn = [] if settings.role == "worker" else extracts_of(settings)
     app.state.gallery = Gallery(drawn, settings.data_dir / "streets")
@@ -87,6 +89,7 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     _map_errors(app)
     mount_drivers_page(app)
     mount_console(app)
+    mount_guide(app)
     app.openapi = describe(app)  # type: ignore[method-assign]
     control_access(app, settings)
     if settings.role == "worker":

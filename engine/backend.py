@@ -1,10 +1,11 @@
-"""Builds the package: scikit-build-core, with a compiler from PyPI where there is none.
+"""Builds the package and the guide: scikit-build-core, a compiler from PyPI where there is none.
 
 Whoever builds for himself (`pip install --editable .`, or `make engine`) gets the library beside
 the Python that loads it, in machine code for the processor at hand, from `build/engine`: after a
 change only what changed is compiled. A wheel holds what all processors of a family run.
 
     python engine/backend.py             builds the library in place
+    python engine/backend.py guide       builds the guide in place, from `docs/`
     python engine/backend.py tests       builds what tests of the engine run, in `build/tests`
     python engine/backend.py requires    tells what must be installed to build anything here
 """
@@ -19,11 +20,14 @@ from typing import Any
 
 ROOT = Path(__file__).parents[1]
 BUILD = ROOT / "build"
+GUIDE = ROOT / "app/console/built_guide"
 
 COMPILERS = ("c++", "g++", "clang++")
 SPARE_COMPILER = "ziglang==0.17.1"
 BUILDERS = {"cmake": "cmake>=3.20", "ninja": "ninja>=1.11"}
 """Programs, and the packages that have them."""
+
+GUIDE_BUILDER = "zensical==0.0.73"
 
 ZIG = """#!/bin/sh
 exec '{python}' -m ziglang c++ -fno-sanitize=undefined "$@"
@@ -37,11 +41,11 @@ def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
     """Return what a wheel is built with, beside what `pyproject.toml` names."""
     from scikit_build_core import build
 
-    return build.get_requires_for_build_wheel(config_settings) + spare_compiler()
+    return [*build.get_requires_for_build_wheel(config_settings), *spare_compiler(), GUIDE_BUILDER]
 
 
 def get_requires_for_build_editable(config_settings: Settings = None) -> list[str]:
-    """Return what the library is built with in place."""
+    """Return what library and guide are built with in place."""
     return requires()
 
 
@@ -77,26 +81,28 @@ def prepare_metadata_for_build_editable(metadata_directory: str,
 
 def build_wheel(wheel_directory: str, config_settings: Settings = None,
                 metadata_directory: str | None = None) -> str:
-    """Build a wheel that holds the library."""
+    """Build a wheel that holds the library and the guide."""
     from scikit_build_core import build
 
     choose_compiler()
+    build_guide()
     return build.build_wheel(wheel_directory, config_settings, metadata_directory)
 
 
 def build_editable(wheel_directory: str, config_settings: Settings = None,
                    metadata_directory: str | None = None) -> str:
-    """Build the library in place, and a wheel that leads there."""
+    """Build library and guide in place, and a wheel that leads there."""
     from scikit_build_core import build
 
     build_in_place()
+    build_guide()
     return build.build_editable(wheel_directory, config_settings, metadata_directory)
 
 
 def requires() -> list[str]:
     """Return what must be installed to build the library here."""
     return [package for name, package in BUILDERS.items()
-            if program(name) is None] + spare_compiler()
+            if program(name) is None] + [*spare_compiler(), GUIDE_BUILDER]
 
 
 def spare_compiler() -> list[str]:
@@ -130,6 +136,13 @@ def build_in_place() -> None:
     build("engine")
 
 
+def build_guide() -> None:
+    """Build the guide in place; a link that leads nowhere is an error."""
+    # Else pages that are gone stay.
+    shutil.rmtree(GUIDE, ignore_errors=True)
+    run([sys.executable, "-m", "zensical", "build", "--strict"])
+
+
 def build_tests() -> None:
     """Build the engine's own tests, and the library by which others ask for its rules."""
     build("tests", "engine_tests", "tandem_rules")
@@ -143,22 +156,27 @@ def build(name: str, *targets: str) -> None:
     # Both may be elsewhere than last time: pip has them in a folder for each build.
     subprocess.run([cmake, "-S", ROOT / "engine", "-B", folder, "-G", "Ninja",
                     f"-DCMAKE_MAKE_PROGRAM={ninja}"], check=True, stdout=subprocess.DEVNULL)
-    done = subprocess.run([ninja, "-C", folder, *targets], check=False, capture_output=True,
-                          text=True)
+    run([ninja, "-C", str(folder), *targets])
+
+
+def run(command: list[str]) -> None:
+    """Run a command in the project's folder, silently unless it fails."""
+    done = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True)
     if done.returncode:
         sys.exit(done.stdout + done.stderr)
 
 
-def main(arguments: list[str]) -> None:
-    """Build in place or for tests, or tell what that needs."""
-    if arguments == ["tests"]:
-        build_tests()
-        return
-    if arguments != ["requires"]:
-        build_in_place()
-        return
+def print_requires() -> None:
+    """Print what must be installed to build anything here, a line each."""
     with (ROOT / "pyproject.toml").open("rb") as file:
         print(*tomllib.load(file)["build-system"]["requires"], *requires(), sep="\n")
+
+
+def main(arguments: list[str]) -> None:
+    """Build in place or for tests, or tell what that needs."""
+    tasks = {(): build_in_place, ("guide",): build_guide, ("tests",): build_tests,
+             ("requires",): print_requires}
+    tasks[tuple(arguments)]()
 
 
 if __name__ == "__main__":

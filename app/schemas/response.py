@@ -283,7 +283,7 @@ class WarningReply(_Reply):
     """What is allowed and is hardly meant."""
 
     code: str = Field(
-        description="Stable name of the warning, as `docs/use/warnings.md` lists them.")
+        description="Stable name of the warning; `/guide/use/warnings/` lists them.")
     message: str = Field(description="What was seen, what it would mean and what to write instead.")
     path: str = Field(description="Where it was seen first, such as `$.customers[3].location`.")
 

@@ -36,20 +36,20 @@ def have(monkeypatch: pytest.MonkeyPatch, backend: ModuleType, folder: Path, *na
 def test_nothing_is_asked_for_that_is_there(
         monkeypatch: pytest.MonkeyPatch, backend: ModuleType, tmp_path: Path) -> None:
     have(monkeypatch, backend, tmp_path, "cmake", "ninja", "clang++")
-    assert backend.requires() == []
+    assert backend.requires() == [backend.GUIDE_BUILDER]
 
 
 def test_what_is_missing_comes_from_pypi(
         monkeypatch: pytest.MonkeyPatch, backend: ModuleType, tmp_path: Path) -> None:
     have(monkeypatch, backend, tmp_path, "ninja")
-    assert backend.requires() == ["cmake>=3.20", backend.SPARE_COMPILER]
+    assert backend.requires() == ["cmake>=3.20", backend.SPARE_COMPILER, backend.GUIDE_BUILDER]
 
 
 def test_a_compiler_that_is_named_is_taken(
         monkeypatch: pytest.MonkeyPatch, backend: ModuleType, tmp_path: Path) -> None:
     have(monkeypatch, backend, tmp_path, "cmake", "ninja")
     monkeypatch.setenv("CXX", "c++-17")
-    assert backend.requires() == []
+    assert backend.requires() == [backend.GUIDE_BUILDER]
 
 
 def test_where_there_is_no_compiler_pythons_is_run(

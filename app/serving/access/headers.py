@@ -1,5 +1,6 @@
 """Headers on every reply: what browsers may do with it, and what is left of a rate limit."""
 
+import re
 from collections.abc import Mapping
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
@@ -7,8 +8,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 RATE_LIMIT_HEADERS = "rate_limit_headers"
 """Where the state of a request holds the headers that tell what is left of a rate limit."""
 
-DOCUMENTATION = frozenset({"/docs", "/redoc"})
-"""Pages whose scripts stand in the page itself, as FastAPI makes them."""
+DOCUMENTATION = re.compile("/(docs|redoc|guide/.*)")
+"""Pages whose scripts stand in the page itself, as FastAPI and the guide's generator make them."""
 
 YEAR = 31_536_000
 
@@ -74,7 +75,7 @@ class SecurityHeaders:
     def _headers(self, scope: Scope) -> list[Header]:
         """Return the headers for one request; of the same name, the last counts."""
         headers = list(self._usual)
-        if scope["path"] in DOCUMENTATION:
+        if DOCUMENTATION.fullmatch(scope["path"]):
             headers += self._of_documentation
         if scope["scheme"] == "https":
             headers += self._of_https

@@ -267,6 +267,7 @@ export default {
     plan: 'Planen',
     stop: 'Anhalten',
     keys: 'Tasten',
+    guide: 'Anleitung',
     light: 'Hell',
     dark: 'Dunkel',
     example: 'Beispiel öffnen',

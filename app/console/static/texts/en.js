@@ -254,6 +254,7 @@ export default {
     plan: 'Plan',
     stop: 'Stop',
     keys: 'Keys',
+    guide: 'Guide',
     light: 'Light',
     dark: 'Dark',
     example: 'Open an example',

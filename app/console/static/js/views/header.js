@@ -32,6 +32,7 @@ export function Header() {
     <button type="button" class="quiet" onClick=${switchTheme}
       ><${Sign} sign="\u25d0" /><span class="word"><${ThemeName} /></span></button>
     <${LanguageChoice} />
+    <a href="guide/">${t('header.guide')}</a>
     <a href="docs">API</a>
   </header>`;
 }
