@@ -24,14 +24,14 @@ from model.planner import PlanCheckError, Start
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
-from model.search.problem_data import ALL_MOVES
+from model.search.strategy import ALL_MOVES
 from model.simulation.extract import extract
 from model.solution import Solution
 from training.instances import COMPARED, generate
 
 STARTS: tuple[Start, ...] = ("insertion", "policy")
 
-MOVES = ("tails", "splits", "types")
+MOVES = ("two_opt_star", "resplit", "types")
 """Families of moves that the search can do without, as `Moves` names them."""
 
 MOVES_SECONDS = 0.3

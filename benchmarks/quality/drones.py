@@ -25,7 +25,7 @@ from model.judge.check import check
 from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
-from model.search.problem_data import Moves
+from model.search.strategy import Moves
 from model.solution import Solution
 
 EQUAL = 1e-6

@@ -34,7 +34,7 @@ from model.problem import (
     MS_PER_HOUR, Customer, Depot, DroneType, Energy, FloatArray, Problem, Travel, VehicleType,
 )
 from model.search.improve import SearchConfig, improve
-from model.search.problem_data import Moves
+from model.search.strategy import Moves
 from model.solution import Solution
 
 UNIT = 10**6

@@ -1004,26 +1004,32 @@ typedef struct tandem_step_weights {
     tandem_f32_1d action_score;
 } tandem_step_weights;
 
+/* How a problem is searched: which moves there are, and where insertion looks. */
+typedef struct tandem_strategy {
+    bool loops;        /* sorties may end at the stop where they began */
+    bool crossings;    /* and at others */
+    bool two_opt_star; /* routes swap their tails */
+    bool resplit;      /* trips with one drone are split anew between truck and drone */
+    bool
+        swap_vehicles; /* vehicles drive each other's routes, whose distance tells what they cost */
+    bool change_vehicles; /* routes are timed anew with vehicles of other types */
+    bool scan_all;        /* insertion looks at all routes, else beside neighbours alone */
+    bool keep_places;     /* customers' best places on routes are kept from turn to turn */
+    bool give_up_early;   /* a turn ends once it costs too much, as no insertion saves anything */
+    double blink;         /* how often a better place for a customer is overlooked */
+} tandem_strategy;
+
 typedef struct tandem_problem_data {
     int64_t num_depots;
     int64_t num_nodes;
     int64_t num_types;
     int64_t max_visits; /* customers on a sortie */
-    bool tails;         /* routes may swap their tails */
-    bool single_drones; /* some type has one drone, and trips may be split anew */
-    bool loops;         /* sorties may end where they began */
-    bool crossings;     /* sorties may end elsewhere */
-    bool general;       /* insertions may cost more than their detour; else all routes are lean */
-    bool traded;        /* vehicles may drive each other's routes */
-    bool mixed; /* types of vehicles, some of whose routes are not lean, may drive each other's */
-    bool scan_all;          /* else insertion looks beside neighbours only */
-    bool optional;          /* nobody has to be served */
-    bool adds_up;           /* to insert a customer never saves anything, if no detour does */
-    bool keeps;             /* customers' best places on routes are kept from turn to turn */
-    double blink;           /* how often a better place for a customer is overlooked */
-    double unassigned_cost; /* of whoever it costs least to leave out */
+    tandem_strategy strategy;
+    bool general;      /* insertions may cost more than their detour; else all routes are lean */
+    bool all_optional; /* nobody has to be served */
+    double unassigned_cost;        /* of whoever it costs least to leave out */
     tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */
-    bool unequal;                  /* leaving out some costs more than others */
+    bool unassigned_costs_differ;  /* leaving out some costs more than others */
     tandem_bool_1d must_serve;     /* (node,) leaving it out costs more than any route for one */
     tandem_node_3d place;          /* (variant, node, row) */
     tandem_i64_3d amount;  /* (node, tier, entry); no tiers where the demand of nodes tells all */

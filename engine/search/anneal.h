@@ -54,7 +54,7 @@ template <Store Routes>
 void move_part(const ProblemData& data, Searcher& searcher, Routes& routes, Int part) {
     const double rise = draw_rise(searcher);
     if (routes.move_part(part, rise)) {
-        if (data.traded && uniform(searcher.rng) < retyped_share) routes.trade();
+        if (data.strategy.swap_vehicles && uniform(searcher.rng) < retyped_share) routes.trade();
         if (routes.is_worth(rise)) {
             go_on(searcher, routes, routes.served_cost());
             return;
@@ -71,7 +71,8 @@ bool ruin_and_recreate(const ProblemData& data, Searcher& searcher, Routes& rout
     routes.ruin(first);
     sort_absent(data, searcher, first, draw_order(data, searcher.rng));
     const double limit = searcher.value->cost + draw_rise(searcher);
-    const bool retyped = (data.traded || data.mixed) && uniform(searcher.rng) < retyped_share;
+    const bool retyped = (data.strategy.swap_vehicles || data.strategy.change_vehicles) &&
+                         uniform(searcher.rng) < retyped_share;
     double spare = std::numeric_limits<double>::infinity();
     if (!retyped && counts_up(data, searcher)) {
         spare = limit - cost_to_insert(data, searcher, routes.served_cost(), first);
@@ -84,7 +85,7 @@ bool ruin_and_recreate(const ProblemData& data, Searcher& searcher, Routes& rout
     }
     if (done && retyped) routes.retype();
     const double cost = turn_cost(data, searcher, routes.served_cost());
-    const bool scarce = !data.optional && count.absent > 0;
+    const bool scarce = !data.all_optional && count.absent > 0;
     const bool forced = done && scarce && rarer_absences(data, searcher);
     if (done && (cost < limit || forced)) {
         go_on(searcher, routes, cost);
@@ -103,7 +104,7 @@ void anneal(const ProblemData& data, Searcher& searcher, Routes& routes, Int tur
     for (Int turn = 0; turn < turns; ++turn) {
         if (!ruin_and_recreate(data, searcher, routes)) return;
         for (Int part = 0; part < routes.parts(); ++part) {
-            if ((part > 0 || data.tails) && !data.deadline.passed()) {
+            if ((part > 0 || data.strategy.two_opt_star) && !data.deadline.passed()) {
                 move_part(data, searcher, routes, part);
             }
         }

@@ -86,7 +86,7 @@ bool rarer_absences(const ProblemData& data, Searcher& searcher) {
 }
 
 bool counts_up(const ProblemData& data, const Searcher& searcher) {
-    return data.adds_up && (searcher.count->missing == 0 || data.optional);
+    return data.strategy.give_up_early && (searcher.count->missing == 0 || data.all_optional);
 }
 
 double cost_to_insert(const ProblemData& data, const Searcher& searcher, double served, Int first) {

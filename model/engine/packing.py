@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.header import dtype_of_type, interface, is_laid_out_as, is_row
+from model.engine.header import dtype_of_type, interface, is_laid_out_as
 
 Encode = Callable[[Any, list[Any]], None]
 """Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
@@ -124,8 +124,8 @@ def _plan(kind: Any, path: str) -> _Plan:
         (_, data), (_, shape) = kind.fields
         return _Plan(f"Q{shape.type.length}q",
                      _array(dtype_of_type(data.type.item), shape.type.length, path))
-    if is_row(kind):
-        raise TypeError(f"{path}: rows are pointed to, not part of others")
+    if kind.kind == "array":
+        raise TypeError(f"{path}: arrays are not part of others")
     plans = {name: _plan(field.type, f"{path}.{name}") for name, field in kind.fields}
     return _Plan(_with_gaps(kind, [plan.format for plan in plans.values()]),
                  (_legs if kind.cname == LEGS else _fields)(plans, path))

@@ -9,12 +9,12 @@ from model.kernel.records import Records
 from model.problem import UNLIMITED
 
 
-def evaluate(instance: Instance, types: Records) -> Records:
-    """Return how routes are evaluated, (row,) as `tandem_evaluation` says, of the types given.
+def evaluate(instance: Instance) -> Records:
+    """Return how routes are evaluated, (row,) as `tandem_evaluation` says, of a packed problem.
 
     `docs/develop/search.md` has a table of what each rule does.
     """
-    place, rates = instance.node[0], instance.rate[0]
+    place, types, rates = instance.node[0], instance.type[0], instance.rate[0]
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
     soft = bool((place["arrival_limit"] == FAR).any()) and late
     over = np.minimum(types["usual_end"], types["usual_working"]) < UNLIMITED

@@ -20,15 +20,14 @@ from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbo
 from model.search.linked.engine import measure_near
 from model.search.linked.layout import Linked, make_linked
 from model.search.limits import WHOLE, Limits, Span
+from model.search.problem_data import are_timed, can_be_linked, make_data, only_loads_limit
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
 from model.search.starts import Starts
+from model.search.strategy import ALL_MOVES, Moves
 from model.search.temperature import Heat
 from model.search.worker import Worker
-from model.search.problem_data import (
-    ALL_MOVES, Moves, are_timed, can_be_linked, make_data, only_loads_limit,
-)
 from model.solution import Solution, renumbered, renumbered_routes
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
@@ -305,7 +304,7 @@ def _begin(data: ProblemData, whole: Searcher, fresh: bool, by_savings: bool, ta
     with task.alarm.sooner(deadline) as alarm:
         hurried = data._replace(deadline=alarm.setting)
         begin_anew(data, whole, fresh and not is_best, hurried)
-        if fresh and data.mixed and not by_savings:
+        if fresh and data.strategy.change_vehicles and not by_savings:
             _begin_by_types(hurried, whole, limits,
                             BEGINNING_SHARE if is_large else MOST_BEGINNING)
 
@@ -318,21 +317,21 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
     which plans it can reach is settled while it is hot, however slowly it cools. Where drones fly,
     one long search came further; in large problems the parts of a plan differ, not the whole.
     """
-    whole = team.whole
+    whole, first = team.whole, team.workers[0]
     starts = None
-    if data.scan_all and not team.workers[0].heat.drones and team.workers[0].cooled == 0.0:
+    if data.strategy.scan_all and not first.heat.drones and first.cooled == 0.0:
         starts = Starts(data, whole, seeds)
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
     if starts is not None and count > 1:
-        ends = np.linspace(team.limits.share(team.workers[0].turns), STARTS_SHARE, count + 1)
+        ends = np.linspace(team.limits.share(first.turns), STARTS_SHARE, count + 1)
         for number, end in enumerate(ends[1:].tolist()):
-            span = Span(team.limits.share(team.workers[0].turns), end, 1.0)
+            span = Span(team.limits.share(first.turns), end, 1.0)
             if not team.over(span):
                 starts.begin(number > 0)
                 team.search(starts, span)
         go_on_from_best(data, whole)
-        rest = Span(team.limits.share(team.workers[0].turns), 1.0, REHEAT)
+        rest = Span(team.limits.share(first.turns), 1.0, REHEAT)
     if not team.over():
         team.search(crew, rest)
 
@@ -356,8 +355,7 @@ def _begin_by_types(data: ProblemData, whole: Searcher, limits: Limits, most: fl
 def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
     """Tell whether a search that is given no plan begins with one by trucks alone."""
     has_drones = any(kind.drones is not None for kind in problem.vehicle_types)
-    return (problem.num_customers >= BY_TRUCK_FROM and has_drones
-            and (moves.loops or moves.crossings))
+    return problem.num_customers >= BY_TRUCK_FROM and has_drones and moves.flights
 
 
 def _share_by_truck(problem: Problem) -> float:

@@ -1,12 +1,10 @@
 """The search's arrays for a problem, and plans to and from its routes."""
 
 from collections.abc import Hashable
-from dataclasses import dataclass
 
 import numpy as np
 
 from model.kernel.alarm import Alarm
-from model.kernel.drone_types import all_kinds
 from model.kernel.instance import Instance
 from model.kernel.leg import are_the_same_back
 from model.kernel.records import Records
@@ -14,33 +12,14 @@ from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray
 from model.search.evaluation import evaluate
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
-from model.search.route.layout import MOST_VISITS, ProblemData
-
-SCAN_ALL_BELOW = 400
-"""Number of customers from which insertions are tried beside neighbours only."""
+from model.search.route.layout import ProblemData
+from model.search.strategy import (
+    ALL_MOVES, Moves, grounded, most_visits, strategy_of, visits_of,
+)
 
 TURNED_FROM = 2000
 """Number of customers from which on routes of the first plan are turned round as needed. With fewer
 the search has soon made more of any plan."""
-
-LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
-"""How often a better place is overlooked: the last by the number of customers squared and that on a
-sortie, within the first two. Small problems have so few places that little else would differ from
-turn to turn, so that none are kept there where more than distance counts."""
-
-
-@dataclass(frozen=True)
-class Moves:
-    """What the search may do beyond inserting customers where they cost least."""
-
-    loops: bool = True  # sorties may end at the stop where they began
-    crossings: bool = True  # and at others
-    tails: bool = True  # routes may swap their tails
-    splits: bool = True  # trips with one drone may be split anew
-    types: bool = True  # vehicles may drive each other's routes
-
-
-ALL_MOVES = Moves()
 
 
 def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
@@ -54,61 +33,28 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     if neighbourhood is None:
         neighbourhood = make_neighbourhood(problem, instance)
     instance = renumbered(instance, neighbourhood.numbering)
-    types, rates, can_fly = instance.type[0], instance.rate[0], instance.can_fly[0]
-    if not (moves.loops or moves.crossings):
-        types, can_fly = types.copy(), np.zeros_like(can_fly)
-        types["drones"] = 0
-    visits = _visits(problem)
-    most_visits = max(1, int(visits.max()))
-    evaluation = evaluate(instance, types)
-    swap = _swaps(problem, types, evaluation)
-    general, scan_all = not bool(evaluation["lean"].all()), problem.num_customers < SCAN_ALL_BELOW
-    blink = _blink(problem.num_customers, most_visits)
-    must_serve = _must_serve(problem, instance)
+    if not moves.flights:
+        instance = grounded(instance)
+    types, evaluation = instance.type[0], evaluate(instance)
+    swap, visits = _swaps(problem, types, evaluation), visits_of(problem)
+    must_serve, more = _must_serve(problem, instance), instance.unassigned_more[0]
     return ProblemData(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
-        num_types=len(problem.vehicle_types), max_visits=most_visits,
-        tails=moves.tails,
-        single_drones=has_single_drones(problem, moves),
-        loops=moves.loops, crossings=moves.crossings, general=general,
-        traded=moves.types and bool(swap.any()),
-        mixed=moves.types and len(problem.vehicle_types) > 1 and general,
-        scan_all=scan_all, optional=not bool(must_serve.any()),
-        adds_up=_adds_up(instance, types, evaluation),
-        keeps=scan_all and (not general or blink <= LEAST_BLINK),
-        blink=blink, unassigned_cost=float(instance.unassigned_cost[0]),
-        unassigned_more=instance.unassigned_more[0],
-        unequal=bool(instance.unassigned_more[0].any()),
-        must_serve=must_serve,
+        num_types=len(problem.vehicle_types), max_visits=most_visits(problem),
+        strategy=strategy_of(problem, instance, moves, evaluation, swap),
+        general=not bool(evaluation["lean"].all()), all_optional=not bool(must_serve.any()),
+        unassigned_cost=float(instance.unassigned_cost[0]), unassigned_more=more,
+        unassigned_costs_differ=bool(more.any()), must_serve=must_serve,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
         setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
-        price=_per_ms(instance.price[0]), type=types, rate=_per_unit(rates),
-        evaluation=evaluation,
-        reload=instance.reload[0], visits=visits,
-        can=np.ascontiguousarray(np.stack([instance.can_drive[0], can_fly], axis=1)),
+        price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),
+        evaluation=evaluation, reload=instance.reload[0], visits=visits,
+        can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),
         swap=swap, splice=_splices(problem, swap), leg=neighbourhood.leg, back=neighbourhood.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=neighbourhood.near, fit=neighbourhood.fit,
         deadline=Alarm().setting if deadline is None else deadline,
     )
-
-
-def has_single_drones(problem: Problem, moves: Moves) -> bool:
-    """Tell whether trips with one drone may be split anew."""
-    return moves.splits and (moves.loops or moves.crossings) and any(
-        kind.num_drones == 1 for kind in problem.vehicle_types)
-
-
-def _visits(problem: Problem) -> IntArray:
-    """Return how many customers a sortie may have, (row,)."""
-    visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
-                       for kind, _, _ in all_kinds(problem)], np.int64)
-    return np.minimum(visits, min(problem.num_customers, MOST_VISITS))
-
-
-def _blink(num_customers: int, most_visits: int) -> float:
-    """Return how often a better place is overlooked; sorties of several offer many more places."""
-    return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / (most_visits * max(1, num_customers) ** 2)))
 
 
 def _per_unit(rates: Records) -> Records:
@@ -176,19 +122,6 @@ def may_be_turned(data: ProblemData) -> bool:
             and are_the_same_back(data.leg, data.back))
 
 
-def _adds_up(instance: Instance, types: Records, evaluation: Records) -> bool:
-    """Tell whether to insert a customer never saves anything, if no detour does.
-
-    What is aboard is driven less far where a trip is split, where a drone more has a fresh battery
-    too; and whoever sets up sooner where others have to as well saves their setups.
-    """
-    saves = evaluation["timed"] & (instance.setup.shape[1] > 0)
-    swapped = types["relaunch_duration"] != types["launch_duration"]
-    split = ((instance.rate[0]["load"] > 0) | swapped) & (types["max_trips"] > 1)
-    anew = evaluation["held_back"] | evaluation["retimed"]
-    return not bool((anew | split | saves).any())
-
-
 def _states_rarer_rules(data: ProblemData) -> bool:
     """Tell whether a rule is stated that linked stops don't know."""
     types, rate, number = data.type, data.rate, data.num_nodes - data.num_depots
@@ -198,7 +131,7 @@ def _states_rarer_rules(data: ProblemData) -> bool:
     rarer |= (types["max_stops"] < number) | (types["max_sorties"] < number)
     rarer |= (types["relaunch_duration"] != types["launch_duration"]) | (types["drone_row"] >= 0)
     rarer |= (rate["overtime"] > 0) | (rate["load"] > 0)
-    return bool(any(table.size for table in tables) or data.unequal or rarer.any())
+    return bool(any(table.size for table in tables) or data.unassigned_costs_differ or rarer.any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:

@@ -175,7 +175,7 @@ CheapestStop scan_kept(const ProblemData& data, const Fleet& fleet, Int slot, In
 bool is_too_far(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
                 double best) {
     const Route& route = searcher.now.route[slot];
-    if (!data.scan_all || route.stamp == changing) return false;
+    if (!data.strategy.scan_all || route.stamp == changing) return false;
     const Rate& rate = data.rate[route.type];
     const Kept& kept = searcher.kept(node, slot);
     return kept.stamp == route.stamp && double(kept.detour) * rate.distance >= best - rate.stop;
@@ -222,7 +222,7 @@ double take_cheaper(const ProblemData& data, const Searcher& searcher, Int slot,
         const Int further = newcomer.further_behind(stops, p);
         const double cost = double(further) * rate + serving.cost;
         if (cost < best && newcomer.comes_in_time(stops, p, stops[p].leave) &&
-            room_behind(newcomer.room, p) && uniform(searcher.rng) >= data.blink) {
+            room_behind(newcomer.room, p) && uniform(searcher.rng) >= data.strategy.blink) {
             best = cost;
             take_stop(*searcher.move, slot, p, serving.type);
         }
@@ -240,14 +240,15 @@ double scan_lean(const ProblemData& data, const Searcher& searcher, Int node, do
         if (!data.can(k, 0, node)) continue;
         const auto [by, base] = serving_type(data, fleet, slot, 0, node, enlarge);
         if (by < 0 || (by != k && base >= best)) continue;
-        Wanted wanted{data.rate[by].distance, best - base, data.blink};
+        Wanted wanted{data.rate[by].distance, best - base, data.strategy.blink};
         // What is kept is where there is room on the vehicle as it is.
-        bool anew = !data.scan_all || route.stamp == changing || (by != k && tiers_of(data) > 0);
+        bool anew =
+            !data.strategy.scan_all || route.stamp == changing || (by != k && tiers_of(data) > 0);
         CheapestStop found{best, nowhere};
         if (!anew) {
             found = scan_kept(data, fleet, slot, node, wanted.rate, wanted.best,
                               searcher.kept(node, slot));
-            if (found.stop >= 0 && uniform(searcher.rng) < data.blink) {
+            if (found.stop >= 0 && uniform(searcher.rng) < data.strategy.blink) {
                 wanted.skipped = found.stop;
                 anew = true;
             }
@@ -302,7 +303,7 @@ double scan_beside(const ProblemData& data, const Searcher& searcher, Int node, 
         const auto [by, base] = serving_type(data, fleet, slot, trip, node, enlarge);
         if (by < 0 || (by != k && base >= best)) continue;
         const auto [cost, p] = scan_trip(data, fleet, slot, trip, behind - 1, behind, node, by,
-                                         best - base, data.blink, searcher.rng);
+                                         best - base, data.strategy.blink, searcher.rng);
         if (p >= 0) {
             best = cost + base;
             take_stop(*searcher.move, slot, p, by);

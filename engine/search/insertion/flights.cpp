@@ -72,8 +72,9 @@ public:
         const Int begun = recovery_end(type_, ready) - idle_;
         Int last = free_until(data_, searcher_.now, slot_, launch, row_);
         const Int furthest = searcher_.now.trip(slot_, from.trip).last;
-        last = std::min({last, furthest, data_.crossings ? launch + max_span : launch});
-        for (Int recovery = data_.loops ? launch : launch + 1; recovery <= last; ++recovery) {
+        last = std::min({last, furthest, data_.strategy.crossings ? launch + max_span : launch});
+        for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
+             ++recovery) {
             const Stop& to = stops_[recovery];
             const Leg home = leg_to(onward_, to.node);
             const double flown = double(out.distance + home.distance) * rate_.drone_distance;

@@ -172,7 +172,7 @@ void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, 
 }
 
 void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
-    if (!data.loops) return;
+    if (!data.strategy.loops) return;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];

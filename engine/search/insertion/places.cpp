@@ -92,16 +92,16 @@ void try_routes(const ProblemData& data, const Searcher& searcher, Int node, boo
             const bool flies = data.can(route.type, 1, node);
             if (!flies && !data.can(route.type, 0, node)) continue;
             if (data.deadline.passed()) return;
-            const bool known = data.keeps && !enlarge && route.stamp != changing;
+            const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
             if (known && is_kept(searcher, slot, node)) {
                 if (!costly) take_kept(searcher, slot, node);
                 continue;
             }
             if (costly != (flies || !is_simple(data, now, slot))) continue;
             const double before = bound.best;
-            bound.blink = known ? 0.0 : data.blink;
+            bound.blink = known ? 0.0 : data.strategy.blink;
             try_route(data, searcher, slot, node, enlarge);
-            bound.blink = data.blink;
+            bound.blink = data.strategy.blink;
             if (known) keep(searcher, slot, node, before);
         }
     }
@@ -135,9 +135,9 @@ double try_new_route(const ProblemData& data, const Searcher& searcher, Int node
     double best = infeasible;
     for (Int k = 0; k < data.num_types; ++k) {
         if (!is_left(data, searcher.now, k)) continue;
-        for (Int way = 0; way < (data.loops ? 2 : 1); ++way) {
+        for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
             const double cost = searcher.alone(k, way, node);
-            if (cost < best && uniform(searcher.rng) >= data.blink) {
+            if (cost < best && uniform(searcher.rng) >= data.strategy.blink) {
                 best = cost;
                 searcher.move->kind = way == 0 ? new_route : new_flight;
                 searcher.move->type = k;
@@ -150,7 +150,7 @@ double try_new_route(const ProblemData& data, const Searcher& searcher, Int node
 double find_place(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
     const double best = try_new_route(data, searcher, node);
     if (!data.general) return scan_lean(data, searcher, node, best, enlarge);
-    *searcher.bound = {best, data.blink};
+    *searcher.bound = {best, data.strategy.blink};
     try_routes(data, searcher, node, enlarge);
     return searcher.bound->best;
 }
@@ -162,7 +162,7 @@ double find_beside(const ProblemData& data, const Searcher& searcher, Int node, 
         return scan_passing_lean(data, searcher, node, best, enlarge);
     }
     best = scan_beside(data, searcher, node, best, enlarge);
-    *searcher.bound = {best, data.blink};
+    *searcher.bound = {best, data.strategy.blink};
     for (const Int other : data.fit[node]) {
         if (other < 0) break;
         if (searcher.now.where[other].slot >= 0) offer_beside(data, searcher, other, node);

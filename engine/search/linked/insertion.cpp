@@ -298,7 +298,7 @@ private:
     // Takes a place between two for the best if it may be there and isn't overlooked.
     void take(const Joining& joins, const Gap& gap, double cost) {
         if (linked_.timed && !keeps_windows(data_.type[joins.type], gap)) return;
-        if (uniform(searcher_.rng) < data_.blink) return;
+        if (uniform(searcher_.rng) < data_.strategy.blink) return;
         Move& move = *searcher_.move;
         move.kind = at_stop;
         move.slot = joins.slot;
@@ -368,7 +368,7 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
     const View<Int, 1> absent = searcher.absent;
     const Int m = data.type[0].travel;  // that of all types, looked up once for each customer
     const bool opening = uniform(searcher.rng) < opening_share;
-    const bool enlarge = data.traded && uniform(searcher.rng) < enlarged;
+    const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
     double total = 0.0;
     Int left = first;
     for (Int index = first; index < searcher.count->absent; ++index) {

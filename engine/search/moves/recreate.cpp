@@ -137,7 +137,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
               double spare) {
     const View<Int, 1> absent = searcher.absent;
     SearchCounts& count = *searcher.count;
-    const bool enlarge = data.traded && uniform(searcher.rng) < enlarged;
+    const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
     const bool opens_first = uniform(searcher.rng) < opening_share;
     Int left = first;
     for (Int index = first; index < count.absent; ++index) {

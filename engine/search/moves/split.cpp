@@ -121,7 +121,8 @@ double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
     const Rate& rate = data.rate[k];
     const NodeRows place = places_by_air(data.place, type)[customer];
     const WayByAir flight(data, type, place, node, customer, node);
-    if (!data.loops || !can_serve(type, place, flight.out.duration, flight.home.duration)) {
+    if (!data.strategy.loops ||
+        !can_serve(type, place, flight.out.duration, flight.home.duration)) {
         return infinite;
     }
     return cost_of(flight.duration + handling_duration(type), rate.time) +
@@ -177,7 +178,7 @@ void extend(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> 
                 line[j].before = i;
                 line[j].flight = no_flight;
             }
-            if (data.crossings) cross(drives, crossing, flyable, line, cost, i, j);
+            if (data.strategy.crossings) cross(drives, crossing, flyable, line, cost, i, j);
         }
         if (flies[to]) flyable.place[static_cast<std::size_t>(flyable.count++)] = j;
         if (loops < infinite) {

@@ -31,28 +31,29 @@ public:
     void ruin(Int first) {
         remove_strings(first);
         SearchCounts& count = *searcher_.count;
-        if (data_.mixed && count.touched > 0 && uniform(searcher_.rng) < retyped_share) {
+        if (data_.strategy.change_vehicles && count.touched > 0 &&
+            uniform(searcher_.rng) < retyped_share) {
             draw_type(data_, searcher_);
         }
     }
 
     bool recreate(Int first, double spare) {
-        return tandem::recreate(data_, searcher_, first, data_.scan_all, spare);
+        return tandem::recreate(data_, searcher_, first, data_.strategy.scan_all, spare);
     }
 
     // Inserts who is absent, from a number on, whatever that costs.
     void insert_all(Int first) {
-        const bool scan_all = data_.scan_all || data_.num_nodes < built_beside_from;
+        const bool scan_all = data_.strategy.scan_all || data_.num_nodes < built_beside_from;
         tandem::recreate(data_, searcher_, first, scan_all,
                          std::numeric_limits<double>::infinity());
     }
 
     void retype() {
-        if (data_.traded) improve_types(data_, searcher_);
-        if (data_.mixed) cheapen_types(data_, searcher_);
+        if (data_.strategy.swap_vehicles) improve_types(data_, searcher_);
+        if (data_.strategy.change_vehicles) cheapen_types(data_, searcher_);
     }
 
-    Int parts() const { return data_.single_drones ? 1 + resplits : 1; }
+    Int parts() const { return data_.strategy.resplit ? 1 + resplits : 1; }
 
     // Swaps tails of routes first, then plans a trip anew.
     bool move_part(Int part, double rise) {

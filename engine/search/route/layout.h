@@ -31,6 +31,7 @@ using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Line = tandem_line;
 using Evaluation = tandem_evaluation;
+using Strategy = tandem_strategy;
 
 // `Stop.kind`.
 constexpr Int customer_stop = 0;
@@ -60,21 +61,12 @@ struct ProblemData {
     std::int64_t num_nodes;
     std::int64_t num_types;
     std::int64_t max_visits;  // customers on a sortie
-    bool tails;               // routes may swap their tails
-    bool single_drones;       // some type has one drone, and trips may be split anew
-    bool loops;               // sorties may end where they began
-    bool crossings;           // sorties may end elsewhere
-    bool general;   // insertions may cost more than their detour; else all routes are lean
-    bool traded;    // vehicles may drive each other's routes
-    bool mixed;     // types of vehicles, some of whose routes are not lean, may drive each other's
-    bool scan_all;  // else insertion looks beside neighbours only
-    bool optional;  // nobody has to be served
-    bool adds_up;   // to insert a customer never saves anything, if no detour does
-    bool keeps;     // customers' best places on routes are kept from turn to turn
-    double blink;   // how often a better place for a customer is overlooked
-    double unassigned_cost;                 // of whoever it costs least to leave out
+    Strategy strategy;
+    bool general;            // insertions may cost more than their detour; else all routes are lean
+    bool all_optional;       // nobody has to be served
+    double unassigned_cost;  // of whoever it costs least to leave out
     View<const double, 1> unassigned_more;  // (node,) what leaving out another costs above that
-    bool unequal;                           // leaving out some costs more than others
+    bool unassigned_costs_differ;           // leaving out some costs more than others
     View<const bool, 1> must_serve;  // (node,) leaving it out costs more than any route for one
     View<const Node, 3> place;       // (variant, node, row)
     View<const std::int64_t, 3>
@@ -107,21 +99,12 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.num_nodes,
             from.num_types,
             from.max_visits,
-            from.tails,
-            from.single_drones,
-            from.loops,
-            from.crossings,
+            from.strategy,
             from.general,
-            from.traded,
-            from.mixed,
-            from.scan_all,
-            from.optional,
-            from.adds_up,
-            from.keeps,
-            from.blink,
+            from.all_optional,
             from.unassigned_cost,
             from.unassigned_more,
-            from.unequal,
+            from.unassigned_costs_differ,
             from.must_serve,
             from.place,
             from.amount,

@@ -21,6 +21,6 @@ inline bool time_aboard_counts(const ProblemData& data) { return !data.max_time_
 inline bool loads_cost(const ProblemData& data, Int k) { return data.rate[k].load > 0.0; }
 
 // Tell whether leaving out some costs more than leaving out others.
-inline bool is_dearer_to_some(const ProblemData& data) { return data.unequal; }
+inline bool is_dearer_to_some(const ProblemData& data) { return data.unassigned_costs_differ; }
 
 }  // namespace tandem

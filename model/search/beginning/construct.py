@@ -32,7 +32,7 @@ def begin_anew(data: ProblemData, searcher: Searcher, freely: bool,
     """
     if searcher.count.missing > 0:
         insert_missing(data, searcher, BY_FAR)
-    if hurried is None or data.optional:
+    if hurried is None or data.all_optional:
         hurried = data
     if freely and not has_rung(hurried.deadline):
         _construct(hurried, searcher)

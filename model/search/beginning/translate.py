@@ -42,7 +42,7 @@ def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
     now, before, best = (empty_fleet(data, slots, stops, trips, sorties, noted)
                          for noted in (nodes, 0, 0))
     count.lean, count.focus = not data.general, NOWHERE
-    room = (nodes, slots) if data.keeps else (0, 0)
+    room = (nodes, slots) if data.strategy.keep_places else (0, 0)
     of_moves = room if data.general else (0, 0)
     # On one route, by a trip more on any, beside neighbours.
     at_one_stop = AT_ONE_STOP * most_drone_rows(data.type)

@@ -34,6 +34,21 @@ NOWHERE, ELSEWHERE = -1, -2
 """Slot of a customer who is left out; of one whom another thread deals with."""
 
 
+class Strategy(NamedTuple):
+    """How a problem is searched: which moves there are, and where insertion looks."""
+
+    loops: bool  # sorties may end at the stop where they began
+    crossings: bool  # and at others
+    two_opt_star: bool  # routes swap their tails
+    resplit: bool  # trips with one drone are split anew between truck and drone
+    swap_vehicles: bool  # vehicles drive each other's routes, whose distance tells what they cost
+    change_vehicles: bool  # routes are timed anew with vehicles of other types
+    scan_all: bool  # insertion looks at all routes, else beside neighbours alone
+    keep_places: bool  # customers' best places on routes are kept from turn to turn
+    give_up_early: bool  # a turn ends once it costs too much, as no insertion saves anything
+    blink: float  # how often a better place for a customer is overlooked
+
+
 class ProblemData(NamedTuple):
     """The problem, unchanged by the search."""
 
@@ -41,21 +56,12 @@ class ProblemData(NamedTuple):
     num_nodes: int
     num_types: int
     max_visits: int  # customers on a sortie
-    tails: bool  # routes may swap their tails
-    single_drones: bool  # some type has one drone, and trips may be split anew
-    loops: bool  # sorties may end where they began
-    crossings: bool  # sorties may end elsewhere
+    strategy: Strategy
     general: bool  # insertions may cost more than their detour; else all routes are lean
-    traded: bool  # vehicles may drive each other's routes
-    mixed: bool  # types of vehicles, some of whose routes are not lean, may drive each other's
-    scan_all: bool  # else insertion looks beside neighbours only
-    optional: bool  # nobody has to be served
-    adds_up: bool  # to insert a customer never saves anything, if no detour does
-    keeps: bool  # customers' best places on routes are kept from turn to turn
-    blink: float  # how often a better place for a customer is overlooked
+    all_optional: bool  # nobody has to be served
     unassigned_cost: float  # of whoever it costs least to leave out
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that
-    unequal: bool  # leaving out some costs more than others
+    unassigned_costs_differ: bool  # leaving out some costs more than others
     must_serve: BoolArray  # (node,) leaving it out costs more than any route for one
     place: Records  # (variant, node, row)
     amount: IntArray  # (node, tier, AMOUNTS); no tiers where the demand of nodes tells all

@@ -34,8 +34,8 @@ def test_giving_a_turn_up_loses_nothing(variant: str) -> None:
     """It is given up once it costs too much, which it would in the end."""
     problem = generate(np.random.default_rng(8), 60, variant)
     data = make_data(problem, pack([problem], legs=False))
-    assert data.adds_up
-    through = data._replace(adds_up=False)
+    assert data.strategy.give_up_early
+    through = data._replace(strategy=data.strategy._replace(give_up_early=False))
     costs = np.array([[found(problem, each, seed) for seed in range(SEEDS)]
                       for each in (data, through)])
     mean, error = costs.mean(axis=1), costs.std(axis=1) / np.sqrt(SEEDS - 1)
@@ -46,4 +46,4 @@ def test_waiting_may_get_cheaper_by_a_customer_more() -> None:
     problem = generate(np.random.default_rng(8), 10, "vrptw")
     waited_for = replace(problem.customers[0], early_cost_per_hour=10.0)
     problem = replace(problem, customers=(waited_for, *problem.customers[1:]))
-    assert not make_data(problem, pack([problem], legs=False)).adds_up
+    assert not make_data(problem, pack([problem], legs=False)).strategy.give_up_early

@@ -120,7 +120,8 @@ def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float
 
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
     _, data, searcher = begun("cvrp", SOME)
-    data, now = data._replace(blink=0.0), searcher.now
+    data = data._replace(strategy=data.strategy._replace(blink=0.0))
+    now = searcher.now
     found = 0
     for slot in searcher.active[: searcher.count.active].tolist():
         left_out = now.stop[slot, 1: now.route[slot].length - 1]["node"].tolist()

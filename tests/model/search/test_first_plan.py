@@ -8,7 +8,7 @@ import pytest
 
 from model.kernel.instance import pack
 from model.problem import UNLIMITED, Points, Problem, StraightLegs, Travel
-from model.search import problem_data as worlds
+from model.search import problem_data
 from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.savings import joined, ranked_pairs, routes_of
 from model.search.first_plan import first_plan
@@ -64,7 +64,7 @@ def test_routes_are_turned_only_where_loads_alone_limit_them(
     problem = scattered()
     kind, = problem.vehicle_types
     assert not may(problem)  # too few
-    monkeypatch.setattr(worlds, "TURNED_FROM", NUMBER)
+    monkeypatch.setattr(problem_data, "TURNED_FROM", NUMBER)
     assert may(problem)
     first, *others = problem.customers
     assert not may(replace(problem, customers=(replace(first, latest=10**9), *others)))
@@ -80,7 +80,7 @@ def test_routes_are_turned_only_where_loads_alone_limit_them(
 
 
 def test_first_plan_serves_each_customer_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(worlds, "TURNED_FROM", NUMBER)
+    monkeypatch.setattr(problem_data, "TURNED_FROM", NUMBER)
     problem = scattered(count=NUMBER)
     plan = first_plan(problem, make_data(problem, pack([problem])))
     served = [stop.node for route in plan.routes for stop in route.trips[0].stops[1:-1]]

@@ -14,7 +14,7 @@ from model.kernel.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.improve import Improved, Progress, SearchConfig, improve
-from model.search.problem_data import Moves
+from model.search.strategy import Moves
 from model.solution import Solution
 
 MINUTE = 60_000

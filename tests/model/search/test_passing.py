@@ -49,7 +49,7 @@ def test_a_route_to_a_town_serves_a_village_on_the_way() -> None:
         schedule(problem, RouteDecision(0, number, (TripDecision((0, *trip, 0)),)))
         for number, trip in enumerate(trips)), (alone,))
     data = make_data(problem, pack([problem]))
-    assert not data.scan_all
+    assert not data.strategy.scan_all
     assert len(plan.routes) >= EACH_DRAWN
     assert (data.fit[alone, :NEAR_INSERTION] <= NEARER * ON_A_ROUTE).all()
     searcher = make_searcher(problem, data, plan, np.random.SeedSequence(1))

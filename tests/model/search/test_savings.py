@@ -11,7 +11,8 @@ from model.kernel.instance import pack
 from model.problem import Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning.savings import savings_routes
 from model.search.first_plan import first_plan
-from model.search.problem_data import Moves, make_data
+from model.search.problem_data import make_data
+from model.search.strategy import Moves
 from tests.model.search.test_moves import MINUTE, TRUCK, on_a_plane
 
 

@@ -200,7 +200,8 @@ def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore
     served = np.concatenate(routes)
     # No plan is cheaper by so much, and nothing is given up before all are inserted.
     searcher.value.temperature = -1e12
-    anneal_linked(data._replace(adds_up=False), searcher, linked, 200)
+    whole_turns = data._replace(strategy=data.strategy._replace(give_up_early=False))
+    anneal_linked(whole_turns, searcher, linked, 200)
     assert sorted(routes_of(data, searcher, linked)) == sorted(routes)
     assert (linked.link[served][["before", "behind", "inward", "onward"]]
             == links[served][["before", "behind", "inward", "onward"]]).all()

@@ -1,0 +1,108 @@
+"""How a problem is searched: which moves there are, and where insertion looks.
+
+`docs/develop/search.md` has a table of what kinds of problems let the search do.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from model.kernel.drone_types import all_kinds
+from model.kernel.instance import Instance
+from model.kernel.records import Records
+from model.problem import BoolArray, IntArray, Problem
+from model.search.route.layout import MOST_VISITS, Strategy
+
+SCAN_ALL_BELOW = 400
+"""Number of customers from which insertions are tried beside neighbours only."""
+
+LEAST_BLINK, MOST_BLINK, BLINKS = 0.01, 0.2, 6.0
+"""How often a better place is overlooked: the last by the number of customers squared and that on a
+sortie, within the first two. Small problems have so few places that little else would differ from
+turn to turn, so that none are kept there where more than distance counts."""
+
+
+@dataclass(frozen=True)
+class Moves:
+    """What the search may do beyond inserting customers where they cost least."""
+
+    loops: bool = True  # sorties may end at the stop where they began
+    crossings: bool = True  # and at others
+    two_opt_star: bool = True  # routes may swap their tails
+    resplit: bool = True  # trips with one drone may be split anew
+    types: bool = True  # vehicles may drive each other's routes
+
+    @property
+    def flights(self) -> bool:
+        """Whether drones may fly."""
+        return self.loops or self.crossings
+
+
+ALL_MOVES = Moves()
+
+
+def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: Records,
+                swap: BoolArray) -> Strategy:
+    """Choose how to search.
+
+    Parameters
+    ----------
+    problem
+        What is planned.
+    instance
+        The same, packed alone; `grounded` if drones may not fly.
+    moves
+        What the search may do at all.
+    evaluation
+        How routes of each type are timed and priced.
+    swap
+        (type, type) whose vehicles may drive each other's routes, at a cost by distance alone.
+    """
+    costs_more = not bool(evaluation["lean"].all())  # than its detour, an insertion somewhere
+    scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem)
+    return Strategy(
+        loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star,
+        resplit=moves.resplit and moves.flights and any(
+            kind.num_drones == 1 for kind in problem.vehicle_types),
+        swap_vehicles=moves.types and bool(swap.any()),
+        change_vehicles=moves.types and len(problem.vehicle_types) > 1 and costs_more,
+        scan_all=scan_all, keep_places=scan_all and (not costs_more or blink <= LEAST_BLINK),
+        give_up_early=not _may_save(instance, evaluation), blink=blink)
+
+
+def grounded(instance: Instance) -> Instance:
+    """Return a packed problem in which no drone flies."""
+    types = instance.type.copy()
+    types["drones"] = 0
+    return instance._replace(type=types, can_fly=np.zeros_like(instance.can_fly))
+
+
+def visits_of(problem: Problem) -> IntArray:
+    """Return how many customers a sortie may have, (row,)."""
+    visits = np.array([kind.drones.max_customers_per_sortie if kind.drones else 0
+                       for kind, _, _ in all_kinds(problem)], np.int64)
+    return np.minimum(visits, min(problem.num_customers, MOST_VISITS))
+
+
+def most_visits(problem: Problem) -> int:
+    """Return how many customers any sortie may have; 1 where there are none."""
+    return max(1, int(visits_of(problem).max()))
+
+
+def _blink(problem: Problem) -> float:
+    """Return how often a better place is overlooked; sorties of several offer many more places."""
+    places = most_visits(problem) * max(1, problem.num_customers) ** 2
+    return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / places))
+
+
+def _may_save(instance: Instance, evaluation: Records) -> bool:
+    """Tell whether to insert a customer may save something, if no detour does.
+
+    What is aboard is driven less far where a trip is split, where a drone more has a fresh battery
+    too; and whoever sets up sooner where others have to as well saves their setups.
+    """
+    types, rates = instance.type[0], instance.rate[0]
+    setups = evaluation["timed"] & (instance.setup.shape[1] > 0)
+    swapped = types["relaunch_duration"] != types["launch_duration"]
+    split = ((rates["load"] > 0) | swapped) & (types["max_trips"] > 1)
+    return bool((evaluation["held_back"] | evaluation["retimed"] | split | setups).any())
