@@ -13,6 +13,7 @@ using Price = tandem_price;
 using Goods = tandem_goods;
 using VehicleType = tandem_vehicle_type;
 using Rate = tandem_rate;
+using Cost = tandem_cost;
 using LegLaw = tandem_leg_law;
 using Point = tandem_point;
 
@@ -26,8 +27,6 @@ constexpr Int max_tiers = 3;            // for all eight dimensions
 constexpr Int unlimited = Int{1} << 42;        // no limit on a time (ms) or a distance (mm)
 constexpr Int unreachable_leg = Int{1} << 50;  // duration and distance of what can't be flown
 constexpr std::int32_t no_leg = INT32_MAX;     // the same where legs are held in 32 bits
-constexpr double ms_per_hour = 3'600'000.0;
-constexpr double mm_per_km = 1'000'000.0;
 constexpr Int full_speed = 1'000'000;  // factor at which a leg takes the duration its table states
 
 constexpr Int no_profile = -1;  // `speed_changes` of who drives as fast all day

@@ -1,17 +1,62 @@
-// How long a vehicle works past what is usual, and how much a trip may have. A type's limits of the
+// How long a vehicle works, what that costs, and how much a trip may have. A type's limits of the
 // end and of the working duration are those with all the overtime allowed.
 #pragma once
 
 #include <algorithm>
 
-#include "problem/instance.h"
+#include "rules/rates.h"
 
 namespace tandem {
 
-// How long a vehicle works that ends at `end`, and works so long, past what is usual: past the
-// shift or its working duration, the longer.
-inline Int overtime(const VehicleType& type, Int end, Int working) {
-    return std::max(Int{0}, std::max(end - type.usual_end, working - type.usual_working));
+// How much of a vehicle's work is paid: all of it, and again what is past the usual.
+struct PaidWork {
+    Int duration, overtime;
+};
+
+// What work costs, by term.
+struct WorkCost {
+    double time, overtime;
+};
+
+// The work of a vehicle that ends at `end` and works so long. Past what is usual is what is past
+// the shift or its working duration, the longer.
+inline PaidWork paid_work(const VehicleType& type, Int end, Int working) {
+    const Int past = std::max(end - type.usual_end, working - type.usual_working);
+    return {working, std::max(Int{0}, past)};
+}
+
+// How much more one vehicle works than another.
+inline PaidWork operator-(const PaidWork& one, const PaidWork& other) {
+    return {one.duration - other.duration, one.overtime - other.overtime};
+}
+
+// What work costs that is within what is usual.
+inline double usual_work_cost(const Rate& rate, Int duration, Units units = ms_and_mm) {
+    return static_cast<double>(duration) / units.duration * rate.time;
+}
+
+// What work costs.
+inline WorkCost terms_of_work(const Rate& rate, const PaidWork& work, Units units = ms_and_mm) {
+    return {usual_work_cost(rate, work.duration, units),
+            static_cast<double>(work.overtime) / units.duration * rate.overtime};
+}
+
+// The sum of what work costs.
+inline double work_cost(const Rate& rate, const PaidWork& work) {
+    const auto [time, overtime] = terms_of_work(rate, work);
+    return time + overtime;
+}
+
+// Add what work costs to the terms of a cost.
+inline void add_work_cost(const Rate& rate, const PaidWork& work, Units units, Cost& cost) {
+    const auto [time, overtime] = terms_of_work(rate, work, units);
+    cost.time += time;
+    cost.overtime += overtime;
+}
+
+// Whether some of a vehicle's work costs more than by the hour, so that less of it saves more.
+inline bool is_dearer(const Rate& rate, const PaidWork& work) {
+    return rate.overtime > 0.0 && work.overtime > 0;
 }
 
 // When the shift ends without overtime.

@@ -3,22 +3,17 @@
 #include "rules/drone_types.h"
 #include "rules/load.h"
 #include "rules/shift.h"
-#include "rules/window.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
 namespace {
 
-double in_hours(Int duration) { return static_cast<double>(duration) / ms_per_hour; }
-double in_km(double distance) { return distance / mm_per_km; }
-
 // Add what lateness and earliness at a customer cost.
-void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Int start,
-                     Cost& cost) {
-    const Int late = lateness(instance.node[b][0][node], arrival);
+void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Cost& cost) {
+    const NodeRows place = instance.node[b][0][node];
     const Price& price = instance.price(b, node);
-    cost.lateness += in_hours(late) * price.lateness;
-    cost.earliness += in_hours(start - arrival) * price.waiting;
+    cost.lateness += lateness_cost(price, place, arrival, hours_and_km);
+    cost.earliness += waiting_cost(price, place, arrival, hours_and_km);
 }
 
 // What of a customer's is on the truck when it leaves a stop, in the first dimension. The parcel
@@ -65,10 +60,10 @@ void add_flights(const Instance& instance, const VehicleLog& log, Int b, Int row
         flown += flights(log.stop[sortie.launch_stop].node, sortie.node);
         flown += flights(sortie.node, log.stop[sortie.recovery_stop].node);
         airborne += sortie.recovery_end - sortie.takeoff;
-        add_window_cost(instance, b, sortie.node, sortie.arrival, sortie.start, cost);
+        add_window_cost(instance, b, sortie.node, sortie.arrival, cost);
     }
-    cost.distance += in_km(static_cast<double>(flown)) * rate.drone_distance;
-    cost.time += in_hours(airborne) * rate.drone_time;
+    cost.distance += flown_cost(rate, flown, hours_and_km);
+    cost.time += airborne_cost(rate, airborne, hours_and_km);
 }
 
 }  // namespace
@@ -82,24 +77,23 @@ void add_cost(const Instance& instance, const Setting& setting, const VehicleLog
         const LoggedStop& stop = log.stop[index];
         driven += legs(log.stop[index - 1].node, stop.node);
         if (stop.node >= instance.size[b].depots) {
-            add_window_cost(instance, b, stop.node, stop.arrival, stop.start, cost);
+            add_window_cost(instance, b, stop.node, stop.arrival, cost);
         }
     }
     const Int end = log.stop[log.count.stops - 1].leave;
     const Int working = end - first_departure(setting, log, log.trip[0].start);
     const Int served = log.count.stops - 2 * log.count.trips;
     cost.fixed += rate.fixed;
-    cost.distance += in_km(static_cast<double>(driven)) * rate.distance;
+    cost.distance += drive_cost(rate, driven, hours_and_km);
     if (rate.load > 0.0) {
         double carried = 0.0;
         for (Int trip = 0; trip < log.count.trips; ++trip) {
             carried += load_distance(legs, setting, log, trip);
         }
-        cost.distance += in_km(carried) * rate.load;
+        cost.distance += load_cost(rate, carried, hours_and_km);
     }
-    cost.stops += static_cast<double>(served) * rate.stop;
-    cost.time += in_hours(working) * rate.time;
-    cost.overtime += in_hours(overtime(setting.type, end, working)) * rate.overtime;
+    cost.stops += stops_cost(rate, served);
+    add_work_cost(rate, paid_work(setting.type, end, working), hours_and_km, cost);
     for (Int row = first_drone_row(setting.types, k); row >= 0;
          row = next_drone_row(setting.types, row)) {
         add_flights(instance, log, b, row, cost);

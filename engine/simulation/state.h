@@ -12,7 +12,6 @@ using LoggedSortie = tandem_logged_sortie;
 using LogLengths = tandem_log_lengths;
 using Vehicle = tandem_vehicle;
 using Drone = tandem_drone;
-using Cost = tandem_cost;
 using Outlook = tandem_outlook;
 
 struct VehicleLogs {

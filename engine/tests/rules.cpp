@@ -59,7 +59,7 @@ void worked_until(const tandem_vehicle_type* type, int64_t departure, int64_t en
                   int64_t* found) {
     const Int working = end - counted_from(*type, departure);
     const bool allowed = end <= type->shift_latest && working <= type->max_working_duration;
-    write(found, {overtime(*type, end, working), allowed, allows_stops(*type, stops)});
+    write(found, {paid_work(*type, end, working).overtime, allowed, allows_stops(*type, stops)});
 }
 
 void sorties_allowed(const tandem_vehicle_type* type, int64_t count, int64_t* found) {

@@ -78,9 +78,23 @@ TEST_CASE("overtime is past the shift or past the working duration, the longer")
     VehicleType type{};
     type.usual_end = 100;
     type.usual_working = 60;
-    CHECK(overtime(type, 100, 60) == 0);
-    CHECK(overtime(type, 110, 60) == 10);
-    CHECK(overtime(type, 110, 75) == 15);
+    CHECK(paid_work(type, 100, 60).overtime == 0);
+    CHECK(paid_work(type, 110, 60).overtime == 10);
+    CHECK(paid_work(type, 110, 75).overtime == 15);
+    CHECK(paid_work(type, 110, 75).duration == 75);
+}
+
+TEST_CASE("overtime is paid on top of the hours worked, and makes less work worth more") {
+    Rate rate{};
+    rate.time = 2.0;
+    rate.overtime = 3.0;
+    const PaidWork usual{60, 0}, longer{75, 15};
+    CHECK(work_cost(rate, longer) == 75 * 2.0 + 15 * 3.0);
+    CHECK(work_cost(rate, longer - usual) == 15 * 2.0 + 15 * 3.0);
+    CHECK(is_dearer(rate, longer));
+    CHECK(!is_dearer(rate, usual));
+    rate.overtime = 0.0;
+    CHECK(!is_dearer(rate, longer));
 }
 
 }  // namespace

@@ -9,7 +9,8 @@ ENGINE = Path(__file__).parents[2] / "engine"
 
 HOMES = {
     "rules/start.h": {"begun", "busy_until"},
-    "rules/shift.h": {"max_sorties", "max_stops", "usual_end", "usual_working"},
+    "rules/shift.h": {"max_sorties", "max_stops", "overtime", "usual_end", "usual_working"},
+    "rules/rates.h": {"drone_distance", "drone_time"},
     "rules/window.h": {"arrival_limit", "drone_variant", "service_duration", "variant",
                        "window_earliest", "window_latest"},
     "rules/flight.h": {"endurance", "launch_duration", "recovery_duration", "relaunch_duration",
@@ -26,7 +27,7 @@ HOMES = {
 ELSEWHERE = {
     "rules/leg.cpp": HOMES["rules/leg.h"] | {"setup_duration", "site"},
     "rules/drone_types.h": {"drones"},
-    "policy/features.cpp": {"capacity"},
+    "policy/features.cpp": {"capacity", "drone_distance", "drone_time"},
     "simulation/aboard.cpp": {"demand"},
 }
 """What states a limit but applies none, shows it to a network for example, or calls so what is its

@@ -6,6 +6,7 @@
 #include "guard.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/evaluate.h"
 #include "search/route/freshness.h"
@@ -69,7 +70,7 @@ double leg_cost(const ProblemData& data, const Searcher& searcher) {
         const View<Stop, 1> stops = now.stop[slot];
         for (Int p = 0; p < now.route[slot].length - 1; ++p) {
             if (stops[p].kind != customer_stop || stops[p + 1].kind != customer_stop) continue;
-            cost += double(stops[p].leg) * rate.distance + double(stops[p].gap) * rate.time;
+            cost += drive_cost(rate, stops[p].leg) + usual_work_cost(rate, stops[p].gap);
             ++legs;
         }
     }

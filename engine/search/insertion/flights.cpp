@@ -3,6 +3,7 @@
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/leg.h"
+#include "rules/shift.h"
 #include "search/insertion/listing.h"
 #include "search/insertion/offers.h"
 #include "search/route/edit.h"
@@ -62,10 +63,10 @@ public:
         const Stop& from = stops_[launch];
         const Leg out = leg_from(inward_, from.node);
         // Most stops are so far away that nothing else needs to be looked at.
-        if (double(out.distance) * rate_.drone_distance - early_ >= best_) return;
+        if (flown_cost(rate_, out.distance) - early_ >= best_) return;
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
         const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
-        if (double(out.distance) * rate_.drone_distance + late - early_ >= best_) return;
+        if (flown_cost(rate_, out.distance) + late - early_ >= best_) return;
         if (too_late(place_, from.arrival + out.duration)) return;
         const Int served = end_of_service(place_, from.arrival + out.duration);
         const Int left = gone_by(type_, from.leave);
@@ -77,7 +78,7 @@ public:
              ++recovery) {
             const Stop& to = stops_[recovery];
             const Leg home = leg_to(onward_, to.node);
-            const double flown = double(out.distance + home.distance) * rate_.drone_distance;
+            const double flown = flown_cost(rate_, out.distance + home.distance);
             if (flown + late - early_ >= best_) continue;
             if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
                                               stops_[recovery + 1].latest) {
@@ -93,7 +94,7 @@ public:
             }
             // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
             const Int longer = std::max(Int{0}, begun + flight - to.leave);
-            double cost = flown + double(longer) * rate_.time + late - early_;
+            double cost = flown + usual_work_cost(rate_, longer) + late - early_;
             if (loaded_) {
                 cost += load_more(data_, searcher_.now, slot_, launch, recovery, node_);
             }

@@ -6,6 +6,7 @@
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/shift.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/evaluate.h"
 #include "search/insertion/least.h"
@@ -34,7 +35,7 @@ struct Slack {
 double stop_costs(const ProblemData& data, Int k, const Newcomer& newcomer, const Detour& detour,
                   View<const Stop, 1> stops, Int p, Int node, const Slack& slack, double best) {
     const Rate& rate = data.rate[k];
-    double cost = double(detour.distance) * rate.distance - slack.early;
+    double cost = drive_cost(rate, detour.distance) - slack.early;
     cost += rate.stop;
     const Evaluation& evaluation = data.evaluation[k];
     const Stop &here = stops[p], &behind = stops[p + 1];
@@ -42,7 +43,7 @@ double stop_costs(const ProblemData& data, Int k, const Newcomer& newcomer, cons
         // While drones fly, the truck may have time before they are back.
         const Int longer =
             detour.out.duration + detour.on.duration + service_duration(newcomer.place) - here.gap;
-        cost += double(std::max(Int{0}, longer - slack.spare - here.idle)) * rate.time;
+        cost += usual_work_cost(rate, std::max(Int{0}, longer - slack.spare - here.idle));
     }
     if (cost >= best || !is_in_time(newcomer.place, detour, here.leave, behind)) return best;
     if (evaluation.priced) {
@@ -160,7 +161,7 @@ void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, 
             const Int further = leg(flights, here, node).distance +
                                 leg(flights, node, there).distance -
                                 leg(flights, here, there).distance;
-            const double cost = double(further) * data.rate[row].drone_distance - now.early[slot];
+            const double cost = flown_cost(data.rate[row], further) - now.early[slot];
             here = there;
             if (cost >= best) continue;
             if (place > 0 && tiers_of(data) > 0) {
@@ -180,7 +181,7 @@ void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int s
     for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
         const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
         const Leg out = leg(flights, depot, node), home = leg(flights, node, depot);
-        double cost = double(out.distance + home.distance) * data.rate[row].drone_distance;
+        double cost = flown_cost(data.rate[row], out.distance + home.distance);
         cost -= now.early[slot];
         if (unreachable(std::max(out.duration, home.duration)) || cost >= searcher.bound->best ||
             !data.can(row, 1, node) || !may_begin(data, k, node)) {

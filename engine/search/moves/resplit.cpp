@@ -11,6 +11,7 @@
 #include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
+#include "search/route/routes.h"
 #include "search/route/state.h"
 
 namespace tandem {
@@ -34,12 +35,13 @@ struct Part {
 };
 
 // Places of one or two routes in a line: how many, 0 if that can't be; what the operations cost if
-// that is all that the drones do, whether it is, and how long (ms) trucks wait, or work overtime.
+// that is all that the drones do, whether it is, and whether time saved counts for itself: some
+// trucks wait, or some of their work costs more than the rest.
 struct Lines {
     Int length = 1;
     double cost = 0.0;
     bool exact = true;
-    Int idle = 0;
+    bool saves_time = false;
 };
 
 template <class T>
@@ -122,10 +124,8 @@ bool line_up_too(const ProblemData& data, const Fleet& fleet, Int k, Int slot, P
     const auto [count, exact] = line_up(fleet, slot, part, rest);
     if (count == 0) return false;
     lines.exact = lines.exact && exact;
-    lines.idle += idle_time(route);
-    if (data.rate[k].overtime > 0.0) {
-        lines.idle += overtime(data.type[k], route.end, route.working);
-    }
+    lines.saves_time = lines.saves_time || idle_time(route) > 0 ||
+                       is_dearer(data.rate[k], work_of(data.type[k], route));
     if (lines.exact) {
         measure(data, k, rest, count);
         lines.cost += present_cost(data, k, rest, count) + beside(data.rate[k]);
@@ -186,10 +186,10 @@ Int depot_between(const ProblemData& data, View<const Line, 1> line, Int length)
 
 // Tell whether operations may cost less than `limit` more than before.
 //
-// Where windows make trucks wait, or count themselves, that says nothing; nor where time saved is
-// overtime.
+// Where windows make trucks wait, or count themselves, that says nothing; nor where less work saves
+// more than by the hour.
 bool is_worth(const ProblemData& data, Int k, const Lines& before, double after, double limit) {
-    if (data.evaluation[k].priced || before.idle > 0) return true;
+    if (data.evaluation[k].priced || before.saves_time) return true;
     return after < before.cost + limit && std::abs(after - before.cost) > same_share * before.cost;
 }
 

@@ -8,6 +8,7 @@
 #include "randomness.h"
 #include "rules/flight.h"
 #include "rules/leg.h"
+#include "rules/shift.h"
 #include "rules/window.h"
 
 namespace tandem {
@@ -26,8 +27,6 @@ enum class Change { swap, move, reverse, keep };
 // Those that pay come more often.
 constexpr std::array changes{Change::swap, Change::swap,    Change::move,    Change::move,
                              Change::move, Change::reverse, Change::reverse, Change::keep};
-
-double cost_of(Int amount, double rate) { return static_cast<double>(amount) * rate; }
 
 // Return a random place in the line, most often that of a near neighbour of place `one`.
 Int place_near(const ProblemData& data, View<const Line, 1> line, Int count, Int one,
@@ -55,7 +54,7 @@ struct WayByAir {
           duration(out.duration + service_duration(place) + home.duration) {}
 
     double distance_cost(const Rate& rate) const {
-        return cost_of(out.distance + home.distance, rate.drone_distance);
+        return flown_cost(rate, out.distance + home.distance);
     }
 };
 
@@ -82,7 +81,7 @@ public:
         const Line& spared = line_[flown];
         const Int drive = driven(j, spared.spared_drive);
         const double alone = ground(j, spared.spared_distance);
-        if (cost_of(handled_ + drive, rate_.time) + alone >= most) return infinite;
+        if (usual_work_cost(rate_, handled_ + drive) + alone >= most) return infinite;
         const NodeRows place = places_[spared.node];
         const WayByAir flight(data_, type_, place, line_[i_].node, spared.node, line_[j].node);
         const Int airborne = std::max(flight.duration, drive);
@@ -91,8 +90,8 @@ public:
                       airborne - flight.duration)) {
             return infinite;
         }
-        return cost_of(handled_ + airborne, rate_.time) + alone +
-               cost_of(airborne, rate_.drone_time) + flight.distance_cost(rate_);
+        return usual_work_cost(rate_, handled_ + airborne) + alone +
+               airborne_cost(rate_, airborne) + flight.distance_cost(rate_);
     }
 
 private:
@@ -101,8 +100,8 @@ private:
     }
 
     double ground(Int j, Int spared) const {
-        return cost_of(line_[j].distance - line_[i_].distance - spared, rate_.distance) +
-               cost_of(j - i_ - 1, rate_.stop);
+        return drive_cost(rate_, line_[j].distance - line_[i_].distance - spared) +
+               stops_cost(rate_, j - i_ - 1);
     }
 
     const ProblemData& data_;
@@ -125,14 +124,14 @@ double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
         !can_serve(type, place, flight.out.duration, flight.home.duration)) {
         return infinite;
     }
-    return cost_of(flight.duration + handling_duration(type), rate.time) +
-           cost_of(flight.duration, rate.drone_time) + flight.distance_cost(rate);
+    return usual_work_cost(rate, flight.duration + handling_duration(type)) +
+           airborne_cost(rate, flight.duration) + flight.distance_cost(rate);
 }
 
-// Return what the drive from a node to the next stop costs, with the service before.
-double drive_cost(const Rate& rate, double before, const Leg& way, Int service) {
-    return before + cost_of(way.duration + service, rate.time) +
-           cost_of(way.distance, rate.distance) + rate.stop;
+// Return what it costs to come so far, be served and drive to the next stop.
+double driven_on(const Rate& rate, double before, const Leg& way, Int service) {
+    return before + usual_work_cost(rate, way.duration + service) + drive_cost(rate, way.distance) +
+           rate.stop;
 }
 
 // Places of a line whose customers a drone may serve, from one on to where operations end.
@@ -172,7 +171,7 @@ void extend(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> 
     for (Int j = i + 1; j < std::min(length, i + longest_operation + 1); ++j) {
         const Int to = line[j].node;
         if (j == length - 1 || drives[to]) {
-            const double total = drive_cost(rate, cost[i] + loops, leg(legs, here, to), service);
+            const double total = driven_on(rate, cost[i] + loops, leg(legs, here, to), service);
             if (total < cost[j]) {
                 cost[j] = total;
                 line[j].before = i;
@@ -262,8 +261,8 @@ double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, In
         }
         const Int here = line[i].node;
         const Leg way = leg(legs, here, line[j].node);
-        cost += cost_of(way.duration + service_duration(places[here]), rate.time) +
-                cost_of(way.distance, rate.distance);
+        cost += usual_work_cost(rate, way.duration + service_duration(places[here])) +
+                drive_cost(rate, way.distance);
         cost += rate.stop;
         for (Int place = i + 1; place < j; ++place) {
             cost += loop_cost(data, k, here, line[place].node);

@@ -171,8 +171,7 @@ double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops,
     }
     flown += leg(flights, node, stops[sortie.recovery].node).distance;
     const Int airborne = recovery_end(data.type[row], sortie.begin) - sortie.takeoff;
-    return static_cast<double>(flown) * data.rate[row].drone_distance +
-           static_cast<double>(airborne) * data.rate[row].drone_time;
+    return flown_cost(data.rate[row], flown) + airborne_cost(data.rate[row], airborne);
 }
 
 Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,
@@ -201,14 +200,10 @@ RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1
     const Rate& rate = data.rate[k];
     RoutePrice price{rate.fixed, 0.0};
     for (const Trip& trip : trips.first(route.trips)) {
-        price.cost += static_cast<double>(trip.distance) * rate.distance;
+        price.cost += drive_cost(rate, trip.distance);
     }
-    price.cost += static_cast<double>(route.length - 2 * route.trips) * rate.stop;
-    price.cost += static_cast<double>(route.working) * rate.time;
-    if (rate.overtime > 0.0) {
-        price.cost +=
-            static_cast<double>(overtime(data.type[k], route.end, route.working)) * rate.overtime;
-    }
+    price.cost += stops_cost(rate, route.length - 2 * route.trips);
+    price.cost += work_cost(rate, work_of(data.type[k], route));
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         price.cost += sortie_cost(data, k, stops, sortie);
     }

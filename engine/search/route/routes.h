@@ -36,12 +36,12 @@ void open_up(const Route& route, View<Stop, 1> stops);
 
 // Return what being late at a customer costs; nothing at a depot.
 inline double lateness_cost(const ProblemData& data, Int node, Int arrival) {
-    return static_cast<double>(lateness(data.place[0][node], arrival)) * data.price[node].lateness;
+    return lateness_cost(data.price[node], data.place[0][node], arrival);
 }
 
 // Return what being early at a customer costs.
 inline double waiting_cost(const ProblemData& data, Int node, Int arrival) {
-    return static_cast<double>(waiting(data.place[0][node], arrival)) * data.price[node].waiting;
+    return waiting_cost(data.price[node], data.place[0][node], arrival);
 }
 
 // Return what being late, or early, at a customer costs.
@@ -70,15 +70,15 @@ double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, co
 Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,
                     View<const Sortie, 1> sorties);
 
+// Return how much of the work on a timed route is paid.
+inline PaidWork work_of(const VehicleType& type, const Route& route) {
+    return paid_work(type, route.end, route.working);
+}
+
 // Return what it costs more that a route ends at `end` and works so long.
 inline double longer_cost(const VehicleType& type, const Rate& rate, const Route& route, Int end,
                           Int working) {
-    double cost = static_cast<double>(working - route.working) * rate.time;
-    if (rate.overtime > 0.0) {
-        const Int more = overtime(type, end, working) - overtime(type, route.end, route.working);
-        cost += static_cast<double>(more) * rate.overtime;
-    }
-    return cost;
+    return work_cost(rate, paid_work(type, end, working) - work_of(type, route));
 }
 
 // The cost of a route, and what waiting for windows costs of it.

@@ -1,6 +1,7 @@
 #include "search/route/stop_loads.h"
 
 #include "rules/drone_types.h"
+#include "rules/rates.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
@@ -107,7 +108,7 @@ double load_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
         const Int load = stop_loads[p].load + data.type[k].carried;
         carried += static_cast<double>(load) * static_cast<double>(fleet.stop(slot, p).leg);
     }
-    return carried * data.rate[k].load;
+    return load_cost(data.rate[k], carried);
 }
 
 double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left, Int came,
@@ -116,10 +117,10 @@ double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, left).trip);
     const Int parcel = delivered_of(data.amount, node, 0)[0];
     const Int taken = picked_of(data.amount, node, 0)[0];
-    return (static_cast<double>(parcel) * static_cast<double>(stop_loads[left].driven) +
-            static_cast<double>(taken) *
-                static_cast<double>(trip.distance - stop_loads[came].driven)) *
-           data.rate[fleet.route[slot].type].load;
+    const double carried =
+        static_cast<double>(parcel) * static_cast<double>(stop_loads[left].driven) +
+        static_cast<double>(taken) * static_cast<double>(trip.distance - stop_loads[came].driven);
+    return load_cost(data.rate[fleet.route[slot].type], carried);
 }
 
 double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
@@ -132,7 +133,7 @@ double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, I
     const double legs = static_cast<double>(load) * static_cast<double>(detour) +
                         static_cast<double>(parcel) * static_cast<double>(out) +
                         static_cast<double>(taken) * static_cast<double>(on);
-    return load_more(data, fleet, slot, p, p + 1, node) + legs * data.rate[k].load;
+    return load_more(data, fleet, slot, p, p + 1, node) + load_cost(data.rate[k], legs);
 }
 
 bool can_take(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {

@@ -69,9 +69,7 @@ inline Haul haul_of(const Trip& trip) { return {trip.distance, stops_on(trip), l
 
 // Return what it costs by a vehicle of type `k`.
 inline double route_cost(const ProblemData& data, Int k, const Haul& haul) {
-    const Rate& rate = data.rate[k];
-    return rate.fixed + static_cast<double>(haul.distance) * rate.distance +
-           static_cast<double>(haul.stops) * rate.stop;
+    return trip_cost(data.rate[k], haul.distance, haul.stops);
 }
 
 // Tell whether a vehicle of a type holds what a trip carries, and may stop so often.

@@ -1,0 +1,58 @@
+// What drives, stops, flights and missed windows cost. What work costs stands in `rules/shift.h`.
+#pragma once
+
+#include "rules/window.h"
+
+namespace tandem {
+
+// What one of is priced, in ms and mm.
+struct Units {
+    double duration, distance;
+};
+
+constexpr Units hours_and_km{3'600'000.0, 1'000'000.0};  // as a problem states its prices
+constexpr Units ms_and_mm{1.0, 1.0};                     // as the search adds them up
+
+// What the truck's drives cost.
+inline double drive_cost(const Rate& rate, Int distance, Units units = ms_and_mm) {
+    return static_cast<double>(distance) / units.distance * rate.distance;
+}
+
+// What it costs that the truck serves so many customers itself.
+inline double stops_cost(const Rate& rate, Int stops) {
+    return static_cast<double>(stops) * rate.stop;
+}
+
+// What a vehicle costs that makes one such trip, but for its work.
+inline double trip_cost(const Rate& rate, Int distance, Int stops) {
+    return rate.fixed + drive_cost(rate, distance) + stops_cost(rate, stops);
+}
+
+// What loads cost, each in the first dimension times the way that it is driven.
+inline double load_cost(const Rate& rate, double carried, Units units = ms_and_mm) {
+    return carried / units.distance * rate.load;
+}
+
+// What the way that drones fly costs, by the row of their type.
+inline double flown_cost(const Rate& rate, Int distance, Units units = ms_and_mm) {
+    return static_cast<double>(distance) / units.distance * rate.drone_distance;
+}
+
+// What it costs that drones are in the air so long, from take-off to the end of recovery.
+inline double airborne_cost(const Rate& rate, Int duration, Units units = ms_and_mm) {
+    return static_cast<double>(duration) / units.duration * rate.drone_time;
+}
+
+// What an arrival behind the window costs.
+inline double lateness_cost(const Price& price, NodeRows place, Int arrival,
+                            Units units = ms_and_mm) {
+    return static_cast<double>(lateness(place, arrival)) / units.duration * price.lateness;
+}
+
+// What it costs to wait for the window.
+inline double waiting_cost(const Price& price, NodeRows place, Int arrival,
+                           Units units = ms_and_mm) {
+    return static_cast<double>(waiting(place, arrival)) / units.duration * price.waiting;
+}
+
+}  // namespace tandem
