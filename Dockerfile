@@ -38,6 +38,6 @@ WORKDIR /data
 VOLUME /data
 
 EXPOSE 8000
-HEALTHCHECK --interval=10s --timeout=3s --start-period=120s --retries=3 \
+HEALTHCHECK --interval=10s --timeout=3s --start-period=30s --retries=3 \
     CMD ["python3", "-c", "import urllib.request as r; r.urlopen('http://127.0.0.1:8000/health/ready', timeout=2)"]
 CMD ["tandem", "serve", "--host", "0.0.0.0", "--port", "8000"]

@@ -27,7 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 # begin. Such requests are answered with 422. And DELETE stops a job, whose best plan stays.
 UNCHECKED = "positive_data_acceptance,use_after_free"
 
-START_SECONDS = 600.0
+START_SECONDS = 120.0
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from playwright.sync_api import Browser, BrowserContext, ViewportSize, sync_play
 ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync")
-START_SECONDS = 600
+START_SECONDS = 120
 OPENING_MS = 120_000
 """For opening a page while other tests have all cores."""
 

@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[4]
 
 logger = logging.getLogger(__name__)
 
-CRASHING_SEED, START_SECONDS = 666, 300.0
+CRASHING_SEED, START_SECONDS = 666, 120.0
 
 
 class CrashingPlanner(FirstFitPlanner):
