@@ -501,25 +501,6 @@ typedef struct tandem_move {
     int64_t type;
 } tandem_move;
 
-/* The times of a block of stops, from one where all drones are aboard to the next. */
-typedef struct tandem_block_sums {
-    int64_t time;
-    int64_t free_d;
-    int64_t free_c;
-    int64_t hi;
-    int64_t lo;
-    int64_t dep;
-    int64_t oldest;
-    int64_t flying;
-    int64_t launched;     /* on the trip so far */
-    int64_t first_sortie; /* of the trip */
-    int64_t awaited; /* on the route so far: how long launches wait for batteries to be charged */
-    int64_t end;     /* of a part, as what follows it: this and the next three */
-    int64_t cum;
-    int64_t depart;
-    int64_t driven;
-} tandem_block_sums;
-
 /* How many there are of each; the turn; the last stamp that was given. */
 typedef struct tandem_search_counts {
     int64_t active;
@@ -1094,7 +1075,6 @@ typedef struct tandem_searcher {
     tandem_move* move;        /* scratch, best insertion */
     tandem_move_1d offer;     /* (offer,) scratch, insertions that may be best */
     tandem_f64_1d least;      /* (offer,) scratch, what each costs at least */
-    tandem_block_sums* acc;   /* of a block, scratch */
     tandem_bound* bound;      /* scratch */
     tandem_f64_3d alone;      /* (type, 2, node) cost of a route that serves one customer */
     tandem_kept_2d kept;      /* (node, slot) the best places on lean routes as they are */
@@ -1250,7 +1230,7 @@ int tandem_go_back(const tandem_searcher* searcher);
 
 /* Tell what it costs to insert a customer as a move says. */
 int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
-                      const tandem_move* move, int64_t node, tandem_block_sums* acc, double* cost);
+                      const tandem_move* move, int64_t node, double* cost);
 /* Tell what the cheapest stop beside neighbours costs a customer, where all routes are lean and it
    is cheaper than `best`. */
 int tandem_scan_beside_lean(const tandem_problem_data* data, const tandem_searcher* searcher,
@@ -1300,7 +1280,7 @@ int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_ch
                      int64_t* length);
 /* Write the cost of a route that serves one customer alone, (type, 2, node). */
 int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
-                       tandem_block_sums* acc, const tandem_f64_3d* alone);
+                       const tandem_f64_3d* alone);
 /* Time the routes written; those that break a rule are left to be planned anew. */
 int tandem_begin(const tandem_problem_data* data, const tandem_searcher* searcher,
                  int64_t num_routes);
@@ -1308,8 +1288,7 @@ int tandem_begin(const tandem_problem_data* data, const tandem_searcher* searche
 int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* searcher, double* cost);
 /* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
    it. */
-int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot,
-                        tandem_block_sums* acc);
+int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot);
 /* Write when service begins at customers, by the rows of all nodes. */
 int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
                           const tandem_i64_1d* arrivals, const tandem_i64_1d* starts);

@@ -17,14 +17,13 @@
 
 namespace tandem {
 
-void alone_costs(const ProblemData& data, Fleet& fleet, BlockSums& acc,
-                 const View<double, 3>& alone) {
+void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone) {
     const Int slot = fleet.route.size() - 1;
     for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
             for (Int node = data.num_depots; node < data.num_nodes; ++node) {
                 if (data.can(k, by_drone, node) && !data.deadline.passed() &&
-                    serve_alone(data, fleet, slot, k, node, by_drone == 1, acc)) {
+                    serve_alone(data, fleet, slot, k, node, by_drone == 1)) {
                     alone(k, by_drone, node) = fleet.cost[slot];
                 }
             }
@@ -40,7 +39,7 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     for (Int slot = 0; slot < num_routes; ++slot) {
         data.deadline.go_on_late();
         Route& route = now.route[slot];
-        if (refresh(data, now, slot, *searcher.acc)) {
+        if (refresh(data, now, slot)) {
             ++now.used[route.type];
             cost += now.cost[slot];
             locate(now, slot);
@@ -79,19 +78,19 @@ double leg_cost(const ProblemData& data, const Searcher& searcher) {
     return std::max(1e-9, (searcher.value->cost - left_out) / double(data.num_nodes));
 }
 
-bool finish_route(const ProblemData& data, Fleet& fleet, Int slot, BlockSums& acc) {
+bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     load_trips(data, route, stops, trips, sorties);
     clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties, acc)) return false;
-    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties, acc) &&
-        !drive_forward(data, route, stops, sorties, acc)) {
+    if (!drive_forward(data, route, stops, sorties)) return false;
+    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties) &&
+        !drive_forward(data, route, stops, sorties)) {
         return false;
     }
-    return settle(data, route, stops, trips, sorties, acc);
+    return settle(data, route, stops, trips, sorties);
 }
 
 }  // namespace tandem
@@ -99,10 +98,10 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot, BlockSums& ac
 using namespace tandem;
 
 extern "C" int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
-                                  tandem_block_sums* acc, const tandem_f64_3d* alone) {
+                                  const tandem_f64_3d* alone) {
     return guarded([&] {
         Fleet routes = fleet_of(*fleet);
-        alone_costs(data_of(*data), routes, *acc, *alone);
+        alone_costs(data_of(*data), routes, *alone);
     });
 }
 
@@ -120,10 +119,10 @@ extern "C" int tandem_leg_cost(const tandem_problem_data* data, const tandem_sea
 }
 
 extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet,
-                                   int64_t slot, tandem_block_sums* acc) {
+                                   int64_t slot) {
     return guarded([&] {
         Fleet routes = fleet_of(*fleet);
-        if (!finish_route(data_of(*data), routes, slot, *acc)) {
+        if (!finish_route(data_of(*data), routes, slot)) {
             throw std::invalid_argument("nobody can drive the route");
         }
     });

@@ -7,8 +7,7 @@ namespace tandem {
 
 // Writes the cost of a route that serves one customer alone, (type, 2, node). A slot of the fleet
 // is scratch.
-void alone_costs(const ProblemData& data, Fleet& fleet, BlockSums& acc,
-                 const View<double, 3>& alone);
+void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone);
 
 // Times the routes written; those that break a rule are left to be planned anew.
 void begin(const ProblemData& data, Searcher& searcher, Int num_routes);
@@ -19,6 +18,6 @@ double leg_cost(const ProblemData& data, const Searcher& searcher);
 
 // Writes the times of a route whose trips begin as late as costs nothing. False if nobody can drive
 // it.
-bool finish_route(const ProblemData& data, Fleet& fleet, Int slot, BlockSums& acc);
+bool finish_route(const ProblemData& data, Fleet& fleet, Int slot);
 
 }  // namespace tandem

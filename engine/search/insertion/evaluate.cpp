@@ -1,6 +1,7 @@
 #include "search/insertion/evaluate.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "guard.h"
 #include "rules/drone_types.h"
@@ -90,12 +91,19 @@ Move within(Move move, Int stops, Int sorties) {
     return move;
 }
 
-// Times the changed stops in slot `to`, which take the place of those from `first` on. False if a
+// When some stops are left, the sum of all durations up to there, the latest departure that costs
+// nothing, and how far they are driven.
+struct PartTimes {
+    Int end;
+    Int cum;
+    Int depart;
+    Int driven;
+};
+
+// Times the changed stops in slot `to`, which take the place of those from `first` on. Nothing if a
 // rule is broken.
-//
-// Leaves the sums so far in `acc`.
-bool time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first, Int to,
-               BlockSums& acc) {
+std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
+                                   Int to) {
     const Route& route = fleet.route[to];
     const View<Stop, 1> stops = fleet.stop[to];
     const View<Sortie, 1> sorties = fleet.sortie[to];
@@ -107,16 +115,17 @@ bool time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
     Int time = old[first].arrival, cum = old[first].before;
     Int depart = first > 0 ? old[first - 1].depart : far;
     make_ready(truck, stops, sorties, count);
-    acc.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
-                                   fleet.trip(slot, old[first].trip), first);
+    BlockSums sums;
+    sums.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
+                                    fleet.trip(slot, old[first].trip), first);
     Int p = 0, s = 0, driven = 0;
     while (p < length) {
         Stop& stop = stops[p];
         Int last = p;
-        if (stop.kind == start_stop) acc.launched = 0;
+        if (stop.kind == start_stop) sums.launched = 0;
         if (s < count && sorties[s].launch == p) {
-            last = time_block(truck, stops, length, sorties, count, p, s, time, acc);
-            if (last < 0) return false;
+            last = time_block(truck, stops, length, sorties, count, p, s, time, sums);
+            if (last < 0) return std::nullopt;
             while (s < count && sorties[s].launch <= last) ++s;
             for (Int q = p; q < last; ++q) {
                 driven += leg(legs, stops[q].node, stops[q + 1].node).distance;
@@ -124,7 +133,7 @@ bool time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
         } else {
             truck.time_alone(stop, time);
         }
-        if (time > stop.hi || time < stop.lo) return false;
+        if (time > stop.hi || time < stop.lo) return std::nullopt;
         depart = std::min(depart, stop.dep - cum);
         cum += stop.d;
         time = std::max(time + stop.d, stop.c);
@@ -139,19 +148,14 @@ bool time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
         cum += gap;
         time += gap;
     }
-    acc.end = time;
-    acc.cum = cum;
-    acc.depart = depart;
-    acc.driven = driven;
-    return true;
+    return PartTimes{time, cum, depart, driven};
 }
 
 // Returns what it costs to put the stops in slot `to` in the place of a part.
-double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part part, Int to,
-                  BlockSums& acc) {
-    if (!time_part(data, fleet, slot, part.first, to, acc)) return infeasible;
-    const Int time = acc.end;
-    Int cum = acc.cum, depart = acc.depart, driven = acc.driven;
+double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part part, Int to) {
+    const std::optional<PartTimes> times = time_part(data, fleet, slot, part.first, to);
+    if (!times) return infeasible;
+    auto [time, cum, depart, driven] = *times;
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> old = fleet.stop[slot];
     const Int k = route.type;
@@ -239,7 +243,7 @@ Ending follow(const ProblemData& data, const Route& route, View<const Stop, 1> s
 }  // namespace
 
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-                 bool by_drone, BlockSums& acc) {
+                 bool by_drone) {
     const bool one_place = data.type[k].begins_at == data.type[k].ends_at;
     const Int first_way = by_drone ? from_start : by_truck;
     const Int options = by_drone && !one_place ? ways - from_start : 1;
@@ -255,7 +259,7 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
         if (done) {
             begin_route(sequence_in(fleet, slot), data.type[k], k, node,
                         first_way + option % options, first_drone(data.type, k, row));
-            done = refresh(data, fleet, slot, acc);
+            done = refresh(data, fleet, slot);
         }
         if (done && fleet.cost[slot] < best) {
             best = fleet.cost[slot];
@@ -265,15 +269,14 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
     return done;
 }
 
-double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
-                  BlockSums& acc) {
+double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node) {
     const Int slot = move.slot, to = fleet.route.size() - 1;
     const Int k = fleet.route[slot].type, kind = move.kind;
     const Int depot = data.type[k].depot;
     if (data.evaluation[k].priced || (is_apart(data, k) && kind >= new_trip)) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, sequence_in(fleet, to), move, node);
-        if (!refresh_cost(data, fleet, to, acc)) return infeasible;
+        if (!refresh_cost(data, fleet, to)) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
     const Int there =
@@ -285,7 +288,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int skipped = copy_part(fleet, slot, part, to);
     apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node);
     give_releases(fleet, to, alone, trip, release);
-    double cost = price_part(data, fleet, slot, part, to, acc);
+    double cost = price_part(data, fleet, slot, part, to);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
         cost += data.rate[k].stop;
     }
@@ -343,10 +346,9 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, 
 }  // namespace tandem
 
 extern "C" int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
-                                 const tandem_move* move, int64_t node, tandem_block_sums* acc,
-                                 double* cost) {
+                                 const tandem_move* move, int64_t node, double* cost) {
     return tandem::guarded([&] {
         tandem::Fleet routes = tandem::fleet_of(*fleet);
-        *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node, *acc);
+        *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node);
     });
 }

@@ -11,11 +11,10 @@ constexpr double infeasible = 1e300;
 //
 // Where it begins and ends at one place, a drone leaves from the start, and comes back there.
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-                 bool by_drone, BlockSums& acc);
+                 bool by_drone);
 
 // Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be.
-double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
-                  BlockSums& acc);
+double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node);
 
 // Tells whether `price_stop` can price a customer behind stop `p`.
 //

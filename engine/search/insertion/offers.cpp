@@ -108,7 +108,7 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
                is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
         return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
     }
-    return price_move(data, now, move, node, *searcher.acc);
+    return price_move(data, now, move, node);
 }
 
 }  // namespace

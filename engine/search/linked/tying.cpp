@@ -49,8 +49,7 @@ void link_best(Linked& linked, const Fleet& best, Int slot) {
 }
 
 // Writes the ends of a route whose customers are there, and all that follows.
-void write_stops(const ProblemData& data, Searcher& searcher, Fleet& fleet, Int slot, Int k,
-                 Int count) {
+void write_stops(const ProblemData& data, Fleet& fleet, Int slot, Int k, Int count) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     route.type = k;
@@ -58,7 +57,7 @@ void write_stops(const ProblemData& data, Searcher& searcher, Fleet& fleet, Int 
     route.sorties = 0;
     put(stops, 0, data.type[k].begins_at, start_stop);
     put(stops, count + 1, data.type[k].ends_at, end_stop);
-    refresh(data, fleet, slot, *searcher.acc);
+    refresh(data, fleet, slot);
 }
 
 // Writes the routes as they are; returns what they cost.
@@ -72,7 +71,7 @@ double write_now(const ProblemData& data, Searcher& searcher, const Linked& link
             put(now.stop[slot], p, node, customer_stop);
             node = linked.link[node].behind;
         }
-        write_stops(data, searcher, now, slot, run.type, run.count);
+        write_stops(data, now, slot, run.type, run.count);
         locate(now, slot);
         cost += now.cost[slot];
     }
@@ -90,7 +89,7 @@ double write_best(const ProblemData& data, Searcher& searcher, const Linked& lin
         for (; node >= data.num_depots; node = linked.best_behind[node]) {
             put(best.stop[slot], ++count, node, customer_stop);
         }
-        write_stops(data, searcher, best, slot, linked.best_type[slot], count);
+        write_stops(data, best, slot, linked.best_type[slot], count);
         cost += best.cost[slot];
     }
     return cost;

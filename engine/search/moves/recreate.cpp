@@ -63,7 +63,7 @@ bool open_route(const ProblemData& data, const Searcher& searcher, Int node, Int
     const Int slot = free_slot(data, searcher, k);
     if (slot < 0) return false;
     touch(searcher, slot);
-    if (!serve_alone(data, now, slot, k, node, by_drone, *searcher.acc)) {
+    if (!serve_alone(data, now, slot, k, node, by_drone)) {
         now.route[slot].length = 0;
         now.cost[slot] = 0.0;
         return false;
@@ -92,10 +92,10 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node) {
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
     apply(data.type[route.type].depot, sequence_in(now, slot), move, node);
-    const bool allowed = refresh(data, now, slot, *searcher.acc);
+    const bool allowed = refresh(data, now, slot);
     if (!allowed) {
         keep_aside(now, spare, slot);
-        refresh(data, now, slot, *searcher.acc);
+        refresh(data, now, slot);
     }
     locate(now, slot);
     return allowed;

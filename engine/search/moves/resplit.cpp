@@ -281,7 +281,7 @@ bool write_between(const ProblemData& data, Searcher& searcher, Int k, Int slot,
     write_operations(route, now.stop[slot], now.sortie[slot], behind(searcher.line, begin),
                      end - begin + 1, now.stop(spare, part.first).kind);
     append(now, spare, part.last, now.route[spare].length, slot);
-    const bool done = refresh(data, now, slot, *searcher.acc);
+    const bool done = refresh(data, now, slot);
     locate(now, slot);
     return done;
 }

@@ -75,13 +75,12 @@ void give_type(const ProblemData& data, Searcher& searcher, Int slot, Int k, boo
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
     now.route[slot].type = k;
-    if (refresh(data, now, slot, *searcher.acc) &&
-        !(cheaper && now.cost[slot] >= cost - least_saving)) {
+    if (refresh(data, now, slot) && !(cheaper && now.cost[slot] >= cost - least_saving)) {
         --now.used[former];
         ++now.used[k];
     } else {
         keep_aside(now, spare, slot);
-        refresh(data, now, slot, *searcher.acc);
+        refresh(data, now, slot);
     }
 }
 

@@ -140,12 +140,12 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, View<
 }
 
 Int remove_marked(const ProblemData& data, Fleet& fleet, Int slot, View<bool, 1> marked,
-                  View<Int, 1> absent, Int num_absent, View<Int, 1> moved, BlockSums& acc) {
+                  View<Int, 1> absent, Int num_absent, View<Int, 1> moved) {
     Route& route = fleet.route[slot];
     const Sequence sequence = sequence_in(fleet, slot);
     num_absent = keep_sorties(sequence, marked, absent, num_absent);
     close_ranks(sequence, marked, moved);
-    if (route.length > 0 && !refresh(data, fleet, slot, acc)) {
+    if (route.length > 0 && !refresh(data, fleet, slot)) {
         num_absent = mark_all(fleet, slot, marked, absent, num_absent);
         route.length = 0;
     }

@@ -35,6 +35,6 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, View<
 // Take the marked customers out of a route; all, if the rest breaks a rule. In place; return how
 // many are absent then.
 Int remove_marked(const ProblemData& data, Fleet& fleet, Int slot, View<bool, 1> marked,
-                  View<Int, 1> absent, Int num_absent, View<Int, 1> moved, BlockSums& acc);
+                  View<Int, 1> absent, Int num_absent, View<Int, 1> moved);
 
 }  // namespace tandem

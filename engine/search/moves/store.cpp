@@ -110,8 +110,8 @@ private:
         if (first > 0) try_near(data_, searcher_, seed, first, before);
         for (Int slot : searcher_.moved.first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {
-            total = remove_marked(data_, now, slot, searcher_.marked, absent, total,
-                                  searcher_.moved, *searcher_.acc);
+            total =
+                remove_marked(data_, now, slot, searcher_.marked, absent, total, searcher_.moved);
             if (now.route[slot].length > 0) locate(now, slot);
         }
         for (Int index = before; index < total; ++index) {

@@ -251,7 +251,7 @@ bool swap_tails(const ProblemData& data, Searcher& searcher, Cut a, Cut b) {
             now.cost[slot] = 0.0;
             --now.used[route.type];
         } else if (done) {
-            done = refresh(data, now, slot, *searcher.acc);
+            done = refresh(data, now, slot);
             locate(now, slot);
         }
     }

@@ -34,7 +34,7 @@ void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward
     sortie.limit = longest_hold(type, flown + flight, sortie.left, most);
 }
 
-void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& acc) {
+void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& sums) {
     Int aboard = sortie.taken;
     for (Int index = sortie.count - 1; index >= 0; --index) {
         const NodeRows place = places[sortie.nodes[index]];
@@ -42,7 +42,7 @@ void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums&
         const Int waited = waiting(place, sortie.arrivals[index]);
         if (waited > 0) {
             sortie.left = after_hovering(type, sortie.left, aboard, waited);
-            acc.lo = std::max(acc.lo, acc.time);
+            sums.lo = std::max(sums.lo, sums.time);
         }
     }
 }

@@ -3,7 +3,7 @@
 
 #include "rules/leg.h"
 #include "rules/window.h"
-#include "search/route/layout.h"
+#include "search/route/block.h"
 
 namespace tandem {
 
@@ -16,7 +16,7 @@ void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward
 // Take what a sortie whose arrivals are known needs to wait for windows in the air. In place.
 //
 // Later it waits no longer, as long as windows are the same; sooner, nothing is said of.
-void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& acc);
+void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& sums);
 
 // Write with what the drone of a sortie has come aboard, and when it can fly. In place.
 //

@@ -38,37 +38,37 @@ Int soonest_takeoff(const DroneData& drone_data, const Sortie& sortie, Int node,
 }
 
 // Let the truck arrive at the block from `first` to `last`. In place.
-void bound_arrival(BlockSums& acc, Interval within) {
-    acc.lo = std::max(acc.lo, within.first);
-    acc.hi = std::min(acc.hi, within.last);
+void bound_arrival(BlockSums& sums, Interval within) {
+    sums.lo = std::max(sums.lo, within.first);
+    sums.hi = std::min(sums.hi, within.last);
 }
 
 // Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
 //
 // In place; false if that is too late however soon the truck arrives.
-inline bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& acc) {
+inline bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& sums) {
     if (too_late(place, c)) return false;
-    bound_arrival(acc, allowed_within(place, acc.time, d, c));
-    acc.dep = std::min(acc.dep, in_same_window(place, arrival) - d);
+    bound_arrival(sums, allowed_within(place, sums.time, d, c));
+    sums.dep = std::min(sums.dep, in_same_window(place, arrival) - d);
     return true;
 }
 
 // Launch a sortie from `node` once the truck's crew is free. In place; false if not allowed.
-bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& acc) {
+bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& sums) {
     const VehicleType& type = drone_data.type;
-    Int d = take_off(type, acc.free_d, acc.launched);
-    Int c = take_off(type, acc.free_c, acc.launched);
-    const Int takeoff = std::max(acc.time + d, c);
+    Int d = take_off(type, sums.free_d, sums.launched);
+    Int c = take_off(type, sums.free_c, sums.launched);
+    const Int takeoff = std::max(sums.time + d, c);
     const Int held = soonest_takeoff(drone_data, sortie, node, takeoff);
     if (held > takeoff) c = held;
     if (charges_aboard(type)) {
         const Int free = d;
-        d = std::max(d, await_charge(type, sortie, std::max(acc.time + d, c), acc.time));
-        acc.awaited += d - free;
+        d = std::max(d, await_charge(type, sortie, std::max(sums.time + d, c), sums.time));
+        sums.awaited += d - free;
     }
-    acc.free_d = sortie.takeoff_d = d;
-    acc.free_c = sortie.takeoff_c = c;
-    sortie.takeoff = std::max(acc.time + d, c);
+    sums.free_d = sortie.takeoff_d = d;
+    sums.free_c = sortie.takeoff_c = c;
+    sortie.takeoff = std::max(sums.time + d, c);
     Int here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
@@ -76,10 +76,10 @@ bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& a
         const Int flight = leg(drone_data.legs, here, next).duration;
         d += flight;
         c += flight;
-        const Int arrival = std::max(acc.time + d, c);
-        if (unreachable(flight) || !reach(place, arrival, d, c, acc)) return false;
+        const Int arrival = std::max(sums.time + d, c);
+        if (unreachable(flight) || !reach(place, arrival, d, c, sums)) return false;
         sortie.arrivals[index] = arrival;
-        const auto [start_d, start_c] = start_within(place, acc.time, d, c);
+        const auto [start_d, start_c] = start_within(place, sums.time, d, c);
         d = start_d + service_duration(place);
         c = start_c + service_duration(place);
         here = next;
@@ -87,42 +87,42 @@ bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& a
     sortie.ready_d = d;
     sortie.ready_c = c;
     sortie.state = sortie_flies;
-    ++acc.flying;
-    ++acc.launched;
-    if (hovers_at_customers(type)) hover(drone_data.places, type, sortie, acc);
+    ++sums.flying;
+    ++sums.launched;
+    if (hovers_at_customers(type)) hover(drone_data.places, type, sortie, sums);
     return !is_limited(type) || sortie.left >= 0;
 }
 
 // Recover a sortie at `node`. In place; false if endurance or energy forbids it.
-bool bring_home(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& acc) {
+bool bring_home(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& sums) {
     const VehicleType& type = drone_data.type;
     const Int flight = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
     const Int back_d = sortie.ready_d + flight, back_c = sortie.ready_c + flight;
-    const Int begin_d = std::max(acc.free_d, back_d), begin_c = std::max(acc.free_c, back_c);
+    const Int begin_d = std::max(sums.free_d, back_d), begin_c = std::max(sums.free_c, back_c);
     if (unreachable(flight)) return false;
-    bound_arrival(acc, lasting_within(endurance_of(type), sortie.takeoff_d, sortie.takeoff_c,
-                                      counted_until(type, back_d, begin_d),
-                                      counted_until(type, back_c, begin_c)));
+    bound_arrival(sums, lasting_within(endurance_of(type), sortie.takeoff_d, sortie.takeoff_c,
+                                       counted_until(type, back_d, begin_d),
+                                       counted_until(type, back_c, begin_c)));
     if (is_limited(type)) {
         const Interval hovering = lasting_within(longest_hover(type, sortie.left, sortie.taken),
                                                  back_d, back_c, begin_d, begin_c);
-        bound_arrival(acc, hovering);
+        bound_arrival(sums, hovering);
         // A sortie as long as before may wait where that takes more.
-        acc.dep = std::min(acc.dep, hovering.last);
+        sums.dep = std::min(sums.dep, hovering.last);
     }
-    const Int begin = std::max(acc.time + begin_d, begin_c);
+    const Int begin = std::max(sums.time + begin_d, begin_c);
     sortie.begin = begin;
     if (charges_aboard(type)) {
         sortie.left = after_hovering(type, sortie.left, sortie.taken,
-                                     begin - std::max(acc.time + back_d, back_c));
+                                     begin - std::max(sums.time + back_d, back_c));
     }
     const Int slack = begin - begin_d;
-    if (sortie.takeoff - sortie.takeoff_d > slack) acc.dep = std::min(acc.dep, slack);
-    acc.free_d = recovery_end(type, begin_d);
-    acc.free_c = recovery_end(type, begin_c);
+    if (sortie.takeoff - sortie.takeoff_d > slack) sums.dep = std::min(sums.dep, slack);
+    sums.free_d = recovery_end(type, begin_d);
+    sums.free_c = recovery_end(type, begin_c);
     sortie.state = sortie_done;
-    --acc.flying;
-    return acc.lo <= acc.hi;
+    --sums.flying;
+    return sums.lo <= sums.hi;
 }
 
 // Tell whether the drone of a sortie has ended all sorties before it.
@@ -145,30 +145,30 @@ bool is_due(View<const Sortie, 1> sorties, Int index, Int p, Int oldest) {
 // Return when the launch or recovery of a sortie that is due can begin, doubled.
 //
 // A drone that is there is recovered before another is launched.
-Int twice_begin(const Truck& truck, const Sortie& sortie, Int node, const BlockSums& acc) {
+Int twice_begin(const Truck& truck, const Sortie& sortie, Int node, const BlockSums& sums) {
     const DroneData drone_data = truck.drone_data(sortie);
-    const Int free = std::max(acc.time + acc.free_d, acc.free_c);
+    const Int free = std::max(sums.time + sums.free_d, sums.free_c);
     if (sortie.state == sortie_flies) {
         const Int flight = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
-        const Int ready = std::max(acc.time + sortie.ready_d, sortie.ready_c);
+        const Int ready = std::max(sums.time + sortie.ready_d, sortie.ready_c);
         return 2 * std::max(free, ready + flight);
     }
     const Int takeoff =
-        soonest_takeoff(drone_data, sortie, node, take_off(drone_data.type, free, acc.launched));
-    return 2 * launch_begin(drone_data.type, takeoff, acc.launched) + 1;
+        soonest_takeoff(drone_data, sortie, node, take_off(drone_data.type, free, sums.launched));
+    return 2 * launch_begin(drone_data.type, takeoff, sums.launched) + 1;
 }
 
 // Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
 Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
-                   const BlockSums& acc) {
+                   const BlockSums& sums) {
     Int chosen = -1, earliest = none;
-    for (Int index = acc.oldest; index < count && sorties[index].launch <= p; ++index) {
+    for (Int index = sums.oldest; index < count && sorties[index].launch <= p; ++index) {
         Sortie& sortie = sorties[index];
-        if (!is_due(sorties, index, p, acc.oldest)) continue;
+        if (!is_due(sorties, index, p, sums.oldest)) continue;
         if (sortie.state == sortie_waits) {
             const DroneData drone_data = truck.drone_data(sortie);
             if (charges_aboard(drone_data.type)) {
-                note_charge(drone_data.type, sorties, index, acc.first_sortie);
+                note_charge(drone_data.type, sorties, index, sums.first_sortie);
             }
         }
         if (chosen < 0) {
@@ -176,8 +176,8 @@ Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p
             continue;
         }
         // Mostly there is but one, whose time needn't be known.
-        if (earliest == none) earliest = twice_begin(truck, sorties[chosen], node, acc);
-        const Int begin = twice_begin(truck, sortie, node, acc);
+        if (earliest == none) earliest = twice_begin(truck, sorties[chosen], node, sums);
+        const Int begin = twice_begin(truck, sortie, node, sums);
         if (begin < earliest) {
             chosen = index;
             earliest = begin;
@@ -188,21 +188,21 @@ Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p
 
 // Launch and recover all that stop `p` asks for. In place; false if not allowed.
 bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
-             BlockSums& acc) {
+             BlockSums& sums) {
     while (true) {
-        const Int index = next_operation(truck, sorties, count, p, node, acc);
+        const Int index = next_operation(truck, sorties, count, p, node, sums);
         if (index < 0) break;
         Sortie& sortie = sorties[index];
         const DroneData drone_data = truck.drone_data(sortie);
         const bool allowed = sortie.state == sortie_flies
-                                 ? bring_home(drone_data, sortie, node, acc)
-                                 : fly_out(drone_data, sortie, node, acc);
+                                 ? bring_home(drone_data, sortie, node, sums)
+                                 : fly_out(drone_data, sortie, node, sums);
         if (!allowed) return false;
     }
-    for (Int index = acc.oldest; index < count && sorties[index].launch <= p; ++index) {
+    for (Int index = sums.oldest; index < count && sorties[index].launch <= p; ++index) {
         if (sorties[index].state == sortie_waits) return false;
     }
-    while (acc.oldest < count && sorties[acc.oldest].state == sortie_done) ++acc.oldest;
+    while (sums.oldest < count && sorties[sums.oldest].state == sortie_done) ++sums.oldest;
     return true;
 }
 
@@ -246,40 +246,40 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
 }
 
 Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
-               Int count, Int first, Int oldest, Int time, BlockSums& acc) {
+               Int count, Int first, Int oldest, Int time, BlockSums& sums) {
     const VehicleType& type = truck.type;
     const TravelLegs legs = legs_of(truck.data.leg, type.travel);
     auto [d, c] = truck.origin(time);
-    acc.time = time;
-    acc.hi = acc.dep = far;
-    acc.lo = none;
-    acc.oldest = oldest;
-    acc.flying = 0;
+    sums.time = time;
+    sums.hi = sums.dep = far;
+    sums.lo = none;
+    sums.oldest = oldest;
+    sums.flying = 0;
     Int p = first;
     while (true) {
         Stop& stop = stops[p];
         stop.arrival = std::max(time + d, c);
         stop.block = first;
         if (stop.kind == customer_stop) {
-            if (!reach(truck.places[stop.node], stop.arrival, d, c, acc)) return -1;
+            if (!reach(truck.places[stop.node], stop.arrival, d, c, sums)) return -1;
         } else if (stop.kind == start_stop) {
             c = std::max(c, std::max(stop.release, stop.hold));
         }
-        acc.free_d = d;
-        acc.free_c = c;
+        sums.free_d = d;
+        sums.free_c = c;
         const auto [served_d, served_c] = truck.serve(stop, time, {d, c});
-        if (!operate(truck, sorties, count, p, stop.node, acc)) return -1;
-        d = std::max(served_d, acc.free_d);
-        c = std::max(served_c, acc.free_c);
+        if (!operate(truck, sorties, count, p, stop.node, sums)) return -1;
+        d = std::max(served_d, sums.free_d);
+        c = std::max(served_c, sums.free_c);
         stop.leave = std::max(time + d, c);
-        stop.flying = acc.flying;
+        stop.flying = sums.flying;
         stop.latest = far;
         stop.early = none;
         if (stop.kind == end_stop) {
             if (c > type.shift_latest) return -1;
-            acc.hi = std::min(acc.hi, type.shift_latest - d);
+            sums.hi = std::min(sums.hi, type.shift_latest - d);
         }
-        if (acc.flying == 0) break;
+        if (sums.flying == 0) break;
         if (stop.kind == end_stop || p + 1 >= length) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
@@ -291,9 +291,9 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
     Stop& begun = stops[first];
     begun.d = d;
     begun.c = c;
-    begun.hi = acc.hi;
-    begun.lo = acc.lo;
-    begun.dep = acc.dep;
+    begun.hi = sums.hi;
+    begun.lo = sums.lo;
+    begun.dep = sums.dep;
     note_idle(truck.places, stops, first, p);
     return p;
 }

@@ -14,6 +14,21 @@
 
 namespace tandem {
 
+// What is known of a block that the truck reaches at `time`, as far as it is timed.
+struct BlockSums {
+    Int time = 0;
+    Int free_d = 0;  // when the truck has nothing to do for drones
+    Int free_c = 0;
+    Int hi = far;  // the last arrival that keeps all rules
+    Int lo = none;
+    Int dep = far;         // the last that costs nothing
+    Int oldest = 0;        // sortie not yet over
+    Int flying = 0;        // drones
+    Int launched = 0;      // on the trip so far
+    Int first_sortie = 0;  // of the trip
+    Int awaited = 0;       // on the route so far: how long launches wait for batteries
+};
+
 // A truck of a type, and what it meets on its way, looked up once for a route.
 struct Truck {
     Truck(const ProblemData& data_of_it, Int row)
@@ -93,6 +108,6 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
 //
 // `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
 Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
-               Int count, Int first, Int oldest, Int time, BlockSums& acc);
+               Int count, Int first, Int oldest, Int time, BlockSums& sums);
 
 }  // namespace tandem

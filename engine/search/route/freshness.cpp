@@ -57,13 +57,13 @@ bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 
 }
 
 bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                View<const Trip, 1> trips, View<Sortie, 1> sorties, BlockSums& acc) {
+                View<const Trip, 1> trips, View<Sortie, 1> sorties) {
     for (const Trip& trip : trips.first(route.trips)) {
         Int excess = most_excess(data, route, stops, trip, sorties);
         while (excess > 0) {
             Stop& stop = stops[trip.first];
             stop.release = std::max(stop.arrival, stop.release) + excess;
-            if (!drive_forward(data, route, stops, sorties, acc)) return false;
+            if (!drive_forward(data, route, stops, sorties)) return false;
             const Int left = most_excess(data, route, stops, trip, sorties);
             if (left >= excess) return false;
             excess = left;

@@ -17,6 +17,6 @@ bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 
 //
 // In place; false if that helps nobody, or a rule is broken.
 bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                View<const Trip, 1> trips, View<Sortie, 1> sorties, BlockSums& acc);
+                View<const Trip, 1> trips, View<Sortie, 1> sorties);
 
 }  // namespace tandem

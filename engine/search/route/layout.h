@@ -26,7 +26,6 @@ using Kept = tandem_kept;
 using Bound = tandem_bound;
 using Place = tandem_place;
 using Move = tandem_move;
-using BlockSums = tandem_block_sums;
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Line = tandem_line;
@@ -171,7 +170,6 @@ struct Searcher {
     Move* move;                      // scratch, best insertion
     View<Move, 1> offer;             // (offer,) scratch, insertions that may be best
     View<double, 1> least;           // (offer,) scratch, what each costs at least
-    BlockSums* acc;                  // of a block, scratch
     Bound* bound;                    // scratch
     View<double, 3> alone;           // (type, 2, node) cost of a route that serves one customer
     View<Kept, 2> kept;              // (node, slot) the best places on lean routes as they are
@@ -204,7 +202,6 @@ inline Searcher searcher_of(const tandem_searcher& from) {
             from.move,
             from.offer,
             from.least,
-            from.acc,
             from.bound,
             from.alone,
             from.kept,

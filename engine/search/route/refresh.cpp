@@ -101,8 +101,7 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
 // false if it breaks a rule.
 //
 // Where that costs less, its trips are held back; `settled` tells.
-bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc,
-                 bool& settled) {
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
@@ -113,14 +112,14 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSum
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties, acc)) return false;
-    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties, acc)) {
+    if (!drive_forward(data, route, stops, sorties)) return false;
+    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties)) {
         return false;
     }
     Int departure = first_departure(data, route, stops, sorties);
     settled = held_back || has_to_wait(data, route, stops, sorties);
     if (settled) {
-        if (!settle(data, route, stops, trips, sorties, acc)) return false;
+        if (!settle(data, route, stops, trips, sorties)) return false;
         departure = settled_departure(data, route, stops, sorties);
     }
     route.working = route.end - departure;
@@ -133,14 +132,14 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSum
 }
 
 // As `refresh`, of a route that isn't lean, with trips that end where they do.
-bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
+bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     bool settled = false;
-    if (!price_as_is(data, fleet, slot, acc, settled)) return false;
+    if (!price_as_is(data, fleet, slot, settled)) return false;
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     if (settled) {
         clear_holds(route, stops, fleet.trip[slot]);
-        drive_forward(data, route, stops, fleet.sortie[slot], acc);
+        drive_forward(data, route, stops, fleet.sortie[slot]);
     }
     if (data.evaluation[route.type].retimed) {
         open_up(route, stops);
@@ -151,7 +150,7 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot, BlockS
 }
 
 // Let the trips of a route end, and the next begin, where that costs least. In place.
-void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
+void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     for (Int p = 1; p < route.length - 1; ++p) {
@@ -163,7 +162,7 @@ void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot, Block
         if (place == node) continue;
         for (const Int end : {place, node}) {
             stops[p].node = end;
-            if (refresh_as_is(data, fleet, slot, acc) && fleet.cost[slot] < cost) break;
+            if (refresh_as_is(data, fleet, slot) && fleet.cost[slot] < cost) break;
         }
     }
 }
@@ -175,7 +174,7 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 }
 
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-            View<Sortie, 1> sorties, BlockSums& acc) {
+            View<Sortie, 1> sorties) {
     for (const Trip& trip : trips.first(route.trips)) {
         Stop& stop = stops[trip.first];
         const Int hold = latest_hold(data, route, stops, sorties, trip.first);
@@ -185,7 +184,7 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
         Int found = none, failed = hold, tried = hold;
         for (Int attempt = 0; attempt <= halvings && found != hold; ++attempt) {
             stop.hold = tried;
-            if (drive_forward(data, route, stops, sorties, acc) && route.end <= end &&
+            if (drive_forward(data, route, stops, sorties) && route.end <= end &&
                 !any_too_long(data, route, stops, trips, sorties)) {
                 found = tried;
             } else {
@@ -196,27 +195,27 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
         }
         if (stop.hold != found) {
             stop.hold = found;
-            if (!drive_forward(data, route, stops, sorties, acc)) return false;
+            if (!drive_forward(data, route, stops, sorties)) return false;
         }
     }
     return true;
 }
 
-bool refresh(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
+bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     if (data.evaluation[route.type].lean) return refresh_lean(data, fleet, slot);
-    if (!refresh_as_is(data, fleet, slot, acc)) return false;
-    if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot, acc);
+    if (!refresh_as_is(data, fleet, slot)) return false;
+    if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot);
     return true;
 }
 
-bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc) {
+bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     if (is_apart(data, route.type) || data.evaluation[route.type].lean) {
-        return refresh(data, fleet, slot, acc);
+        return refresh(data, fleet, slot);
     }
     bool settled = false;
-    return price_as_is(data, fleet, slot, acc, settled);
+    return price_as_is(data, fleet, slot, settled);
 }
 
 Int any_customer(const ProblemData& data, const Fleet& fleet, View<std::uint64_t, 1> rng) {

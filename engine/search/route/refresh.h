@@ -11,15 +11,15 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 // Let each trip of a timed route begin as late as costs nothing. In place; false if a rule is
 // broken.
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-            View<Sortie, 1> sorties, BlockSums& acc);
+            View<Sortie, 1> sorties);
 
 // Write all that follows from the sequence of a route. In place; false if it breaks a rule.
 //
 // Where trips may end at several places, that which costs least is chosen between two.
-bool refresh(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc);
+bool refresh(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // As `refresh`, of a route whose cost is all that is asked.
-bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, BlockSums& acc);
+bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 
 // Return how much of the time that a route works is waiting, which a change may use up.
 //

@@ -57,22 +57,22 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 }
 
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                   View<Sortie, 1> sorties, BlockSums& acc) {
+                   View<Sortie, 1> sorties) {
     const Truck truck(data, route.type);
     const Int length = route.length, count = route.sorties;
     Int time = truck.type.shift_earliest, cum = 0, depart = far;
-    acc.awaited = 0;
+    BlockSums sums;
     make_ready(truck, stops, sorties, count);
     Int p = 0, s = 0;
     while (p < length) {
         Stop& stop = stops[p];
         Int last = p;
         if (stop.kind == start_stop) {
-            acc.launched = 0;
-            acc.first_sortie = s;
+            sums.launched = 0;
+            sums.first_sortie = s;
         }
         if (s < count && sorties[s].launch == p) {
-            last = time_block(truck, stops, length, sorties, count, p, s, time, acc);
+            last = time_block(truck, stops, length, sorties, count, p, s, time, sums);
             if (last < 0) return false;
             while (s < count && sorties[s].launch <= last) ++s;
         } else {
@@ -101,7 +101,7 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
     }
     route.end = stops[length - 1].leave;
     route.cum = stops[length - 1].cum;
-    route.awaited = acc.awaited;
+    route.awaited = sums.awaited;
     return true;
 }
 

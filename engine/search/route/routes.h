@@ -24,7 +24,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 
 // Write times as soon as possible, stop after stop. In place; false if a rule is broken.
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                   View<Sortie, 1> sorties, BlockSums& acc);
+                   View<Sortie, 1> sorties);
 
 // Write how late, and how early, each block may be reached, and what follows it. In place.
 //

@@ -27,7 +27,7 @@ def make_searcher(problem: Problem, data: ProblemData, solution: Solution,
     """Begin a search from a plan; routes that it can't read are left to be planned anew."""
     alone = np.full(data.can.shape, INFEASIBLE)
     searcher = empty_searcher(data, _sizes(problem, data, solution), alone, seed)
-    call("tandem_alone_costs", data, searcher.now, searcher.acc, alone)
+    call("tandem_alone_costs", data, searcher.now, alone)
     for slot, route in enumerate(solution.routes):
         write_route(searcher.now, slot, route)
     call("tandem_begin", data, searcher, len(solution.routes))
@@ -59,7 +59,7 @@ def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
         line=np.zeros(nodes + 3, dtype_of("tandem_line")), line_cost=np.zeros(nodes + 3),
         moved=_row(max(slots, stops) + 2), move=one(dtype_of("tandem_move")),
         offer=np.zeros(offers, dtype_of("tandem_move")), least=np.zeros(offers),
-        acc=one(dtype_of("tandem_block_sums")), bound=one(dtype_of("tandem_bound")), alone=alone,
+        bound=one(dtype_of("tandem_bound")), alone=alone,
         kept=np.zeros(room, dtype_of("tandem_kept")),
         kept_move=np.zeros(of_moves, dtype_of("tandem_move")), kept_cost=np.zeros(of_moves))
 
@@ -151,7 +151,7 @@ def read_routes(data: ProblemData, searcher: Searcher) -> Iterator[Route]:
     given = packed(data), packed(best)
     slots = np.flatnonzero(best.route["length"][: len(searcher.active)]).tolist()
     for slot in slots:
-        call("tandem_finish_route", *given, slot, searcher.acc)
+        call("tandem_finish_route", *given, slot)
     numbers = [0] * data.num_types
     for slot, row in zip(slots, read_rows(best.route[slots]), strict=True):
         yield Route(row.type, numbers[row.type], _trips(data, best, slot, row))

@@ -37,7 +37,6 @@ class Searcher(NamedTuple):
     move: Record  # scratch, best insertion
     offer: Records  # (offer,), scratch, insertions that may be best
     least: FloatArray  # (offer,) scratch, what each costs at least
-    acc: Record  # sums of a block, scratch
     bound: Record  # scratch
     alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
     kept: Records  # (node, slot), the best places on lean routes as they are

@@ -87,8 +87,8 @@ def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
             for kind, first, last in places(searcher, slot):
                 move.kind, move.slot, move.first, move.last, move.drone = kind, slot, first, last, 1
                 node = int(rng.choice(others))
-                part, whole = (call("tandem_price_move", each, searcher.now, move, node,
-                                    searcher.acc) for each in (data, timed))
+                part, whole = (call("tandem_price_move", each, searcher.now, move, node)
+                               for each in (data, timed))
                 assert part == pytest.approx(whole), (seed, slot, kind, first, last, node)
                 refused += part > 1e200
                 compared[kind] += part < 1e200
