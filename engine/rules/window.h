@@ -3,7 +3,7 @@
 // Callers state when somebody arrives, and never compare with a field themselves, so that what a
 // window is can change here alone. Within a block of stops, times hang on the arrival `time` at its
 // beginning: a pair (d, c) stands for `max(time + d, c)`, and holds for arrivals in an interval
-// (see docs/develop/search.md).
+// (see docs/develop/route-times.md).
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Timing of a block: the stops of a truck from one where all drones are aboard to the next.
 //
-// By pairs `(d, c)`, which docs/develop/search.md derives under "Times on a route".
+// By pairs `(d, c)`, which docs/develop/route-times.md derives.
 #pragma once
 
 #include <algorithm>

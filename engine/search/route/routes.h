@@ -28,7 +28,7 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
 
 // Write how late, and how early, each block may be reached, and what follows it. In place.
 //
-// As docs/develop/search.md derives under "Times on a route".
+// As docs/develop/route-times.md derives.
 void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops);
 
 // Mark a route whose legs change with time: nothing is known of later arrivals. In place.

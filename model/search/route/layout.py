@@ -9,7 +9,7 @@ Times inside a block of stops hang on the truck's arrival `t` as `max(t + d, c)`
 path of durations from there, `c` what windows and releases hold up. Such pairs add up and take
 maxima by parts, so that a block, a trip and a route are each a pair with an interval of arrivals
 at which all rules hold (Vidal et al. 2013, time-window segments, with drones).
-`docs/develop/search.md` derives what is made of them under "Times on a route".
+`docs/develop/route-times.md` derives what is made of them.
 """
 
 from typing import NamedTuple
