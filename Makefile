@@ -48,10 +48,11 @@ test-quick: .venv/testing engine guide ## Run many tests in under a minute, with
 prepared:
 	@.ci/prepare
 
-lint: .venv/testing engine ## Check style and types
+lint: .venv/linting engine ## Check style and types
 	$(BIN)/ruff check
 	$(BIN)/mypy
 	.ci/lint-engine
+	.ci/lint-console
 
 train: .venv/testing engine ## Train a policy in runs/attention, from where it stopped (MINUTES=60)
 	OMP_NUM_THREADS=1 $(BIN)/python -m training.train --folder runs/attention --policy attention \
@@ -114,6 +115,11 @@ app/console/built_guide: zensical.toml $(shell find docs)
 	@$(PIP) install --quiet --no-build-isolation --editable '.[test,train]'
 	@$(BIN)/python -m tests.app.maps.roads.wheels
 	@touch $@ .venv/serving
+
+.venv/linting: pyproject.toml .venv/testing
+	@echo "Installing what checks style and types into .venv."
+	@$(PIP) install --quiet --no-build-isolation --editable '.[lint]'
+	@touch $@ .venv/serving .venv/testing
 
 .venv/benching: pyproject.toml .venv/tools
 	@echo "Installing Tandem and its benchmarks into .venv."

@@ -9,6 +9,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
+from tests.console.test_keeping import edit, first_customer
 
 PLACES = {"A": [2, 2], "B": [4, 2], "C": [6, 2], "D": [2, -2], "E": [4, -2], "F": [6, -2]}
 PROBLEM: dict[str, Any] = {
@@ -77,6 +78,21 @@ def test_stops_are_moved_by_keys_and_buttons_and_taken_back(hands: Page) -> None
     assert tours(hands) == ["ABC", "DEF"]
     hands.keyboard.press("y")
     assert tours(hands) == ["BAC", "DEF"]
+
+
+def test_a_change_made_again_leaves_edits_undone(hands: Page) -> None:
+    hands.get_by_role("button", name="Move A", exact=True).focus()
+    hands.keyboard.press("ArrowDown")
+    told(hands, "A to truck-1, after B: +")
+    edit(hands, "edited")
+    hands.keyboard.press("u")
+    hands.keyboard.press("u")
+    assert tours(hands) == ["ABC", "DEF"]
+    hands.keyboard.press("y")
+    assert tours(hands) == ["BAC", "DEF"]
+    assert first_customer(hands) == "A"
+    hands.keyboard.press("y")
+    assert first_customer(hands) == "edited"
 
 
 def test_rules_that_a_change_breaks_are_told_and_kept(hands: Page) -> None:

@@ -15,7 +15,12 @@ export async function find(address) {
   return known.get(address) ?? { places: [], doubt: null };
 }
 
-/** Look addresses up until all are known; throws what hinders it. */
+/**
+ * Look addresses up until all are known; throws what hinders it.
+ *
+ * @param {string[]} addresses
+ * @param {(known: number, all: number) => void} [onProgress]
+ */
 async function ask(addresses, onProgress = () => {}) {
   let open = [...new Set(addresses)].filter((address) => !known.has(address));
   while (open.length) {

@@ -15,6 +15,7 @@ export class ApiError extends Error {
   }
 }
 
+/** @type {(wasWrong: boolean) => Promise<string | null>} */
 let askForKey = async () => null;
 
 /** Set what asks the user for an API key; it returns the key, or null to give up. */
@@ -28,6 +29,14 @@ export function keepKey(key) {
   else sessionStorage.removeItem(KEY);
 }
 
+/**
+ * Send a request, and again with another key if it needs one.
+ *
+ * @param {string} path
+ * @param {{method?: string, body?: any, form?: FormData, headers?: Record<string, string>,
+ *   signal?: AbortSignal}} [options]
+ * @returns {Promise<Response>}
+ */
 async function send(path, { method = 'GET', body, form, headers = {}, signal } = {}) {
   const key = sessionStorage.getItem(KEY);
   const all = {

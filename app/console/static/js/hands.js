@@ -171,15 +171,17 @@ export function undoStep() {
   return step !== null;
 }
 
-/** Make a change by hand again. */
+/** Make a change by hand again; tell whether there was one. */
 export function redoStep() {
   const step = stepForth(store.get());
-  if (!step) return;
-  store.set((state) => ({
-    ...swapped(state, step, 'after'),
-    steps: [...state.steps, step],
-    undone: state.undone.slice(0, -1),
-  }));
+  if (step) {
+    store.set((state) => ({
+      ...swapped(state, step, 'after'),
+      steps: [...state.steps, step],
+      undone: state.undone.slice(0, -1),
+    }));
+  }
+  return step !== null;
 }
 
 /** Tell whether a place that was found takes a trip more than the problem allows. */

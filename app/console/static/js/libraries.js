@@ -20,9 +20,10 @@ function load(path) {
     loading.set(
       path,
       new Promise((resolve, reject) => {
-        const element = document.createElement(isStyle ? 'link' : 'script');
-        if (isStyle) element.rel = 'stylesheet';
-        element[isStyle ? 'href' : 'src'] = new URL(path, VENDOR);
+        const url = new URL(path, VENDOR).href;
+        const element = isStyle
+          ? Object.assign(document.createElement('link'), { rel: 'stylesheet', href: url })
+          : Object.assign(document.createElement('script'), { src: url });
         element.onload = resolve;
         element.onerror = () => reject(new Error(`${path} could not be loaded.`));
         // Ahead of the console's own style sheets, which may say otherwise.

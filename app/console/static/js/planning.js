@@ -165,11 +165,16 @@ function nextNumber() {
   return plans.length ? plans[plans.length - 1].number + 1 : 1;
 }
 
+/** @param {{options?: Options}} request */
 function searches({ options = {} }) {
   return options.time_limit !== 0 && options.search_iterations !== 0;
 }
 
-/** Return about how long the policy takes on a quiet machine, as the planner reckons it. */
+/**
+ * Return about how long the policy takes on a quiet machine, as the planner reckons it.
+ *
+ * @param {{customers: any[], options?: Options}} request
+ */
 function decodeSeconds({ customers, options = {} }) {
   const samples = options.decoding === 'sample' ? 1 + (options.num_samples ?? 64) / 6 : 1;
   return 1.2e-4 * customers.length * (1 + customers.length / 300) * samples;

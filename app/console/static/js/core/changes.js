@@ -7,7 +7,13 @@ import { windowsOf, withWindows } from './windows.js';
 
 const DECIMALS = { planar: 3, geographic: 6 };
 
-/** Return a location rounded to what a hand can place. */
+/**
+ * Return a location rounded to what a hand can place.
+ *
+ * @param {any} request
+ * @param {Point} place
+ * @returns {Point}
+ */
 export function rounded(request, [x, y]) {
   const digits = DECIMALS[request.coordinate_system ?? 'planar'];
   return [Number(x.toFixed(digits)), Number(y.toFixed(digits))];
@@ -68,7 +74,12 @@ export function giveWindows(request, ids, windows) {
   };
 }
 
-/** Return the names of the customers within `[west, south, east, north]`. */
+/**
+ * Return the names of the customers within bounds.
+ *
+ * @param {any} request
+ * @param {Bounds} bounds
+ */
 export function customersWithin(request, [west, south, east, north]) {
   return request.customers
     .filter(

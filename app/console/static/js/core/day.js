@@ -10,7 +10,11 @@ const WALL =
 const DATE_TIME =
   /^(\d{4})-(\d\d)-(\d\d)[T ](\d\d):(\d\d)(?::(\d\d(?:\.\d{1,6})?))?(Z|[+-]\d\d:?\d\d)?$/;
 
-/** Return the day of a request, null if it states none that can be read. */
+/**
+ * Return the day of a request, null if it states none that can be read.
+ *
+ * @param {{plan_start?: string, time_zone?: string}} [request]
+ */
 export function dayOf({ plan_start: start, time_zone: zone } = {}) {
   if (typeof start !== 'string') return null;
   try {
@@ -93,9 +97,8 @@ const known = new Map();
 /** Return what tells a zone's offset at instants. */
 function clocksOf(zone) {
   if (!known.has(zone)) {
-    const numeric = { year: 'numeric', month: '2-digit', day: '2-digit' };
     const format = new Intl.DateTimeFormat('en-US', {
-      timeZone: zone, hourCycle: 'h23', ...numeric,
+      timeZone: zone, hourCycle: 'h23', year: 'numeric', month: '2-digit', day: '2-digit',
       hour: '2-digit', minute: '2-digit', second: '2-digit',
     });
     const offsets = new Map();
@@ -117,9 +120,10 @@ function offsetBy(format, instant) {
   return (wall - instant) / MINUTE;
 }
 
-function wallOf([, year, month, day, hour, minute, second = 0]) {
+/** @param {RegExpExecArray} parts what `DATE_TIME` found */
+function wallOf([, year, month, day, hour, minute, second]) {
   const wall = Date.UTC(Number(year), Number(month) - 1, Number(day), Number(hour), Number(minute));
-  return wall + Math.round(Number(second) * SECOND);
+  return wall + Math.round(Number(second ?? 0) * SECOND);
 }
 
 function minutesOf(offset) {

@@ -14,6 +14,8 @@ const ARC_POINTS = 14;
  * Return functions between a request's coordinates and a plane in metres.
  *
  * Geographic coordinates are projected around their centre, which is exact enough to draw by.
+ *
+ * @returns {{toPlane: (place: Point) => Point, fromPlane: (place: Point) => Point}}
  */
 export function planeOf(request) {
   if (request.coordinate_system !== 'geographic') {
@@ -38,9 +40,15 @@ export function planeOf(request) {
   };
 }
 
-/** Return `[west, south, east, north]` of points, null of none. */
+/**
+ * Return the bounds of points, null of none.
+ *
+ * @param {Point[]} points
+ * @returns {Bounds | null}
+ */
 export function boundsOf(points) {
   if (points.length === 0) return null;
+  /** @type {Bounds} */
   const bounds = [Infinity, Infinity, -Infinity, -Infinity];
   for (const [x, y] of points) {
     bounds[0] = Math.min(bounds[0], x);

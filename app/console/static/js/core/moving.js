@@ -36,18 +36,7 @@ export function withCustomerAt(request, plan, id, place) {
     ? bare(route, (trip, index) => (index === place.trip ? withStop(trip, place.stop, id) : trip))
     : route));
   if (place && !used) added.push(routeOf(request, place, id));
-  const routes = added.flatMap((route) => {
-    if (!serves(route, id)) return [route];
-    const left = bare(route, (trip) => withoutOld(trip, id));
-    const trips = left.trips.filter(isWorth);
-    return trips.length ? [{ ...left, trips }] : [];
-  });
-  const unassigned = plan.unassigned.filter((other) => other.id !== id).map((other) => ({
-    id: other.id }));
-  return {
-    routes: routes.map(withoutMarks),
-    unassigned: place ? unassigned : [...unassigned, { id }],
-  };
+  return changed(plan, id, added.flatMap((route) => leftOf(route, id)), !place);
 }
 
 /** Return the plan with another route in place of a vehicle's, or beside the others. */
@@ -55,18 +44,26 @@ export function withRoute(plan, id, route) {
   const former = plan.routes.find(({ vehicle }) => vehicle === route.vehicle);
   const others = plan.routes
     .filter((other) => other !== former)
-    .flatMap((other) => {
-      if (!serves(other, id)) return [other];
-      const left = bare(other, (trip) => withoutOld(trip, id));
-      const trips = left.trips.filter(isWorth);
-      return trips.length ? [{ ...left, trips }] : [];
-    });
+    .flatMap((other) => leftOf(other, id));
   const at = former ? plan.routes.indexOf(former) : others.length;
   others.splice(Math.min(at, others.length), 0, route);
+  return changed(plan, id, others);
+}
+
+/** Return what is left of a route where a customer was, nothing if nobody else is on it. */
+function leftOf(route, id) {
+  if (!serves(route, id)) return [route];
+  const left = bare(route, (trip) => withoutOld(trip, id));
+  const trips = left.trips.filter(isWorth);
+  return trips.length ? [{ ...left, trips }] : [];
+}
+
+/** Return the plan with other routes, in which a customer is served, or left out. */
+function changed(plan, id, routes, isLeftOut = false) {
+  const others = plan.unassigned.filter((other) => other.id !== id);
   return {
-    routes: others.map(withoutMarks),
-    unassigned: plan.unassigned.filter((other) => other.id !== id).map((other) => ({
-      id: other.id })),
+    routes: routes.map(withoutMarks),
+    unassigned: [...others.map((other) => ({ id: other.id })), ...(isLeftOut ? [{ id }] : [])],
   };
 }
 

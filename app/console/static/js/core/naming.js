@@ -54,6 +54,10 @@ export function unlike(name, plans) {
   return free;
 }
 
+/**
+ * @param {{options?: Options}} before
+ * @param {{options?: Options}} now
+ */
 function searchName({ options: before = {} }, { options: now = {} }) {
   if (before.time_limit === now.time_limit || now.time_limit === undefined) {
     return t('name.again');

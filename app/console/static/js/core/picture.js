@@ -67,11 +67,18 @@ function mapShapes(index, legsOf) {
   ];
 }
 
+/** @returns {Point} */
 function move([x, y], right, down) {
   return [x + right, y + down];
 }
 
-/** Return a function from a location to the picture, north above. */
+/**
+ * Return a function from a location to the picture, north above.
+ *
+ * @param {Bounds} bounds
+ * @param {(place: Point) => Point} toPlane
+ * @returns {(place: Point) => Point}
+ */
 function fit([west, south, east, north], toPlane) {
   const [width, height] = [WIDTH - 2 * MARGIN, MAP_HEIGHT - 2 * MARGIN];
   const scale = Math.min(

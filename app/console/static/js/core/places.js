@@ -3,12 +3,22 @@
 import { t } from '../texts.js';
 import { getIn, setIn } from './paths.js';
 
-/** Return a place's coordinates, null where it has none, or only an address. */
+/**
+ * Return a place's coordinates, null where it has none, or only an address.
+ *
+ * @param {{location?: any}} [place]
+ * @returns {Point | null}
+ */
 export function placeOf({ location } = {}) {
-  return Array.isArray(location) ? location : null;
+  return Array.isArray(location) ? /** @type {Point} */ (location) : null;
 }
 
-/** Return the address that a place has in place of coordinates, null if it has none. */
+/**
+ * Return the address that a place has in place of coordinates, null if it has none.
+ *
+ * @param {{location?: any}} [place]
+ * @returns {string | null}
+ */
 export function addressOf({ location } = {}) {
   return location?.address ?? null;
 }

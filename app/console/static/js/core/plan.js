@@ -140,6 +140,12 @@ function indexTrip(index, vehicle, reply, number) {
 }
 
 /** Return a line of the reply, null if it doesn't lead from place to place any more. */
+/**
+ * Return the line of a leg that is told, null if it doesn't lead from one place to the other.
+ *
+ * @param {string | undefined} geometry
+ * @param {Point[]} ends
+ */
 function lineOf(geometry, [from, to]) {
   if (!geometry || !from || !to) return null;
   const line = decodeLine(geometry);
@@ -173,7 +179,11 @@ function remember(index, halt) {
   return halt;
 }
 
-/** Return the first and last instant of a plan, `[0, 3600]` if nothing happens. */
+/**
+ * Return the first and last instant of a plan, `[0, 3600]` if nothing happens.
+ *
+ * @returns {Span}
+ */
 export function spanOf(index) {
   const trips = index.vehicles.flatMap((vehicle) => vehicle.trips);
   const starts = trips.flatMap((trip) => [

@@ -23,7 +23,8 @@ function numbers(text) {
   let position = 0;
   return () => {
     if (position >= text.length) return null;
-    let [value, scale, chunk] = [0, 1, 0];
+    let [value, scale] = [0, 1];
+    let chunk;
     do {
       chunk = text.charCodeAt(position) - 63;
       position += 1;

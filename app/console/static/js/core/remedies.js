@@ -7,7 +7,11 @@ const NUMBER = '([\\d.,]+)';
 const SECONDS_PER_MINUTE = 60;
 const METRES_PER_KM = 1000;
 
-/** Remedies by what they say; each returns the changed request. */
+/**
+ * Remedies by what they say; each returns the changed request.
+ *
+ * @type {[RegExp, Function, string?][]}
+ */
 const CHANGES = [
   [/^fits if .+ may serve it$/, allowType, 'VEHICLE'],
   [/^fits with one more vehicle$/, (request, { type }) => add(request, [...type, 'count'], 1)],

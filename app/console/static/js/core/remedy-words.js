@@ -32,13 +32,13 @@ const SAID = [
   ['sortie', `fits if ${NAME} could launch 1 sortie`],
   ['carried', `fits if ${NAME} carried 1 battery(?: of .+)?`],
   ['works', `fits if ${NAME} could work ${TIME} longer`],
-].map(([name, pattern]) => [name, new RegExp(`^${pattern}$`)]);
+].map(([name, pattern]) => ({ name, pattern: new RegExp(`^${pattern}$`) }));
 
 /** Return a remedy in the page's language; in the service's if it is none that is known. */
 export function remedyInWords(remedy) {
   const english = timesInWords(remedy);
   if (language() === 'en') return english;
-  for (const [name, pattern] of SAID) {
+  for (const { name, pattern } of SAID) {
     const found = pattern.exec(remedy)?.groups ?? (pattern.test(remedy) ? {} : null);
     if (found) {
       const time = found.time && timesInWords(found.time.replaceAll(',', ''));

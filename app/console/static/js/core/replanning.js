@@ -155,7 +155,12 @@ export function settledParts(entry, request) {
   return parts;
 }
 
-/** Return what of a plan is settled: `settled`, `lost` (a broken vehicle's) or `open`. */
+/**
+ * Return what of a plan is settled: `settled`, `lost` (a broken vehicle's) or `open`.
+ *
+ * @param {Map<string, any>} parts
+ * @param {{vehicle: string, trip: number, stop?: number, flight?: number}} part
+ */
 export function standingOf(parts, { vehicle, trip, stop, flight }) {
   const part = parts.get(vehicle);
   if (!part) return 'open';

@@ -3,6 +3,7 @@
 import { language, t } from '../texts.js';
 
 /** Units by what a description says, the first that fits. */
+/** @type {[RegExp, string | (() => string)][]} */
 const UNITS = [
   [/\bkm\/h\b/i, 'km/h'],
   [/per kilometre/i, () => t('form.perKm')],

@@ -131,13 +131,19 @@ class Cells {
     this.cells = new Map();
   }
 
+  /** @param {Point} point */
   add([x, y]) {
     const key = `${Math.floor(x / CELL)}/${Math.floor(y / CELL)}`;
     if (!this.cells.has(key)) this.cells.set(key, []);
     this.cells.get(key).push([x, y]);
   }
 
-  /** Tell whether there is a point at most so far, less than a cell, from another. */
+  /**
+   * Tell whether there is a point at most so far, less than a cell, from another.
+   *
+   * @param {Point} point
+   * @param {number} far
+   */
   hasNear([x, y], far) {
     const [left, right] = [x - far, x + far].map((edge) => Math.floor(edge / CELL));
     const [top, bottom] = [y - far, y + far].map((edge) => Math.floor(edge / CELL));
@@ -152,6 +158,7 @@ class Cells {
   }
 }
 
+/** @returns {Point[]} */
 function pointsOf({ x, y, angle }, width) {
   const count = Math.max(Math.ceil(width / GAP), 1);
   return Array.from({ length: count + 1 }, (_, index) => {

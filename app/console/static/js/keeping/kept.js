@@ -50,8 +50,9 @@ export async function openPlans() {
 /** Read anew what is kept, as far as it can be reached. */
 async function refresh() {
   const listed = await Promise.allSettled([listIn('browser'), listIn('service'), otherDrafts()]);
-  const failed = listed.find(({ status }) => status === 'rejected');
-  const [inBrowser, onService, drafts] = listed.map(({ value }) => value ?? []);
+  const failed = listed.find((each) => each.status === 'rejected');
+  const [inBrowser, onService, drafts] = listed.map((each) =>
+    (each.status === 'fulfilled' && each.value) || []);
   const plans = [...inBrowser, ...onService].sort(
     (one, other) => Date.parse(other.changed_at) - Date.parse(one.changed_at),
   );

@@ -76,9 +76,14 @@ function overOn(map) {
     ));
 }
 
-/** Return the paddings, from the left on, that keep clear of nothing, or of all by some side. */
+/**
+ * Return the paddings, from the left on, that keep clear of nothing, or of all by some side.
+ *
+ * @returns {Bounds[]}
+ */
 function paddingsFor(map) {
   const size = map.getSize();
+  /** @type {number[][]} */
   let paddings = [[EDGE, EDGE, EDGE, EDGE]];
   for (const { min, max } of overOn(map)) {
     const sides = [max.x, max.y, size.x - min.x, size.y - min.y];
@@ -91,5 +96,5 @@ function paddingsFor(map) {
     ]);
     paddings = [...new Map(paddings.map((padding) => [String(padding), padding])).values()];
   }
-  return paddings;
+  return /** @type {Bounds[]} */ (paddings);
 }

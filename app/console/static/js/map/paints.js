@@ -9,7 +9,11 @@ const LEAST_WIDTH = 0.5;
 const EDGE = 0.8; // pixels on each side of a street
 const EDGES_FROM = 14;
 
-/** Areas in their order: kind and `[light, dark]`. */
+/**
+ * Areas in their order: kind and `[light, dark]`.
+ *
+ * @type {[string, string[]][]}
+ */
 const AREAS = [
   ['sea', ['#c5dcec', '#14324a']],
   ['green', ['#dbe9d2', '#1c3227']],
@@ -19,7 +23,11 @@ const AREAS = [
   ['building', ['#e2deda', '#252f39']],
 ];
 
-/** Lines in their order: kind, pixels at the base zoom, `[light, dark]`, and those of its edges. */
+/**
+ * Lines in their order: kind, pixels at the base zoom, `[light, dark]`, and those of its edges.
+ *
+ * @type {[string, number, string[], string[]?][]}
+ */
 const LINES = [
   ['stream', 0.8, ['#b4d2e8', '#1d4260']],
   ['river', 2, ['#c5dcec', '#14324a']],

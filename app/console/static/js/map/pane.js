@@ -11,7 +11,6 @@ import {
   render,
   useEffect,
   useLayoutEffect,
-  useMemo,
   useRef,
   useState,
 } from '../libraries.js';

@@ -90,6 +90,7 @@ const BEGIN = {
   windowArea: (view) =>
     drawShape(view, 'Rectangle', (layer) => {
       const bounds = layer.getBounds();
+      /** @type {Bounds} */
       const box = [bounds.getWest(), bounds.getSouth(), bounds.getEast(), bounds.getNorth()];
       edit((request) => paint(request, customersWithin(request, box)));
     }),

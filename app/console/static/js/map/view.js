@@ -63,6 +63,9 @@ export class MapView {
     this.labels = L.layerGroup().addTo(this.map);
     this.numbers = L.layerGroup().addTo(this.map);
     this.movers = L.layerGroup().addTo(this.map);
+    this.request = null; // what is drawn, from `draw` on
+    this.index = null;
+    this.dark = false;
     this.entries = [];
     this.byKey = new Map(); // entries
     this.touched = []; // entries that are marked, where there are many
@@ -84,7 +87,9 @@ export class MapView {
     this.onHover = onHover;
     this.onSelect = onSelect;
     this.isThrough = false;
+    /** @type {(point: Point) => void} */
     this.onGround = () => this.onSelect(null);
+    /** @type {(key: string, event: any) => void} */
     this.onPress = () => {};
     this.map.on('click', ({ latlng }) => this.onGround([latlng.lng, latlng.lat]));
     // Each has them itself: of one that was drawn anew under the pointer, its group hears no more.

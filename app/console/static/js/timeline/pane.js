@@ -51,6 +51,10 @@ export function TimelinePane() {
   </section>`;
 }
 
+/**
+ * @param {Span} span
+ * @returns {Span}
+ */
 function padded([from, until]) {
   const edge = (until - from) * 0.01;
   return [from - edge, until + edge];

@@ -184,6 +184,7 @@ function Figures({ entry, former }) {
   const both = [former, entry];
   const costs = both.map(({ plan }) => plan.cost);
   const penalties = both.map(penaltyOf);
+  /** @type {(name: string, both: any[], show?: (value: any) => string, cost?: boolean) => any} */
   const line = (name, [before, now], show = money, cost = true) => html`<${Difference}
     key=${name} name=${name} before=${before} now=${now} show=${show} cost=${cost} />`;
   const paid = (term) => costs.map((cost, index) =>

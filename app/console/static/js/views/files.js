@@ -37,11 +37,15 @@ export function listenToDrops() {
   });
 }
 
+function inField(target) {
+  return target instanceof Element && target.closest('input, textarea, select') !== null;
+}
+
 /** Import what is pasted outside of fields, if it comes from a sheet. */
 export function listenToPastes() {
   document.addEventListener('paste', (event) => {
     const { dialog, importing, keeping } = store.get();
-    if (dialog || importing || keeping || event.target.closest?.('input, textarea, select')) return;
+    if (dialog || importing || keeping || inField(event.target)) return;
     const text = pastedSheet(event.clipboardData.getData('text/plain'));
     if (text === null) return;
     event.preventDefault();

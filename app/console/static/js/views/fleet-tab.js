@@ -19,7 +19,8 @@ export function FleetTab() {
   const { properties } = schemas.PlanRequest;
   useEffect(() => {
     if (!added) return;
-    const field = document.getElementById(`field-fleet-${added.position}-id`);
+    const field = /** @type {HTMLInputElement} */ (
+      document.getElementById(`field-fleet-${added.position}-id`));
     field.closest('details').scrollIntoView({ block: 'start' });
     field.focus({ preventScroll: true });
     field.select();

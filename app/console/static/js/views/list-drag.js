@@ -2,6 +2,7 @@
 
 import { isHere, placeAt, placeBeside } from '../core/moving.js';
 import { html } from '../libraries.js';
+import { focusFirst } from './focus.js';
 import { move } from './stop-moves.js';
 import { t } from '../texts.js';
 
@@ -31,8 +32,7 @@ export function Grip({ index, halt }) {
 
 /** Bring the focus back to a row's grip, once it is drawn where it came. */
 function focusOn(key) {
-  requestAnimationFrame(() =>
-    document.querySelector(`tr[data-key="${CSS.escape(key)}"] .grip`)?.focus());
+  requestAnimationFrame(() => focusFirst(`tr[data-key="${CSS.escape(key)}"] .grip`));
 }
 
 function begin(event, index, halt) {
@@ -73,7 +73,7 @@ function begin(event, index, halt) {
 /** Return where a stop would come if it were dropped at a point: `{element, mark, place}`. */
 function targetAt(index, halt, x, y) {
   const under = document.elementFromPoint(x, y);
-  const row = under?.closest('[data-drop]');
+  const row = /** @type {HTMLElement} */ (under?.closest('[data-drop]'));
   const [vehicle, trip, stop] = (row?.dataset.drop ?? '').split('/').map(Number);
   if (!row) return intoVehicle(index, halt, under?.closest('[data-drop-vehicle]'));
   const { trips, name } = index.vehicles[vehicle];

@@ -20,7 +20,8 @@ export function LongTable({ head, rows, height, rowHeight = 28, label, renderRow
     if (revealed >= 0) scrollToRow(element.current, revealed, rowHeight);
   }, [revealed]);
   // To move a row within the page takes its focus away.
-  const held = element.current?.contains(document.activeElement) ? document.activeElement : null;
+  const active = /** @type {HTMLElement} */ (document.activeElement);
+  const held = element.current?.contains(active) ? active : null;
   useLayoutEffect(() => {
     if (held?.isConnected && document.activeElement !== held) held.focus({ preventScroll: true });
   });
@@ -49,13 +50,22 @@ export function LongTable({ head, rows, height, rowHeight = 28, label, renderRow
     </table></div>`;
 }
 
+/** @param {Span} rows */
 function span([from, until]) {
   return Array.from({ length: until - from }, (_, offset) => from + offset);
 }
 
-/** Return two ranges of rows: those in view, and the one with the focus with its neighbours. */
+/**
+ * Return two ranges of rows: those in view, and the one with the focus with its neighbours.
+ *
+ * @param {Span} seen
+ * @param {number} focused
+ * @param {number} length
+ * @returns {[Span, Span]}
+ */
 function rangesOf([first, last], focused, length) {
   if (focused < 0 || focused >= length) return [[first, last], [last, last]];
+  /** @type {Span} */
   const around = [Math.max(focused - 1, 0), Math.min(focused + 2, length)];
   if (around[1] < first) return [around, [first, last]];
   if (around[0] > last) return [[first, last], around];

@@ -3,7 +3,7 @@
 import { contains } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { hover, select } from '../actions.js';
-import { html, useEffect, useRef, useState } from '../libraries.js';
+import { html, useEffect, useRef } from '../libraries.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
 

@@ -7,6 +7,7 @@ import { replanFromClock } from '../ordering.js';
 import { improvePlan, plan, stop } from '../planning.js';
 import { store } from '../store.js';
 import { togglePlaying } from '../timeline/player.js';
+import { focusFirst } from './focus.js';
 import { switchTheme } from './header.js';
 import { TABS } from './panel.js';
 
@@ -46,8 +47,8 @@ const ACTIONS = {
   o: openPlans,
   l: switchTheme,
   ' ': () => togglePlaying(indexOf(shownPlan(store.get()))),
-  t: () => document.querySelector('.rows canvas')?.focus(),
-  m: () => document.querySelector('.map')?.focus(),
+  t: () => focusFirst('.rows canvas'),
+  m: () => focusFirst('.map'),
   '?': () => store.set({ dialog: { name: 'keys' } }),
 };
 
