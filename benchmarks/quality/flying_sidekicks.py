@@ -1,7 +1,7 @@
 """Tandem on the multiple flying sidekicks TSP, under its own energies, against proven optima.
 
 `python -m benchmarks.quality.flying_sidekicks`: one truck, one to four UAVs, 8 customers; the
-makespan counts. A plan's energies are those of `murray-raj-2020` in docs/use/rules.md. What
+makespan counts. A plan's energies are those of `murray-raj-2020` in docs/use/drones.md. What
 `Problem` lacks: the truck's own service takes turns with launches and recoveries there, in any
 order. So a problem fixes at whom service comes first, in the leg there, and at whom last, in the
 leg on; each plan that the search finds is timed in the best of all orders, which is what the next

@@ -1,6 +1,6 @@
 """What drones' flight takes by weight, by published models or as a request states.
 
-Constants and sources stand in docs/use/rules.md.
+Constants and sources stand in docs/use/drones.md.
 """
 
 import math
