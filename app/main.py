@@ -4,6 +4,7 @@ import logging
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
 from http import HTTPStatus
+from importlib.metadata import version
 
 from fastapi import FastAPI, Request, Response
 from fastapi.exceptions import RequestValidationError
@@ -46,7 +47,8 @@ from model.planner import PlanCheckError, Planner, load_planner
 
 logger = logging.getLogger(__name__)
 
-VERSION = "0.1.0"
+PACKAGE = "tandem-planner"
+"""Whose version is the service's."""
 
 RETRY_SECONDS = 5
 
@@ -70,8 +72,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
             yield
         observer.stop()
 
-    observer = Observer(settings, VERSION)
-    app = FastAPIOffline(title="Tandem", version=VERSION, lifespan=lifespan,
+    observer = Observer(settings, version(PACKAGE))
+    app = FastAPIOffline(title="Tandem", version=version(PACKAGE), lifespan=lifespan,
                          telemetry=observer.telemetry, openapi_tags=TAGS,
                          generate_unique_id_function=operation_id,
                          description="Plans deliveries for trucks that carry drones. "

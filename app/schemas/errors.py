@@ -17,8 +17,6 @@ MAX_LISTED_ERRORS = 1000
 Refusal = Literal["overload", "rate_limit", "access"]
 """Why a request is turned away without a look at its content, as metrics count it."""
 
-_NUMBER = re.compile(r"-?\d{1,15}(?:\.\d{1,15})?")
-
 LONGEST_STEP = 80
 """Characters of a key that a path tells."""
 

@@ -2,6 +2,7 @@
 
 import time
 from functools import lru_cache
+from importlib.metadata import version
 
 from benchmarks.peers.answers import PeerAnswer
 from benchmarks.peers.published import Published, to_problem
@@ -10,7 +11,7 @@ from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Route, Solution
 
-VERSION = "0.2.0"
+VERSION = version("tandem-planner")
 
 
 @lru_cache(maxsize=1)

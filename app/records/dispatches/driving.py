@@ -2,13 +2,14 @@
 
 from datetime import timedelta
 
+from app.records.clock import now_ms
 from app.records.dispatches.errors import LinkOverError, TooManyEventsError
 from app.records.dispatches.instants import instant, milliseconds
 from app.records.dispatches.links import find_link
 from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
 from app.records.dispatches.schemas import DriverDay, EventInput, EventsReply, EventsRequest
 from app.records.dispatches.standing import Standing, standing_of, standing_reply
-from app.records.dispatches.store import DispatchStore, now_ms
+from app.records.dispatches.store import DispatchStore
 
 MAX_EVENTS = 5_000
 """Most events of a vehicle's day."""

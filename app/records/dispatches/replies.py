@@ -1,5 +1,6 @@
 """Dispatches -> replies."""
 
+from app.records.clock import now_ms
 from app.records.dispatches.instants import instant
 from app.records.dispatches.links import address_of, qr_of
 from app.records.dispatches.rows import DispatchRow
@@ -8,7 +9,6 @@ from app.records.dispatches.schemas import (
 )
 from app.records.dispatches.service import Followed, LinkStanding
 from app.records.dispatches.standing import standing_reply
-from app.records.dispatches.store import now_ms
 
 
 def summary(row: DispatchRow) -> DispatchSummary:

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
+from app.records.clock import now_ms
 from app.records.dispatches.errors import (
     DispatchOverError, TooManyDispatchesError, UnknownDispatchError,
 )
@@ -15,7 +16,7 @@ from app.records.dispatches.rows import DispatchRow, LinkRow
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply, StepReply
 from app.records.dispatches.standing import Standing, standing_of
 from app.records.dispatches.steps import StepMaker
-from app.records.dispatches.store import DispatchStore, now_ms
+from app.records.dispatches.store import DispatchStore
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
 from app.schemas.check import PlannedProblem

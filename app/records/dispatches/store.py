@@ -1,6 +1,5 @@
 """Dispatches in the database."""
 
-import time
 import zlib
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import asdict
@@ -10,6 +9,7 @@ from pydantic import TypeAdapter
 from sqlalchemy import Connection, Engine, delete, func, insert, select, update
 
 from app.database.tables import DISPATCHES, EVENTS, LINKS
+from app.records.clock import now_ms
 from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
 from app.records.dispatches.schemas import StepReply
 from app.schemas.plan import PlanInput
@@ -38,11 +38,6 @@ LEFT_OUT: dict[str, Any] = {
 _DISPATCH = [column for column in DISPATCHES.c if column.name != "plan"]
 _LINK = [column for column in LINKS.c if column.name != "steps"]
 _EVENT = [EVENTS.c[name] for name in ("id", "step", "kind", "time", "reason", "number")]
-
-
-def now_ms() -> int:
-    """Return the milliseconds since 1970."""
-    return time.time_ns() // 1_000_000
 
 
 class DispatchStore:

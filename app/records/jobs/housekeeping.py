@@ -10,9 +10,10 @@ from datetime import UTC, datetime, timedelta
 from sqlalchemy import Engine
 from sqlalchemy.exc import DBAPIError
 
+from app.records.clock import now_ms
 from app.records.jobs.queues import Queues, queue_of
 from app.records.jobs.rows import JobRow
-from app.records.jobs.store import JobStore, now_ms
+from app.records.jobs.store import JobStore
 
 logger = logging.getLogger(__name__)
 

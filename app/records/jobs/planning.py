@@ -9,6 +9,7 @@ from dataclasses import replace
 from pydantic_core import from_json, to_json
 
 from app.plans.replies import Data
+from app.records.clock import now_ms
 from app.records.jobs.asked import Asking
 from app.records.jobs.region_task import ERRANDS, RegionTask
 from app.records.jobs.rows import JobRow, Standing
@@ -18,7 +19,7 @@ from app.records.jobs.search import EarlierWork, Search
 from app.records.jobs.slices import (
     MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping,
 )
-from app.records.jobs.store import JobStore, now_ms
+from app.records.jobs.store import JobStore
 from app.requests.conversion.preparing import StoppedError
 from app.schemas.errors import NoRoadsError, RequestError
 from app.serving.load.courtesy import NOBODY_WAITS, Courtesy

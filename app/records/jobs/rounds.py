@@ -8,12 +8,12 @@ import numpy as np
 from pydantic_core import to_json
 
 from app.plans.replies import Data
+from app.records.clock import now_ms
 from app.records.jobs.asked import Asked
 from app.records.jobs.incumbent import Incumbent
 from app.records.jobs.rows import JobRow, Standing
 from app.records.jobs.search import NEARLY_OVER
 from app.records.jobs.slices import Slice
-from app.records.jobs.store import now_ms
 from model.planner import Elapsed, PlanResult
 
 LATE = 10.0

@@ -4,7 +4,6 @@ A process that takes a job raises its `attempt` and states it with each later ch
 frozen, cut off or given up for dead meanwhile so changes nothing any more.
 """
 
-import time
 import zlib
 from collections.abc import Callable, Collection, Sequence
 
@@ -17,6 +16,7 @@ from sqlalchemy.exc import IntegrityError
 from app.database.connections import Purpose, alone
 from app.database.migrations.running import find_misfit, upgrade
 from app.database.tables import JOBS, REQUESTS, RESULTS
+from app.records.clock import now_ms
 from app.records.jobs.rows import OPEN, JobRow, NewJob, OpenPlans, Standing
 from app.records.jobs.schemas import State
 
@@ -28,11 +28,6 @@ _RELEASED: dict[str, object] = {
 
 FAST = 1
 """zlib's level: plans are written each second."""
-
-
-def now_ms() -> int:
-    """Return the milliseconds since 1970."""
-    return time.time_ns() // 1_000_000
 
 
 class JobStore:

@@ -1,7 +1,6 @@
 """Kept plans in the database: each change is made on condition that its client knows the last."""
 
 import secrets
-import time
 import zlib
 from typing import Any
 
@@ -12,6 +11,7 @@ from sqlalchemy import (
 from app.database.connections import Purpose, alone
 from app.database.migrations.running import upgrade
 from app.database.tables import KEPT_PLAN_BODIES, KEPT_PLANS, PLAN_LINKS
+from app.records.clock import now_ms
 from app.records.kept.errors import (
     ChangedError, NoRoomError, UnknownLinkError, UnknownPlanError, VersionNeededError,
 )
@@ -24,11 +24,6 @@ VERSION_BYTES = 8
 
 MAX_LINKS = 20
 """Most links of one plan."""
-
-
-def now_ms() -> int:
-    """Return the milliseconds since 1970."""
-    return time.time_ns() // 1_000_000
 
 
 class KeptStore:

@@ -11,8 +11,9 @@ import pytest
 from sqlalchemy import text, update
 
 from app.database.tables import DISPATCHES
+from app.records.clock import now_ms
 from app.records.dispatches.schemas import DispatchReply, DriverDay, EventsReply
-from app.records.dispatches.store import delete_expired, now_ms
+from app.records.dispatches.store import delete_expired
 from app.serving.access.keys import KeyStore
 from app.serving.access.tokens import digest_of
 from app.serving.settings import Settings

@@ -8,8 +8,9 @@ import pytest
 from sqlalchemy import Connection
 
 from app.database.durable import connect
+from app.records.clock import now_ms
 from app.records.jobs.rows import NewJob, OpenPlans, Standing
-from app.records.jobs.store import JobStore, now_ms
+from app.records.jobs.store import JobStore
 from app.serving.settings import Settings
 
 
