@@ -1,12 +1,13 @@
-"""Tests by the clock are run again exactly where the machine may be to blame."""
+"""Tests are run again exactly where the machine may be to blame, and none ends others' loops."""
 
 from collections.abc import Callable
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 
-from tests.conftest import STALL, TRIES, pytest_pyfunc_call
+from tests.conftest import STALL, TRIES, complete, pytest_pyfunc_call
 
 
 @pytest.fixture
@@ -56,3 +57,16 @@ def test_a_test_that_fails_on_a_quiet_machine_fails_at_once(run: Callable[..., i
 
 def test_other_tests_are_left_to_pytest(run: Callable[..., int]) -> None:
     assert run(0, 0.0, marked=False) == 0
+
+
+def test_coroutines_are_run_where_no_browser_has_its_loop() -> None:
+    async def outer() -> int:
+        return complete(inner())
+
+    async def inner() -> int:
+        return 42
+
+    assert complete(outer()) == 42
+    by_themselves = [path.name for path in Path(__file__).parent.rglob("*.py")
+                     if "asyncio.run" + "(" in path.read_text("utf-8")]
+    assert by_themselves == []
