@@ -1,0 +1,19 @@
+/** What is looked at, pointed to and drawn with. */
+
+export const LOOKING = {
+  selection: null, // key of what is selected, see core/plan.js
+  hover: null,
+  time: null, // instant of the playback, seconds
+  playing: false,
+  speed: 600, // seconds of the day per second
+  tab: 'customers',
+  dialog: null, // name of the open dialog
+  tool: null, // what is drawn on the map, see map/tools.js
+  brush: {
+    demand: [1],
+    service_duration: 300,
+    served_by: 'either',
+    earliest: 28800,
+    latest: 43200,
+  },
+};
