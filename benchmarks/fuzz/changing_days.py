@@ -8,6 +8,7 @@ import copy
 import random
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass
+from itertools import count
 from typing import Any
 
 Data = dict[str, Any]
@@ -214,7 +215,9 @@ def _orders_change(rng: random.Random, later: Data, committed: Collection[str],
         gone = rng.sample(free, rng.randint(1, len(free)))
         later["customers"] = [customer for customer in customers if customer not in gone]
     elif draw < 0.8:
-        name = f"n{len(customers)}-{round(now)}"
+        taken = {customer["id"] for customer in customers}
+        name = next(name for number in count(len(customers))
+                    if (name := f"n{number}-{round(now)}") not in taken)
         customers.append(_customer(rng, name, later["depots"]))
     else:
         chosen = rng.choice(customers)
