@@ -14,8 +14,8 @@ from model.judge.metrics import allowed_overtime
 from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
 from model.judge.trial import Attempt, attempts
 from model.problem import (
-    MAX_BATTERY, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Overtime,
-    Problem, VehicleType,
+    MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType,
+    Energy, Overtime, Problem, VehicleType,
 )
 from model.solution import Stop, Visit
 
@@ -152,20 +152,47 @@ def _energy(attempt: Attempt) -> Diagnosis:
     energy = drones.energy
     if energy is None:
         raise ValueError("drone energy: None is not allowed")
-    taken = sortie_energy(attempt.problem, drones, energy, trip, trip.sorties[0])
-    missing = ceil((taken - energy.available) / energy.usable_share)
-    tenths = -(-missing * 10 // MICROJOULES_PER_WH)
-    enough = energy.available + round(tenths / 10 * energy.usable_share * MICROJOULES_PER_WH)
+    sortie = trip.sorties[0]
+    taken = sortie_energy(attempt.problem, drones, energy, trip, sortie)
+    heavier = energy.per_wh * (sortie.recovery_start - sortie.launch_time)
+    tenths = _missing_tenths(energy, taken, heavier)
+    larger = None if tenths is None else _with_battery_more(energy, tenths / 10)
     largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
-    changed = replace(drones, energy=replace(energy, available=enough))
+    changed = replace(drones, energy=larger or replace(energy, available=taken))
     return Diagnosis(
         "RANGE",
         f"A flight from the depot and back takes {watt_hours(taken)}, and "
         f"{watt_hours(energy.available)} may be taken.",
         f"fits with a battery{_of(drones)} of {decimal(tenths, 1)} Wh more"
-        if enough <= largest else None,
+        if tenths is not None and larger is not None and larger.available <= largest else None,
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
+
+
+def _missing_tenths(energy: Energy, taken: int, heavier: float) -> int | None:
+    """Return how many tenths of a Wh a battery lacks for a flight that takes so much.
+
+    It takes `heavier` more for each Wh, since that weighs; None if no battery is large enough.
+    """
+    if heavier == 0.0:
+        return -(-ceil((taken - energy.available) / energy.usable_share) * 10 // MICROJOULES_PER_WH)
+    gained = energy.usable_share * MICROJOULES_PER_WH - heavier
+    # Powers are rounded to a mW.
+    missing = taken - energy.available + heavier / energy.per_wh
+    return ceil(missing / gained * 10) if gained > 0 else None
+
+
+def _with_battery_more(energy: Energy, more: float) -> Energy:
+    """Return a battery of so many Wh more, with what it weighs."""
+    rise = ceil(more * energy.per_wh)
+
+    def raised(powers: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple([min(MAX_POWER, power + rise) for power in powers])
+
+    return replace(
+        energy, available=energy.available + round(more * energy.usable_share * MICROJOULES_PER_WH),
+        cruise=raised(energy.cruise), hover=raised(energy.hover), climb=raised(energy.climb),
+        descent=raised(energy.descent))
 
 
 def _trip_distance(attempt: Attempt) -> Diagnosis:

@@ -38,6 +38,7 @@ class Energy:
     lands: bool = True  # at customers; else it hovers there
     preset: str | None = None  # name of the published model that the powers are from; for people
     charge: int = 0  # mW that a drone gains aboard; 0: each launch has a full battery
+    per_wh: float = 0.0  # mW in the air for the weight of each Wh of battery more; for people
 
     def __post_init__(self) -> None:
         if not 2 <= len(self.weights) <= MAX_POINTS or self.weights[0] != 0:

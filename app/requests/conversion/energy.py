@@ -51,7 +51,8 @@ def to_energy(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
         hover=rounded(powers.hover), climb=rounded(powers.climb),
         descent=rounded(powers.descent), climb_duration=thousandths(climb.up_seconds),
         descent_duration=thousandths(climb.down_seconds), dimension=dimension,
-        lands=stated.lands, preset=stated.preset, charge=ceil(charge_w * MILLIWATTS))
+        lands=stated.lands, preset=stated.preset, charge=ceil(charge_w * MILLIWATTS),
+        per_wh=powers.per_wh * MILLIWATTS)
 
 
 def _can_be_stated(empty: int, full: int, capacity: int) -> bool:

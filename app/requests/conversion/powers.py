@@ -17,13 +17,14 @@ Curve = Callable[[float], float]
 
 
 class Powers(NamedTuple):
-    """Powers by the weight aboard; whether they are straight lines."""
+    """Powers by the weight aboard; whether they are straight lines; W for the weight of each Wh."""
 
     cruise: Curve
     hover: Curve
     climb: Curve
     descent: Curve
     are_linear: bool = True
+    per_wh: float = 0.0
 
 
 class Climb(NamedTuple):
@@ -115,8 +116,10 @@ DORLING_W_PER_KG, DORLING_W, DORLING_J_PER_KG = 46.7, 26.9, 650_000.0
 
 def _dorling(energy: EnergyInput, speed_kmh: float) -> Powers:
     """Return a line by what the battery and the parcels weigh together."""
+    per_wh = DORLING_W_PER_KG * JOULES_PER_WH / DORLING_J_PER_KG
     battery_kg = energy.battery_wh * JOULES_PER_WH / DORLING_J_PER_KG
-    return _always(_line(DORLING_W + DORLING_W_PER_KG * battery_kg, DORLING_W_PER_KG))
+    line = _line(DORLING_W + DORLING_W_PER_KG * battery_kg, DORLING_W_PER_KG)
+    return _always(line)._replace(per_wh=per_wh)
 
 
 RODRIGUES_DRONE_KG, AIR_DENSITY = 2.431, 1.225

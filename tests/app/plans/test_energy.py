@@ -105,10 +105,12 @@ def test_energy_is_that_of_the_powers_to_a_milliwatt_and_a_half(
         assert abs(sortie["energy_wh"] * 3600 - joules) <= 0.0015 * sortie["duration"]
 
 
+@pytest.mark.parametrize(("powers", "battery"), [
+    ({"power": {"cruise_w": 100}}, 5.0), ({"preset": "dorling-2017"}, 0.001)])
 def test_who_is_too_far_for_the_battery_is_left_out_with_a_remedy(
-        client: httpx.Client, smallest: Request) -> None:
-    request = flying(smallest, power={"cruise_w": 100})
-    request["fleet"][0]["drones"]["energy"]["battery_wh"] = 5.0
+        client: httpx.Client, smallest: Request, powers: Request, battery: float) -> None:
+    request = flying(smallest, **powers)
+    request["fleet"][0]["drones"]["energy"]["battery_wh"] = battery
     request["customers"] = request["customers"][1:]
     plan = planned(client, request)
     reason, = plan["unassigned"][0]["reasons"]

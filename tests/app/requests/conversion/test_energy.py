@@ -135,7 +135,8 @@ def test_presets_say_what_their_publications_do() -> None:
     assert powers("murray-raj-2020-linear-slow").cruise(1.0) == pytest.approx(392.0152)
     # A battery of 360 kJ weighs 360 / 650 kg.
     assert powers("dorling-2017").cruise(1.0) == pytest.approx(26.9 + 46.7 * (1 + 360 / 650))
-    cruise, _, climb, descent, _ = powers("rodrigues-2022")
+    assert powers("dorling-2017").per_wh == pytest.approx(46.7 * 3.6 / 650)
+    cruise, _, climb, descent, *_ = powers("rodrigues-2022")
     lifted = (2.431 + 0.5) ** 1.5 / 1.225 ** 0.5
     assert cruise(0.5) == pytest.approx(68.9 * lifted + 16.8)
     assert climb(0.5) == pytest.approx(80.4 * lifted + 13.8)
