@@ -477,12 +477,6 @@ typedef struct tandem_kept {
     int64_t stop;   /* before it; -1 if no detour is that short */
 } tandem_kept;
 
-/* What insertions are looked for. */
-typedef struct tandem_bound {
-    double best;  /* cost below which */
-    double blink; /* how often one is overlooked */
-} tandem_bound;
-
 /* Where a customer is served. */
 typedef struct tandem_place {
     int64_t slot;     /* of the route; -1 if left out, -2 if another thread's */
@@ -511,8 +505,7 @@ typedef struct tandem_search_counts {
     int64_t stamp;
     int64_t best_missing;
     int64_t customers;
-    int64_t lean; /* whether all routes are */
-    int64_t offers;
+    int64_t lean;    /* whether all routes are */
     int64_t changed; /* slots, since the best; -1 where any may have */
     int64_t stay;    /* turns near one customer; 0: everywhere */
     int64_t focus;   /* that customer */
@@ -526,18 +519,6 @@ typedef struct tandem_search_values {
     double cooling; /* factor of the temperature each turn */
     double longest; /* how long strings are at most where routes are long */
 } tandem_search_values;
-
-/* A place in an order of customers that truck and drone serve. */
-typedef struct tandem_line {
-    int64_t node;
-    int64_t drive;           /* driving and serving up to the arrival there */
-    int64_t distance;        /* likewise */
-    int64_t grounded;        /* how many so far no truck may serve */
-    int64_t before;          /* where the operation begins that ends here */
-    int64_t flight;          /* the place flown to meanwhile; 0: none */
-    int64_t spared_drive;    /* by a truck that passes by */
-    int64_t spared_distance; /* likewise */
-} tandem_line;
 
 /* A customer in a chain of some that a route serves. */
 typedef struct tandem_chain {
@@ -743,10 +724,6 @@ typedef struct tandem_leg_law_1d {
     tandem_leg_law* data;
     int64_t shape[1];
 } tandem_leg_law_1d;
-typedef struct tandem_line_1d {
-    tandem_line* data;
-    int64_t shape[1];
-} tandem_line_1d;
 typedef struct tandem_link_1d {
     tandem_link* data;
     int64_t shape[1];
@@ -771,10 +748,6 @@ typedef struct tandem_moment_1d {
     tandem_moment* data;
     int64_t shape[1];
 } tandem_moment_1d;
-typedef struct tandem_move_1d {
-    tandem_move* data;
-    int64_t shape[1];
-} tandem_move_1d;
 typedef struct tandem_move_2d {
     tandem_move* data;
     int64_t shape[2];
@@ -1068,14 +1041,6 @@ typedef struct tandem_searcher {
     tandem_bool_1d marked;    /* (node,) removed this turn */
     tandem_i64_1d absences;   /* (node,) turns after which a customer was left out */
     tandem_i64_2d hit;        /* (slot, trip) turn of the last string */
-    tandem_line_1d line;      /* (node + 3,) scratch, places of a trip or two in order */
-    tandem_f64_1d line_cost;  /* (node + 3,) scratch */
-    tandem_f64_1d key;        /* (node,) order of insertion */
-    tandem_i64_1d moved;      /* scratch */
-    tandem_move* move;        /* scratch, best insertion */
-    tandem_move_1d offer;     /* (offer,) scratch, insertions that may be best */
-    tandem_f64_1d least;      /* (offer,) scratch, what each costs at least */
-    tandem_bound* bound;      /* scratch */
     tandem_f64_3d alone;      /* (type, 2, node) cost of a route that serves one customer */
     tandem_kept_2d kept;      /* (node, slot) the best places on lean routes as they are */
     tandem_move_2d kept_move; /* (node, slot) the best insertions where not all routes are lean */

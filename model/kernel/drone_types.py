@@ -54,14 +54,3 @@ def any_aboard(types: Records, marked: BoolArray) -> BoolArray:
     for k in range(len(types) - 1, -1, -1):
         any_marked[k] |= types[k].drone_row >= 0 and any_marked[types[k].drone_row]
     return any_marked
-
-
-def most_drone_rows(types: Records) -> int:
-    """Return how many rows tell of the drones of a truck at most."""
-    most = 1
-    for row in types["drone_row"][types["drone_row"] >= 0].tolist():
-        number = 1
-        while (row := int(types[row].drone_row)) >= 0:
-            number += 1
-        most = max(most, number)
-    return most

@@ -12,6 +12,7 @@
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
 #include "search/route/vehicles.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -224,7 +225,7 @@ double take_cheaper(const ProblemData& data, const Searcher& searcher, Int slot,
         if (cost < best && newcomer.comes_in_time(stops, p, stops[p].leave) &&
             room_behind(newcomer.room, p) && uniform(searcher.rng) >= data.strategy.blink) {
             best = cost;
-            take_stop(*searcher.move, slot, p, serving.type);
+            take_stop(searcher.scratch->move, slot, p, serving.type);
         }
     }
     return best;
@@ -259,7 +260,7 @@ double scan_lean(const ProblemData& data, const Searcher& searcher, Int node, do
         }
         if (found.stop >= 0) {
             best = found.cost + base;
-            take_stop(*searcher.move, slot, found.stop, by);
+            take_stop(searcher.scratch->move, slot, found.stop, by);
         }
     }
     return best;
@@ -268,7 +269,7 @@ double scan_lean(const ProblemData& data, const Searcher& searcher, Int node, do
 void scan_simple(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
                  bool enlarge) {
     const Fleet& fleet = searcher.now;
-    Bound& bound = *searcher.bound;
+    Bound& bound = searcher.scratch->bound;
     const Int k = fleet.route[slot].type;
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
         const auto [by, base] = serving_type(data, fleet, slot, index, node, enlarge);
@@ -278,7 +279,7 @@ void scan_simple(const ProblemData& data, const Searcher& searcher, Int slot, In
                                          by, bound.best - base, bound.blink, searcher.rng);
         if (p >= 0) {
             bound.best = cost + base;
-            take_stop(*searcher.move, slot, p, by);
+            take_stop(searcher.scratch->move, slot, p, by);
         }
     }
 }
@@ -306,7 +307,7 @@ double scan_beside(const ProblemData& data, const Searcher& searcher, Int node, 
                                          best - base, data.strategy.blink, searcher.rng);
         if (p >= 0) {
             best = cost + base;
-            take_stop(*searcher.move, slot, p, by);
+            take_stop(searcher.scratch->move, slot, p, by);
         }
     }
     return best;
@@ -341,7 +342,9 @@ extern "C" int tandem_scan_beside_lean(const tandem_problem_data* data,
                                        const tandem_searcher* searcher, int64_t node, double best,
                                        bool enlarge, double* cost) {
     return tandem::guarded([&] {
+        const tandem::ProblemData problem = tandem::data_of(*data);
         tandem::Searcher working = tandem::searcher_of(*searcher);
-        *cost = tandem::scan_beside_lean(tandem::data_of(*data), working, node, best, enlarge);
+        tandem::Scratch scratch(problem, working);
+        *cost = tandem::scan_beside_lean(problem, working, node, best, enlarge);
     });
 }

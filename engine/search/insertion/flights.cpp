@@ -12,6 +12,7 @@
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -52,7 +53,7 @@ public:
           inward_(legs_to(data.back, type_.drone_travel, node)),
           onward_(legs_from(data.leg, type_.home_travel, node)),
           room_(room_on(data, searcher.now, slot, searcher.now.route[slot].type, node)),
-          best_(searcher.bound->best),
+          best_(searcher.scratch->bound.best),
           early_(searcher.now.early[slot]),
           idle_(idle_time(searcher.now.route[slot])),
           priced_(data.evaluation[searcher.now.route[slot].type].priced),

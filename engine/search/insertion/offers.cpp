@@ -20,6 +20,7 @@
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
 #include "search/route/vehicles.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -116,7 +117,7 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
 void offer_stops(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
                  Int node) {
     const Fleet& now = searcher.now;
-    const double best = searcher.bound->best;
+    const double best = searcher.scratch->bound.best;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
     const Newcomer newcomer = newcomer_on(data, now, slot, k, node);
@@ -140,7 +141,7 @@ void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, 
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
     const View<const Sortie, 1> sorties = now.sortie[slot];
-    const double best = searcher.bound->best;
+    const double best = searcher.scratch->bound.best;
     for (Int s = 0; s < now.route[slot].sorties; ++s) {
         const Sortie& sortie = sorties[s];
         const Int row = row_of_drone(data.type, k, sortie.drone);
@@ -183,8 +184,9 @@ void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int s
         const Leg out = leg(flights, depot, node), home = leg(flights, node, depot);
         double cost = flown_cost(data.rate[row], out.distance + home.distance);
         cost -= now.early[slot];
-        if (unreachable(std::max(out.duration, home.duration)) || cost >= searcher.bound->best ||
-            !data.can(row, 1, node) || !may_begin(data, k, node)) {
+        if (unreachable(std::max(out.duration, home.duration)) ||
+            cost >= searcher.scratch->bound.best || !data.can(row, 1, node) ||
+            !may_begin(data, k, node)) {
             continue;
         }
         for (Int p = -1; p < route.length; ++p) {
@@ -200,7 +202,7 @@ void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, In
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
-    const double best = searcher.bound->best;
+    const double best = searcher.scratch->bound.best;
     const Int k = route.type, m = data.type[k].travel, depot = data.type[k].depot;
     const double rate = data.rate[k].distance;
     const TravelLegs legs = legs_of(data.leg, m);
@@ -242,7 +244,7 @@ void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int sl
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
-    const double best = searcher.bound->best;
+    const double best = searcher.scratch->bound.best;
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {
@@ -282,10 +284,10 @@ void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int sl
 }
 
 void take_cheapest(const ProblemData& data, const Searcher& searcher, Int node) {
-    Bound& bound = *searcher.bound;
-    const View<Move, 1> offer = searcher.offer;
-    const View<double, 1> least = searcher.least;
-    Int left = searcher.count->offers;
+    Bound& bound = searcher.scratch->bound;
+    const View<Move, 1> offer = searcher.scratch->offer;
+    const View<double, 1> least = searcher.scratch->least;
+    Int left = searcher.scratch->offers;
     Least cheapest(least, left);
     while (left > 0 && !data.deadline.passed()) {
         const Int first = cheapest.first();
@@ -293,12 +295,12 @@ void take_cheapest(const ProblemData& data, const Searcher& searcher, Int node) 
         const double cost = price_offer(data, searcher, offer[first], node, least[first]);
         if (cost < bound.best && uniform(searcher.rng) >= bound.blink) {
             bound.best = cost;
-            *searcher.move = offer[first];
+            searcher.scratch->move = offer[first];
         }
         cheapest.take_out(first);
         offer[first] = offer[--left];
     }
-    searcher.count->offers = 0;
+    searcher.scratch->offers = 0;
 }
 
 }  // namespace tandem

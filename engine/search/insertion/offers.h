@@ -1,6 +1,6 @@
 // Places for a customer on a route: behind a stop, on sorties, on trips of the customer's own.
 //
-// Each lists, in `Searcher::offer`, the insertions that may cost less than the best so far.
+// Each lists, in `Scratch::offer`, the insertions that may cost less than the best so far.
 #pragma once
 
 #include "search/route/layout.h"

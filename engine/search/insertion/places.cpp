@@ -16,6 +16,7 @@
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/vehicles.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -58,25 +59,26 @@ void try_route(const ProblemData& data, const Searcher& searcher, Int slot, Int 
 bool is_kept(const Searcher& searcher, Int slot, Int node) {
     return searcher.kept(node, slot).stamp == searcher.now.route[slot].stamp &&
            (searcher.kept_move(node, slot).kind >= 0 ||
-            searcher.kept_cost(node, slot) >= searcher.bound->best);
+            searcher.kept_cost(node, slot) >= searcher.scratch->bound.best);
 }
 
 // Lets the move be the place kept for a customer on a route if it is the best.
 void take_kept(const Searcher& searcher, Int slot, Int node) {
     const double cost = searcher.kept_cost(node, slot);
-    if (cost < searcher.bound->best && uniform(searcher.rng) >= searcher.bound->blink) {
-        searcher.bound->best = cost;
-        *searcher.move = searcher.kept_move(node, slot);
+    if (cost < searcher.scratch->bound.best &&
+        uniform(searcher.rng) >= searcher.scratch->bound.blink) {
+        searcher.scratch->bound.best = cost;
+        searcher.scratch->move = searcher.kept_move(node, slot);
     }
 }
 
 // Keeps what was found for a customer on a route, which cost less than `before`, or nothing.
 void keep(const Searcher& searcher, Int slot, Int node, double before) {
     searcher.kept(node, slot).stamp = searcher.now.route[slot].stamp;
-    searcher.kept_cost(node, slot) = searcher.bound->best;
+    searcher.kept_cost(node, slot) = searcher.scratch->bound.best;
     Move& kept = searcher.kept_move(node, slot);
-    kept = *searcher.move;
-    if (searcher.bound->best >= before) kept.kind = nowhere;
+    kept = searcher.scratch->move;
+    if (searcher.scratch->bound.best >= before) kept.kind = nowhere;
 }
 
 // Tries a customer on all routes, those first where that takes little. As `try_route`.
@@ -85,7 +87,7 @@ void keep(const Searcher& searcher, Int slot, Int node, double before) {
 // best place there is overlooked, so is the route.
 void try_routes(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
     const Fleet& now = searcher.now;
-    Bound& bound = *searcher.bound;
+    Bound& bound = searcher.scratch->bound;
     for (const bool costly : {false, true}) {
         for (const Int slot : searcher.active.first(searcher.count->active)) {
             const Route& route = now.route[slot];
@@ -139,8 +141,8 @@ double try_new_route(const ProblemData& data, const Searcher& searcher, Int node
             const double cost = searcher.alone(k, way, node);
             if (cost < best && uniform(searcher.rng) >= data.strategy.blink) {
                 best = cost;
-                searcher.move->kind = way == 0 ? new_route : new_flight;
-                searcher.move->type = k;
+                searcher.scratch->move.kind = way == 0 ? new_route : new_flight;
+                searcher.scratch->move.type = k;
             }
         }
     }
@@ -150,9 +152,9 @@ double try_new_route(const ProblemData& data, const Searcher& searcher, Int node
 double find_place(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
     const double best = try_new_route(data, searcher, node);
     if (!data.general) return scan_lean(data, searcher, node, best, enlarge);
-    *searcher.bound = {best, data.strategy.blink};
+    searcher.scratch->bound = {best, data.strategy.blink};
     try_routes(data, searcher, node, enlarge);
-    return searcher.bound->best;
+    return searcher.scratch->bound.best;
 }
 
 double find_beside(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
@@ -162,13 +164,13 @@ double find_beside(const ProblemData& data, const Searcher& searcher, Int node, 
         return scan_passing_lean(data, searcher, node, best, enlarge);
     }
     best = scan_beside(data, searcher, node, best, enlarge);
-    *searcher.bound = {best, data.strategy.blink};
+    searcher.scratch->bound = {best, data.strategy.blink};
     for (const Int other : data.fit[node]) {
         if (other < 0) break;
         if (searcher.now.where[other].slot >= 0) offer_beside(data, searcher, other, node);
     }
     take_cheapest(data, searcher, node);
-    return searcher.bound->best;
+    return searcher.scratch->bound.best;
 }
 
 bool opens_route(const Move& move) { return move.kind == new_route || move.kind == new_flight; }
@@ -194,7 +196,7 @@ double try_trips(const ProblemData& data, const Searcher& searcher, Int node, In
         if (data.can(k, 1, node)) offer_flight_trips(data, searcher, slot, node);
     }
     take_cheapest(data, searcher, node);
-    return searcher.bound->best;
+    return searcher.scratch->bound.best;
 }
 
 }  // namespace tandem

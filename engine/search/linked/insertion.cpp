@@ -17,6 +17,7 @@
 #include "search/moves/recreate.h"
 #include "search/route/edit.h"
 #include "search/route/state.h"
+#include "search/scratch.h"
 
 namespace tandem {
 
@@ -101,7 +102,7 @@ struct Gap {
     Int detour;
 };
 
-// Looks for the cheapest place for one customer, and writes it to `searcher.move`.
+// Looks for the cheapest place for one customer, and writes it to `searcher.scratch->move`.
 class Places {
 public:
     Places(const ProblemData& data, Searcher& searcher, const Linked& linked,
@@ -299,7 +300,7 @@ private:
     void take(const Joining& joins, const Gap& gap, double cost) {
         if (linked_.timed && !keeps_windows(data_.type[joins.type], gap)) return;
         if (uniform(searcher_.rng) < data_.strategy.blink) return;
-        Move& move = *searcher_.move;
+        Move& move = searcher_.scratch->move;
         move.kind = at_stop;
         move.slot = joins.slot;
         move.first = gap.before;
@@ -327,9 +328,9 @@ private:
     Int longest_detour_ = far;
 };
 
-// Inserts a customer where `searcher.move` says. False if no slot is free.
+// Inserts a customer where `searcher.scratch->move` says. False if no slot is free.
 bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int node) {
-    const Move& move = *searcher.move;
+    const Move& move = searcher.scratch->move;
     Int slot = move.slot;
     Int before = move.first;
     if (opens_route(move)) {

@@ -10,6 +10,7 @@
 #include "search/linked/strings.h"
 #include "search/linked/tails.h"
 #include "search/route/state.h"
+#include "search/scratch.h"
 
 namespace tandem {
 
@@ -140,6 +141,8 @@ extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
-        anneal_linked(data_of(*data), searching, routes, turns);
+        const ProblemData problem = data_of(*data);
+        Scratch scratch(problem, searching);
+        anneal_linked(problem, searching, routes, turns);
     });
 }

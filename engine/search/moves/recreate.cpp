@@ -15,6 +15,7 @@
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/vehicles.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -76,7 +77,7 @@ bool open_route(const ProblemData& data, const Searcher& searcher, Int node, Int
 
 // Inserts a customer where the move says. False if that breaks a rule.
 bool insert(const ProblemData& data, const Searcher& searcher, Int node) {
-    const Move& move = *searcher.move;
+    const Move& move = searcher.scratch->move;
     const Fleet& now = searcher.now;
     if (opens_route(move)) {
         return open_route(data, searcher, node, move.type, move.kind == new_flight);
@@ -113,7 +114,7 @@ Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng) {
 
 void sort_absent(const ProblemData& data, const Searcher& searcher, Int first, Int order) {
     const View<Int, 1> absent = searcher.absent;
-    const View<double, 1> key = searcher.key;
+    const View<double, 1> key = searcher.scratch->key;
     const Int last = searcher.count->absent;
     for (Int index = first; index < last; ++index) {
         key[absent[index]] = order_key(data, order, absent[index], searcher.rng);
@@ -154,7 +155,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         } else if (!scan_all) {
             cost = find_beside(data, searcher, node, enlarge);
             if (several_trips(searcher) &&
-                (opens_route(*searcher.move) || uniform(searcher.rng) < more_trips)) {
+                (opens_route(searcher.scratch->move) || uniform(searcher.rng) < more_trips)) {
                 tried = drawn_for_trips;
             }
         }

@@ -13,6 +13,7 @@
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
 #include "search/route/state.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -208,12 +209,13 @@ bool overloads(const ProblemData& data, Int k, View<const Line, 1> line, Int beg
 // infinite.
 double split_between(const ProblemData& data, Searcher& searcher, Int k, Int begin, Int end) {
     if (end <= begin + 1) return 0.0;
-    if (overloads(data, k, searcher.line, begin, end)) return infinite;
-    const View<Line, 1> line = behind(searcher.line, begin);
+    if (overloads(data, k, searcher.scratch->line, begin, end)) return infinite;
+    const View<Line, 1> line = behind(searcher.scratch->line.view(), begin);
     const Int count = end - begin + 1;
     measure(data, k, line, count);
-    if (!split(data, k, line, behind(searcher.line_cost, begin), count)) return infinite;
-    return searcher.line_cost[end] + beside(data.rate[k]);
+    if (!split(data, k, line, behind(searcher.scratch->line_cost.view(), begin), count))
+        return infinite;
+    return searcher.scratch->line_cost[end] + beside(data.rate[k]);
 }
 
 // Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite.
@@ -278,8 +280,9 @@ bool write_between(const ProblemData& data, Searcher& searcher, Int k, Int slot,
     route.type = k;
     ++now.used[k];
     append(now, spare, 0, part.first, slot);
-    write_operations(route, now.stop[slot], now.sortie[slot], behind(searcher.line, begin),
-                     end - begin + 1, now.stop(spare, part.first).kind);
+    write_operations(route, now.stop[slot], now.sortie[slot],
+                     behind(searcher.scratch->line.view(), begin), end - begin + 1,
+                     now.stop(spare, part.first).kind);
     append(now, spare, part.last, now.route[spare].length, slot);
     const bool done = refresh(data, now, slot);
     locate(now, slot);
@@ -315,15 +318,15 @@ bool resplit(const ProblemData& data, Searcher& searcher, double limit) {
     if (uniform(rng) < together_share) other = partner(data, searcher, slot, node);
     Part part{0, now.route[slot].length - 1};
     if (other < 0) part = window(now, slot, stop_beside(now, node));
-    const Lines lines = line_up_all(data, now, k, slot, other, part, searcher.line);
+    const Lines lines = line_up_all(data, now, k, slot, other, part, searcher.scratch->line);
     if (lines.length < 4) return false;
     if (other >= 0 && uniform(rng) < cut_elsewhere_share) {
-        const Int between = depot_between(data, searcher.line, lines.length);
-        shift(searcher.line, between, 1 + below(rng, lines.length - 2));
+        const Int between = depot_between(data, searcher.scratch->line, lines.length);
+        shift(searcher.scratch->line, between, 1 + below(rng, lines.length - 2));
     } else {
-        shuffle(data, searcher.line, lines.length, rng);
+        shuffle(data, searcher.scratch->line, lines.length, rng);
     }
-    const Int cut = depot_between(data, searcher.line, lines.length);
+    const Int cut = depot_between(data, searcher.scratch->line, lines.length);
     const double after = split_all(data, searcher, k, cut, lines.length);
     if (after == infinite || (lines.exact && !is_worth(data, k, lines, after, limit))) {
         return false;

@@ -7,7 +7,7 @@
 // problem with drone, Transportation Science 52:965-981.
 #pragma once
 
-#include "search/route/layout.h"
+#include "search/scratch.h"
 
 namespace tandem {
 

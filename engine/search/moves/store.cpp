@@ -13,6 +13,7 @@
 #include "search/moves/two_opt_star.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -105,13 +106,13 @@ private:
         Fleet& now = searcher_.now;
         const View<Int, 1> absent = searcher_.absent;
         const Int before = searcher_.count->absent;
-        auto [total, num_touched, seed] =
-            choose(data_, searcher_, longest_string(searcher_), absent, before, searcher_.moved);
+        auto [total, num_touched, seed] = choose(data_, searcher_, longest_string(searcher_),
+                                                 absent, before, searcher_.scratch->moved);
         if (first > 0) try_near(data_, searcher_, seed, first, before);
-        for (Int slot : searcher_.moved.first(num_touched)) touch(searcher_, slot);
+        for (Int slot : searcher_.scratch->moved.view().first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {
-            total =
-                remove_marked(data_, now, slot, searcher_.marked, absent, total, searcher_.moved);
+            total = remove_marked(data_, now, slot, searcher_.marked, absent, total,
+                                  searcher_.scratch->moved);
             if (now.route[slot].length > 0) locate(now, slot);
         }
         for (Int index = before; index < total; ++index) {
@@ -154,6 +155,7 @@ extern "C" int tandem_anneal(const tandem_problem_data* data, const tandem_searc
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         Searcher working = searcher_of(*searcher);
+        Scratch scratch(problem, working);
         if (order == any_order) {
             anneal_routes(problem, working, turns);
         } else {

@@ -23,12 +23,10 @@ using Sortie = tandem_sortie;
 using Trip = tandem_trip;
 using Route = tandem_route;
 using Kept = tandem_kept;
-using Bound = tandem_bound;
 using Place = tandem_place;
 using Move = tandem_move;
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
-using Line = tandem_line;
 using Evaluation = tandem_evaluation;
 using Strategy = tandem_strategy;
 
@@ -145,6 +143,8 @@ inline Fleet fleet_of(const tandem_fleet& from) {
             from.trip,  from.sortie, from.where, from.used};
 }
 
+struct Scratch;
+
 struct Searcher {
     Fleet now;
     Fleet before;  // those touched this turn, as they are listed there; who is where is not noted
@@ -163,18 +163,11 @@ struct Searcher {
     View<bool, 1> marked;            // (node,) removed this turn
     View<std::int64_t, 1> absences;  // (node,) turns after which a customer was left out
     View<std::int64_t, 2> hit;       // (slot, trip) turn of the last string
-    View<Line, 1> line;              // (node + 3,) scratch, places of a trip or two in order
-    View<double, 1> line_cost;       // (node + 3,) scratch
-    View<double, 1> key;             // (node,) order of insertion
-    View<std::int64_t, 1> moved;     // scratch
-    Move* move;                      // scratch, best insertion
-    View<Move, 1> offer;             // (offer,) scratch, insertions that may be best
-    View<double, 1> least;           // (offer,) scratch, what each costs at least
-    Bound* bound;                    // scratch
     View<double, 3> alone;           // (type, 2, node) cost of a route that serves one customer
     View<Kept, 2> kept;              // (node, slot) the best places on lean routes as they are
-    View<Move, 2> kept_move;    // (node, slot) the best insertions where not all routes are lean
-    View<double, 2> kept_cost;  // (node, slot) where not all routes are lean, what these cost
+    View<Move, 2> kept_move;     // (node, slot) the best insertions where not all routes are lean
+    View<double, 2> kept_cost;   // (node, slot) where not all routes are lean, what these cost
+    Scratch* scratch = nullptr;  // where customers are inserted
 };
 
 inline Searcher searcher_of(const tandem_searcher& from) {
@@ -195,14 +188,6 @@ inline Searcher searcher_of(const tandem_searcher& from) {
             from.marked,
             from.absences,
             from.hit,
-            from.line,
-            from.line_cost,
-            from.key,
-            from.moved,
-            from.move,
-            from.offer,
-            from.least,
-            from.bound,
             from.alone,
             from.kept,
             from.kept_move,

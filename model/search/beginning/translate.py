@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 
 from model.engine.library import call, dtype_of, packed
-from model.kernel.drone_types import most_drone_rows
 from model.kernel.instance import DIMENSIONS_PER_TIER, NONE
 from model.kernel.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
-from model.search.route.engine import AT_ONE_STOP, INFEASIBLE
+from model.search.route.engine import INFEASIBLE
 from model.search.route.layout import (
     CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
@@ -44,22 +43,13 @@ def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
     count.lean, count.focus = not data.general, NOWHERE
     room = (nodes, slots) if data.strategy.keep_places else (0, 0)
     of_moves = room if data.general else (0, 0)
-    # On one route, by a trip more on any, beside neighbours.
-    at_one_stop = AT_ONE_STOP * most_drone_rows(data.type)
-    offers = max(at_one_stop * stops + sorties * (data.max_visits + 1),
-                 nodes + slots * (2 + most_drone_rows(data.type)) * (trips + 1),
-                 2 * at_one_stop * data.fit.shape[1])
     return Searcher(
         now=now, before=before, best=best, count=count, value=one(dtype_of("tandem_search_values")),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
         rank=_row(slots), changed=_row(slots), is_changed=np.zeros(slots, np.bool_),
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
-        hit=np.zeros((slots, trips), np.int64), key=np.zeros(nodes),
-        line=np.zeros(nodes + 3, dtype_of("tandem_line")), line_cost=np.zeros(nodes + 3),
-        moved=_row(max(slots, stops) + 2), move=one(dtype_of("tandem_move")),
-        offer=np.zeros(offers, dtype_of("tandem_move")), least=np.zeros(offers),
-        bound=one(dtype_of("tandem_bound")), alone=alone,
+        hit=np.zeros((slots, trips), np.int64), alone=alone,
         kept=np.zeros(room, dtype_of("tandem_kept")),
         kept_move=np.zeros(of_moves, dtype_of("tandem_move")), kept_cost=np.zeros(of_moves))
 

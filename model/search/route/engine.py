@@ -15,9 +15,6 @@ BY_FAR, BY_WIDTH = 2, 4
 """Orders in which customers are inserted: who is farthest from the depot first, or who has the
 least time."""
 
-AT_ONE_STOP = 10
-"""How many insertions begin at a stop at most, a customer behind it and sorties from there."""
-
 INFEASIBLE = 1e300
 """What an insertion costs that can't be."""
 

@@ -30,14 +30,6 @@ class Searcher(NamedTuple):
     marked: BoolArray  # (node,) removed this turn
     absences: IntArray  # (node,) turns after which a customer was left out
     hit: IntArray  # (slot, trip) turn of the last string
-    line: Records  # (node + 3,) scratch, places of a trip or two in order
-    line_cost: FloatArray  # (node + 3,) scratch
-    key: FloatArray  # (node,) order of insertion
-    moved: IntArray  # scratch
-    move: Record  # scratch, best insertion
-    offer: Records  # (offer,), scratch, insertions that may be best
-    least: FloatArray  # (offer,) scratch, what each costs at least
-    bound: Record  # scratch
     alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
     kept: Records  # (node, slot), the best places on lean routes as they are
     kept_move: Records  # (node, slot), the best insertions where not all routes are lean

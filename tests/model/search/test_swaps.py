@@ -6,8 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.engine.library import call
+from model.engine.library import call, dtype_of
 from model.kernel.instance import pack
+from model.kernel.records import one
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -80,7 +81,7 @@ def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
         timed.evaluation["priced"] = True
         # How much is aboard is looked at before.
         data.type["capacity"] *= 100
-        rng, move = np.random.default_rng(seed), searcher.move
+        rng, move = np.random.default_rng(seed), one(dtype_of("tandem_move"))
         for slot in searcher.active[: searcher.count.active].tolist():
             others = [node for node in range(problem.num_depots, problem.num_nodes)
                       if searcher.now.where[node].slot != slot]
