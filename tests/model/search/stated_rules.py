@@ -1,4 +1,4 @@
-"""Problems that state one rule or another, as the tables of the page on the search name them."""
+"""Problems that state one rule or another, as the tables of the pages on the search name them."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import replace

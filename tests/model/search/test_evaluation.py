@@ -1,4 +1,4 @@
-"""How routes are timed and priced is what the page on the search says, rule by rule."""
+"""How routes are timed and priced is what the page on times says, rule by rule."""
 
 import pytest
 
@@ -10,7 +10,7 @@ from tests.model.search.stated_rules import plain, stating
 ASPECTS = ("timed", "priced", "held back", "retimed", "by detour")
 
 
-@pytest.mark.parametrize(("stated", "told"), table("timed").items())
+@pytest.mark.parametrize(("stated", "told"), table("route-times.md", "timed").items())
 def test_routes_are_evaluated_as_the_page_says(stated: str, told: dict[str, str]) -> None:
     problem = stating([] if stated == "nothing" else stated.split(", "), plain())
     evaluation = make_data(problem, pack([problem])).evaluation[0]

@@ -32,7 +32,7 @@ def searched(kind: str, moves: Moves = ALL_MOVES) -> ProblemData:
     return make_data(problem, pack([problem], legs=False), moves)
 
 
-@pytest.mark.parametrize(("kind", "told"), table(LINKED).items())
+@pytest.mark.parametrize(("kind", "told"), table("search.md", LINKED).items())
 def test_the_search_does_what_the_page_says(kind: str, told: dict[str, str]) -> None:
     data = searched(kind)
     done = {name: bool(getattr(data.strategy, name.replace(" ", "_"))) for name in CHOSEN}
@@ -40,9 +40,9 @@ def test_the_search_does_what_the_page_says(kind: str, told: dict[str, str]) -> 
     assert {name: "yes" if does else "" for name, does in done.items()} == told
 
 
-def test_the_page_tells_of_each_rule() -> None:
-    told = {rule for column in (LINKED, "timed") for kind in table(column)
-            for rule in kind.split(", ")}
+def test_the_pages_tell_of_each_rule() -> None:
+    told = {rule for page in (("search.md", LINKED), ("route-times.md", "timed"))
+            for kind in table(*page) for rule in kind.split(", ")}
     assert set(RULES) <= told
 
 
