@@ -109,11 +109,11 @@ void describe_demand(const Situation& now, Int node, ActionFeatures& feature) {
 void describe_customer(const Situation& now, Int node, const Outlook& outlook,
                        ActionFeatures& feature) {
     const auto& [setting, unit, vehicle, log, rate, prices, distance, flown, since, nearest] = now;
-    const NodeRows place = setting.node[node];
+    const Windows place = setting.node[node];
     const Int wait = outlook.start - outlook.arrival;
-    const Int late = lateness(place, outlook.arrival);
+    const Int late = place.lateness(outlook.arrival);
     feature.waiting = to_float(ratio(wait, unit.time));
-    double left = slack(closing(place), outlook.arrival, unit.time);
+    double left = slack(place.closing(), outlook.arrival, unit.time);
     feature.window_slack = to_float(left);
     if (some_limited(setting.max_time_aboard)) {
         const Int excess = excess_aboard(setting.max_time_aboard, node, since, outlook.start);

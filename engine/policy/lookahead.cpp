@@ -69,31 +69,31 @@ void describe_company(const Setting& setting, View<const Int, 1> neighbours,
 void describe_drive(const Setting& setting, View<const Int, 1> neighbours,
                     View<const bool, 1> served, const Candidate& candidate, const Unit& unit,
                     ActionFeatures& feature) {
-    const NodeRows place = setting.node[candidate.node];
+    const Windows place = setting.node[candidate.node];
     const View<const Int, 1> from_here = setting.drive[candidate.here];
     const View<const Int, 1> onward = setting.drive[candidate.node];
     const Int arrival = candidate.outlook.arrival;
     const Int way = from_here[candidate.node];
-    const Int leave = candidate.outlook.start + service_duration(place);
+    const Int leave = candidate.outlook.start + place.service_duration();
     const Int left = candidate.load - asked(setting, candidate.node);
     Int soonest = unlimited, tightest = unlimited, detour = unlimited, later = unlimited;
     Int seen = 0, lost = 0;
     look_around(neighbours, served, num_prospects, [&](Int other) {
         ++seen;
-        const NodeRows there = setting.node[other];
-        const Int latest = closing(there);
+        const Windows there = setting.node[other];
+        const Int latest = there.closing();
         const Int past = from_here[other], back = setting.drive(other, candidate.node);
         const Int then = leave + onward[other], directly = arrival - way + past;
-        if (lateness(place, end_of_service(there, none) + back) == 0) {
-            later = std::min(later, back + waiting(place, latest + service_duration(there) + back));
+        if (place.lateness(there.end_of_service(none) + back) == 0) {
+            later = std::min(later, back + place.waiting(latest + there.service_duration() + back));
         }
         if (then <= latest && asked(setting, other) <= left) {
-            soonest = std::min(soonest, start_of_service(there, then) - leave);
+            soonest = std::min(soonest, there.start_of_service(then) - leave);
             if (latest < unlimited) tightest = std::min(tightest, latest - then);
         } else if (directly <= latest) {
             ++lost;
         }
-        if (directly <= latest && lateness(place, end_of_service(there, directly) + back) == 0) {
+        if (directly <= latest && place.lateness(there.end_of_service(directly) + back) == 0) {
             detour = std::min(detour, past + back - way);
         }
     });
@@ -116,7 +116,7 @@ void describe_flight(const Setting& setting, View<const Int, 1> neighbours,
     const View<const Int, 1> from_here = setting.drive[here];
     const View<const Int, 1> onward = setting.drive[node], home = setting.fly_home[node];
     const Int takeoff = candidate.outlook.arrival - setting.fly(here, node);
-    const Int ready = candidate.outlook.start + service_duration(setting.node_by_air[node]);
+    const Int ready = candidate.outlook.start + setting.node_by_air[node].service_duration();
     Int soonest = unlimited, wait = unlimited, detour = unlimited;
     Int seen = 0;
     for (const Int other : neighbours) {

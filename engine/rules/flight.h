@@ -1,7 +1,6 @@
 // What a flight may last, and all instants of one but those on the way.
 //
-// `place` is the customer's rows from the drones' table of nodes, `launched` how many launches of
-// the trip come before one; `out` and `home` are the durations of a sortie's legs.
+// `launched` is how many launches of the trip come before one.
 #pragma once
 
 #include <algorithm>
@@ -60,8 +59,8 @@ inline bool takes_no_time(const VehicleType& type, bool is_recovery, Int launche
 
 // When a drone is where `home` leads to that is at a customer as the window opens in which whoever
 // comes at `arrival` is served.
-inline Int earliest_back(NodeRows place, Int arrival, Int home) {
-    return opening(place, arrival) + service_duration(place) + home;
+inline Int earliest_back(Windows place, Int arrival, Int home) {
+    return place.opening(arrival) + place.service_duration() + home;
 }
 
 // In how long after its take-off windows may let a drone be back. Its endurance; and where it
@@ -76,67 +75,72 @@ inline Int longest_hold(const VehicleType& type, Int flight, Int left, Int weigh
 // windows allow; the flight itself may be too long.
 inline Int held_until(Int back, Int limit) { return back - limit; }
 
-// What is left of the battery after a flight to one customer without any waiting.
-inline Int after_flight(const VehicleType& type, NodeRows place, Int out, Int home) {
-    const Int weight = weight_brought(place);
-    Int left = after_leg(type, battery_of(type), weight, out);
-    if (hovers_at_customers(type)) {
-        left = after_hovering(type, left, weight, service_duration(place));
-    }
-    return after_leg(type, left, weight_taken(place), home);
-}
-
-// When a drone takes off to one customer that can at `takeoff`: then, or held back.
-inline Int held_takeoff(const VehicleType& type, NodeRows place, Int takeoff, Int out, Int home) {
-    Int limit = type.endurance;
-    if (hovers_at_customers(type)) {
-        limit = longest_hold(type, out + service_duration(place) + home,
-                             after_flight(type, place, out, home),
-                             std::max(weight_brought(place), weight_taken(place)));
-    }
-    while (true) {
-        const Int held = held_until(earliest_back(place, takeoff + out, home), limit);
-        if (held <= takeoff) return takeoff;
-        takeoff = held;
-    }
-}
-
-// Whether a flight, out, service and home, is within the endurance if nothing waits. None is that
+// Whether a flight that takes so long in all is within the endurance if nothing waits. None is that
 // leads where nobody can fly.
 inline bool can_last(const VehicleType& type, Int duration) { return duration <= type.endurance; }
 
-// Whether a flight to one customer is within endurance and energy if nothing waits.
-inline bool can_serve(const VehicleType& type, NodeRows place, Int out, Int home) {
-    return can_last(type, out + service_duration(place) + home) &&
-           (!is_limited(type) || after_flight(type, place, out, home) >= 0);
-}
+// A flight to one customer: the drone, the customer by the drones' table of nodes, and how long the
+// legs there and to the recovery take.
+struct Flight {
+    const VehicleType& type;
+    Windows place;
+    Int out, home;
 
-// Whether energy lasts for a flight to one customer and so long a wait to be recovered.
-inline bool can_wait(const VehicleType& type, NodeRows place, Int out, Int home, Int waiting) {
-    if (!is_limited(type)) return true;
-    const Int left = after_flight(type, place, out, home);
-    return after_hovering(type, left, weight_taken(place), waiting) >= 0;
-}
+    // How long it takes if nothing waits.
+    Int duration() const { return out + place.service_duration() + home; }
 
-// From when on the launch may begin of a flight to one customer, at once if it can't be. The drone
-// is charged aboard since then, with what it has kept.
-inline Int charged_launch(const VehicleType& type, NodeRows place, Int kept, Int since, Int out,
-                          Int home) {
-    return time_charged(type, kept, since, after_flight(type, place, out, home));
-}
-
-// What a sortie to one customer, waiting included, leaves of a full battery; nothing where none
-// limits it.
-inline Int left_after(const VehicleType& type, NodeRows place, Int out, Int home, Int takeoff,
-                      Int served, Int recovery_start) {
-    if (!is_limited(type)) return 0;
-    Int left = after_flight(type, place, out, home);
-    if (hovers_at_customers(type)) {
-        const Int waited = served - service_duration(place) - takeoff - out;
-        left = after_hovering(type, left, weight_brought(place), waited);
+    // What it leaves of a full battery if nothing waits.
+    Int left() const {
+        const Int weight = weight_brought(place);
+        Int left = after_leg(type, battery_of(type), weight, out);
+        if (hovers_at_customers(type)) {
+            left = after_hovering(type, left, weight, place.service_duration());
+        }
+        return after_leg(type, left, weight_taken(place), home);
     }
-    return after_hovering(type, left, weight_taken(place), recovery_start - served - home);
-}
+
+    // When the drone takes off that can at `takeoff`: then, or held back.
+    Int held_takeoff(Int takeoff) const {
+        Int limit = type.endurance;
+        if (hovers_at_customers(type)) {
+            limit = longest_hold(type, duration(), left(),
+                                 std::max(weight_brought(place), weight_taken(place)));
+        }
+        while (true) {
+            const Int held = held_until(earliest_back(place, takeoff + out, home), limit);
+            if (held <= takeoff) return takeoff;
+            takeoff = held;
+        }
+    }
+
+    // Whether it is within endurance and energy if nothing waits.
+    bool can_serve() const {
+        return can_last(type, duration()) && (!is_limited(type) || left() >= 0);
+    }
+
+    // Whether energy lasts for so long a wait to be recovered.
+    bool can_wait(Int waiting) const {
+        return !is_limited(type) || after_hovering(type, left(), weight_taken(place), waiting) >= 0;
+    }
+
+    // From when on the launch may begin of a drone that is charged aboard since then, with what it
+    // has kept; at once if it can't be.
+    Int charged_launch(Int kept, Int since) const {
+        return time_charged(type, kept, since, left());
+    }
+
+    // What it leaves of a full battery, waiting included, if the customer is served by then;
+    // nothing where none limits it.
+    Int left_after(Int takeoff, Int served, Int recovery_start) const {
+        if (!is_limited(type)) return 0;
+        Int rest = left();
+        if (hovers_at_customers(type)) {
+            const Int waited = served - place.service_duration() - takeoff - out;
+            rest = after_hovering(type, rest, weight_brought(place), waited);
+        }
+        return after_hovering(type, rest, weight_taken(place), recovery_start - served - home);
+    }
+};
 
 // Until when the endurance counts: as a drone is back, or as its recovery begins.
 inline Int counted_until(const VehicleType& type, Int back, Int recovery_start) {
@@ -156,15 +160,15 @@ inline Int longest_flight(const VehicleType& type) {
     return std::min(type.endurance, longest_cruise(type));
 }
 
-// For which arrivals at a block's beginning it is at most `limit` from one pair to another, which
-// is never before it; `far` and `none` if there is none. With `time`, both are sums with d as soon
-// as that is past `begin_c - begin_d`, so that what lasts too long by d must begin before.
-inline Interval lasting_within(Int limit, Int begin_d, Int begin_c, Int d, Int c) {
-    if (d - begin_d <= limit) {
-        return {c - begin_c > limit ? c - limit - begin_d : none, far};
+// For which arrivals at a block's beginning it is at most `limit` from one instant to another,
+// which is never before it; `far` and `none` if there is none. Both are sums with `d` for arrivals
+// past `begin.c - begin.d`, so that what lasts too long by `d` must begin before.
+inline Interval lasting_within(Int limit, TimeSegment begin, TimeSegment end) {
+    if (end.d - begin.d <= limit) {
+        return {end.c - begin.c > limit ? end.c - limit - begin.d : none, far};
     }
-    if (c - begin_c > limit) return {far, none};
-    return {none, limit + begin_c - d};
+    if (end.c - begin.c > limit) return {far, none};
+    return {none, limit + begin.c - end.d};
 }
 
 }  // namespace tandem

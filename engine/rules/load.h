@@ -38,7 +38,7 @@ inline void write_amount(const Amount& amount, Int* row) {
 }
 
 // When a customer's parcel is at the depot.
-inline Int release_of(NodeRows place) { return place[0].release; }
+inline Int release_of(Windows place) { return place.node().release; }
 
 // Whether some goods must not go with others, by the rows of all nodes.
 inline bool some_apart(View<const Goods, 1> goods) { return !goods.empty(); }
@@ -64,7 +64,7 @@ inline Int excess_aboard(View<const Int, 1> max_time_aboard, Int node, Int depar
 }
 
 // What a customer's parcel takes, in the first tier.
-inline Amount demand_of(NodeRows place) { return amount_of(place[0].demand); }
+inline Amount demand_of(Windows place) { return amount_of(place.node().demand); }
 
 // How many tiers loads have to be looked at in at each stop; 0 if that isn't needed.
 inline Int num_tiers(const View<const Int, 3>& amounts) { return amounts.shape(1); }
@@ -88,10 +88,10 @@ inline Int total_delivered(const View<const Int, 3>& amounts, Int node) {
 inline Int total_picked(const View<const Int, 3>& amounts, Int node) { return amounts(node, 0, 7); }
 
 // What a customer's parcel weighs, by the drones' table of nodes.
-inline Int weight_brought(NodeRows place) { return place[0].demand[0]; }
+inline Int weight_brought(Windows place) { return place.node().demand[0]; }
 
 // What weighs of that which is picked up at a customer, likewise.
-inline Int weight_taken(NodeRows place) { return place[0].demand[1]; }
+inline Int weight_taken(Windows place) { return place.node().demand[1]; }
 
 // What a vehicle of a type holds, in the first tier.
 inline Amount capacity_of(const VehicleType& type) { return amount_of(type.capacity); }
@@ -145,7 +145,7 @@ inline bool holds_in(const VehicleType& type, const Amount& load, Int tier) {
 }
 
 // Whether a vehicle of a type holds a customer's parcel on top of a load.
-inline bool fits(const VehicleType& type, const Amount& load, NodeRows place) {
+inline bool fits(const VehicleType& type, const Amount& load, Windows place) {
     return holds(type, plus(load, demand_of(place)));
 }
 

@@ -44,15 +44,15 @@ inline double airborne_cost(const Rate& rate, Int duration, Units units = ms_and
 }
 
 // What an arrival behind the window costs.
-inline double lateness_cost(const Price& price, NodeRows place, Int arrival,
+inline double lateness_cost(const Price& price, Windows place, Int arrival,
                             Units units = ms_and_mm) {
-    return static_cast<double>(lateness(place, arrival)) / units.duration * price.lateness;
+    return static_cast<double>(place.lateness(arrival)) / units.duration * price.lateness;
 }
 
 // What it costs to wait for the window.
-inline double waiting_cost(const Price& price, NodeRows place, Int arrival,
+inline double waiting_cost(const Price& price, Windows place, Int arrival,
                            Units units = ms_and_mm) {
-    return static_cast<double>(waiting(place, arrival)) / units.duration * price.waiting;
+    return static_cast<double>(place.waiting(arrival)) / units.duration * price.waiting;
 }
 
 }  // namespace tandem

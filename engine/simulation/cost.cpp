@@ -10,7 +10,7 @@ namespace {
 
 // Add what lateness and earliness at a customer cost.
 void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Cost& cost) {
-    const NodeRows place = instance.node[b][0][node];
+    const Windows place = instance.node[b][0][node];
     const Price& price = instance.price(b, node);
     cost.lateness += lateness_cost(price, place, arrival, hours_and_km);
     cost.earliness += waiting_cost(price, place, arrival, hours_and_km);

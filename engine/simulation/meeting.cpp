@@ -18,9 +18,7 @@ void mark_place(const Setting& setting, Drone& drone, Int here, Int to) {
     Recovery place = Recovery::aboard;
     if (drone.sortie != in_flight) {
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-        const bool meets =
-            can_serve(drone_kind.type, drone_kind.node[drone.node],
-                      drone_kind.out(here, drone.node), drone_kind.home(drone.node, to));
+        const bool meets = drone_kind.flight(here, drone.node, to).can_serve();
         place = meets ? Recovery::meet : Recovery::loop;
     }
     drone.place = static_cast<Int>(place);
@@ -50,17 +48,13 @@ NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int 
         const Drone& drone = drones[d];
         if (is_aboard(drone) || drone.takeoff != not_yet) continue;
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-        const NodeRows place = drone_kind.node[drone.node];
-        const Int out = drone_kind.out(here, drone.node);
-        const Int home =
-            drone_kind.home(drone.node, is_recovered(drone, Recovery::meet) ? to : here);
+        const Flight flight =
+            drone_kind.flight(here, drone.node, is_recovered(drone, Recovery::meet) ? to : here);
         Int begin = free;
         if (charges_aboard(drone_kind.type)) {
-            begin = std::max(
-                free, charged_launch(drone_kind.type, place, drone.kept, drone.since, out, home));
+            begin = std::max(free, flight.charged_launch(drone.kept, drone.since));
         }
-        const Int soonest = held_takeoff(drone_kind.type, place,
-                                         take_off(drone_kind.type, begin, launched), out, home);
+        const Int soonest = flight.held_takeoff(take_off(drone_kind.type, begin, launched));
         if (next.drone < 0 || soonest < next.takeoff) next = {d, soonest};
     }
     return next;
@@ -72,7 +66,7 @@ void fly(const Setting& setting, Drone& drone, Int here, Int to, Int takeoff) {
     const Int arrival = takeoff + drone_kind.out(here, drone.node);
     const Int end = is_recovered(drone, Recovery::meet) ? to : here;
     drone.takeoff = takeoff;
-    drone.ready = end_of_service(drone_kind.node[drone.node], arrival);
+    drone.ready = drone_kind.node[drone.node].end_of_service(arrival);
     drone.back = drone.ready + drone_kind.home(drone.node, end);
     drone.lacking = 0;
     if (charges_aboard(drone_kind.type)) {
@@ -103,9 +97,9 @@ Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int free) {
         !within_endurance(drone_kind.type, drone.takeoff, drone.back, begin)) {
         return -1;
     }
-    const Int left =
-        left_after(drone_kind.type, drone_kind.node[drone.node], drone_kind.out(here, drone.node),
-                   drone.back - drone.ready, drone.takeoff, drone.ready, begin);
+    const Flight flight{drone_kind.type, drone_kind.node[drone.node],
+                        drone_kind.out(here, drone.node), drone.back - drone.ready};
+    const Int left = flight.left_after(drone.takeoff, drone.ready, begin);
     if (left < drone.lacking) return -1;
     drone.left = left - drone.lacking;
     drone.recovery = begin;
@@ -168,8 +162,8 @@ bool any_late(const Setting& setting, Int here, View<const Drone, 1> drones) {
     return std::any_of(drones.begin(), drones.end(), [&](const Drone& drone) {
         if (is_aboard(drone)) return false;
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-        return too_late(drone_kind.node[drone.node],
-                        drone.takeoff + drone_kind.out(here, drone.node));
+        return drone_kind.node[drone.node].too_late(drone.takeoff +
+                                                    drone_kind.out(here, drone.node));
     });
 }
 
@@ -203,9 +197,7 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
         if (!are_several(setting.type)) return d;
         const Int row = drones[d].row;
         if (!setting.can_fly(row, node) || !has_battery(setting, log, row)) continue;
-        const DroneKind drone_kind = drone_kind_of(setting, row);
-        if (can_serve(drone_kind.type, drone_kind.node[node], drone_kind.out(vehicle.node, node),
-                      drone_kind.home(node, vehicle.node))) {
+        if (drone_kind_of(setting, row).flight(vehicle.node, node, vehicle.node).can_serve()) {
             return d;
         }
         if (chosen < 0) chosen = d;

@@ -36,7 +36,7 @@ Verdict judge_end(const Setting& setting, Int end, Int departure, bool rigid) {
 Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int node,
                     Outlook& outlook) {
     const auto& [setting, vehicle, log, drones] = open;
-    const NodeRows place = setting.node[node];
+    const Windows place = setting.node[node];
     Int leave = vehicle.next_start;
     Int arrival = 0;
     Int free = 0;
@@ -51,9 +51,9 @@ Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int no
         free = leaving.free;
     }
     if (!holds_all(setting, vehicle, drones, node, true)) return Verdict::no;
-    if (too_late(place, arrival)) return Verdict::no;
-    const Int start = start_of_service(place, arrival);
-    const Int served = std::max(free, end_of_service(place, arrival));
+    if (place.too_late(arrival)) return Verdict::no;
+    const Int start = place.start_of_service(arrival);
+    const Int served = std::max(free, place.end_of_service(arrival));
     const Int end = travel_arrival(setting, node, setting.type.ends_at, served);
     outlook = {arrival, start, end};
     Int departure = leaves_first(setting.type, leave);
@@ -71,12 +71,12 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     const Int chosen = next_drone(setting, log, vehicle, drones, node);
     if (chosen < 0) return Verdict::no;
     Drone& drone = drones[chosen];
-    const NodeRows place = setting.node[node];
+    const Windows place = setting.node[node];
     const DroneKind drone_kind = drone_kind_of(setting, drone.row);
     const Int flight = drone_kind.out(vehicle.node, node);
     const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
     const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
-    if (unreachable(flight) || too_late(place, soonest + flight)) return Verdict::no;
+    if (unreachable(flight) || place.too_late(soonest + flight)) return Verdict::no;
 
     // As if it flew and the vehicle went home.
     const Int home = setting.type.ends_at;
@@ -92,7 +92,7 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     vehicle.free = free;
     if (!is_held) return Verdict::no;
     const Int arrival = drone.takeoff + flight;
-    outlook = {arrival, start_of_service(place, arrival), leaving.free};
+    outlook = {arrival, place.start_of_service(arrival), leaving.free};
     return judge_end(setting, leaving.free, departure, false);
 }
 

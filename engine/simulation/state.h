@@ -1,7 +1,7 @@
 // Running plans, a row per rollout.
 #pragma once
 
-#include "problem/instance.h"
+#include "rules/flight.h"
 
 namespace tandem {
 
@@ -44,8 +44,8 @@ inline VehicleLog log_of(const VehicleLogs& logs, Int r) {
 // type, else `drone_kind_of` tells.
 struct Setting {
     Int num_depots;
-    View<const Node, 2> node;         // (node, row)
-    View<const Node, 2> node_by_air;  // (node, row) as drones meet them
+    NodeTable node;
+    NodeTable node_by_air;       // as drones meet them
     View<const Int, 3> amount;   // (node, tier, amounts); no tiers where `Node::demand` tells all
     View<const Goods, 1> goods;  // (node,) none where all go together
     View<const Int, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
@@ -57,17 +57,22 @@ struct Setting {
     View<const Int, 1> profile_time;    // (change,)
     View<const Int, 1> profile_factor;  // (change + 1,)
     View<const VehicleType, 1> types;   // (row,)
-    View<const Node, 3> nodes;          // (variant, node, row)
-    View<const Int, 3> durations;       // (travel, node, node) ms
-    View<const bool, 2> can_fly;        // (row, node)
+    NodeTables nodes;
+    View<const Int, 3> durations;  // (travel, node, node) ms
+    View<const bool, 2> can_fly;   // (row, node)
 };
 
 // What a type of drones meets.
 struct DroneKind {
     const VehicleType& type;
-    View<const Node, 2> node;  // (node, row)
-    View<const Int, 2> out;    // (node, node) ms
-    View<const Int, 2> home;   // (node, node) ms, to where the truck is
+    NodeTable node;
+    View<const Int, 2> out;   // (node, node) ms
+    View<const Int, 2> home;  // (node, node) ms, to where the truck is
+
+    // The flight to a customer, launched and recovered at these nodes.
+    Flight flight(Int from, Int customer, Int to) const {
+        return {type, node[customer], out(from, customer), home(customer, to)};
+    }
 };
 
 // Running plans, a row per rollout, then scratch rows. Times in ms since plan start; those of

@@ -78,7 +78,7 @@ void log_sorties(const Setting& setting, VehicleLog& log, const Vehicle& vehicle
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
         sortie.takeoff = drone.takeoff;
         sortie.arrival = drone.takeoff + drone_kind.out(vehicle.node, drone.node);
-        sortie.start = start_of_service(setting.node[drone.node], sortie.arrival);
+        sortie.start = setting.node[drone.node].start_of_service(sortie.arrival);
         sortie.ready = drone.ready;
     }
     log_recoveries(setting, log, drones, Recovery::loop, here);
@@ -109,7 +109,7 @@ void note_times(OpenVehicle& open) {
     const LoggedStop& stop = log.stop[here];
     vehicle.service_end = stop.node < setting.num_depots
                               ? leaves_first(setting.type, stop.start)
-                              : stop.start + service_duration(setting.node[stop.node]);
+                              : stop.start + setting.node[stop.node].service_duration();
     vehicle.free = vehicle.crew = stop.arrival;
     for (Int last = log.count.ops - 1; last >= 0 && log.op[last].stop == here; --last) {
         const LoggedSortie& sortie = log.sortie[log.op[last].sortie];
@@ -189,14 +189,14 @@ void board(const OpenVehicle& open, Drone& drone, Int sortie, Int node, Int take
     drone.node = node;
     drone.takeoff = takeoff;
     drone.ready =
-        end_of_service(drone_kind.node[node], takeoff + drone_kind.out(vehicle.node, node));
+        drone_kind.node[node].end_of_service(takeoff + drone_kind.out(vehicle.node, node));
     ++vehicle.flying;
     vehicle.free = takeoff;
 }
 
 bool launch(OpenVehicle& open, Int node) {
     auto& [setting, vehicle, log, drones] = open;
-    const NodeRows place = setting.node[node];
+    const Windows place = setting.node[node];
     const Int release = release_of(place);
     if (vehicle.idle != 0) {
         begin_trip(open, release);
@@ -211,7 +211,7 @@ bool launch(OpenVehicle& open, Int node) {
     const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
     const Int flight = drone_kind.out(vehicle.node, node);
     const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
-    if (unreachable(flight) || too_late(place, soonest + flight)) return false;
+    if (unreachable(flight) || place.too_late(soonest + flight)) return false;
     const Int here = log.count.stops - 1;
     const Int index = log.count.sorties++;
     board(open, drone, index, node, takeoff);
@@ -223,7 +223,7 @@ bool launch(OpenVehicle& open, Int node) {
     sortie.recovery_stop = in_flight;
     sortie.takeoff = takeoff;
     sortie.arrival = takeoff + flight;
-    sortie.start = start_of_service(place, sortie.arrival);
+    sortie.start = place.start_of_service(sortie.arrival);
     sortie.ready = drone.ready;
     log_op(log, here, index, false);
     log.stop[here].leave = std::max(vehicle.service_end, takeoff);
@@ -236,14 +236,14 @@ bool launch(OpenVehicle& open, Int node) {
 bool drive(OpenVehicle& open, Int node) {
     auto& [setting, vehicle, log, drones] = open;
     const bool is_customer = node >= setting.num_depots;
-    const NodeRows place = setting.node[node];
+    const Windows place = setting.node[node];
     if (vehicle.idle != 0) {
         begin_trip(open, release_of(place));
     } else if (is_customer && !hold_trip(open, release_of(place))) {
         return false;
     }
     const auto [left, arrival, free] = leave_for(setting, vehicle, drones, node);
-    if (arrival < 0 || (is_customer && too_late(place, arrival))) return false;
+    if (arrival < 0 || (is_customer && place.too_late(arrival))) return false;
     if (!holds_all(setting, vehicle, drones, node, is_customer)) return false;
     load_stop(setting, vehicle, drones, node, is_customer);
     if (vehicle.flying > 0) {
@@ -253,8 +253,8 @@ bool drive(OpenVehicle& open, Int node) {
         // The start known so far kept the drones' return, not the last take-off before recoveries.
         vehicle.start_best = log.trip[0].start;
     }
-    const Int start = is_customer ? start_of_service(place, arrival) : arrival;
-    const Int service_end = is_customer ? end_of_service(place, arrival) : arrival;
+    const Int start = is_customer ? place.start_of_service(arrival) : arrival;
+    const Int service_end = is_customer ? place.end_of_service(arrival) : arrival;
     log_stop(log, node, arrival, start, std::max(service_end, free));
     vehicle.node = node;
     vehicle.service_end = service_end;

@@ -21,8 +21,7 @@ Int sortie_takeoff(const Setting& setting, const VehicleLog& log, const LoggedSo
     if (sortie.recovery_stop == in_flight) return takeoff;
     const Int here = log.stop[sortie.launch_stop].node;
     const Int to = log.stop[sortie.recovery_stop].node;
-    return held_takeoff(drone_kind.type, drone_kind.node[sortie.node], takeoff,
-                        drone_kind.out(here, sortie.node), drone_kind.home(sortie.node, to));
+    return drone_kind.flight(here, sortie.node, to).held_takeoff(takeoff);
 }
 
 // As `sortie_takeoff`, of a sortie by its index, where drones are charged aboard; notes what it has
@@ -41,9 +40,7 @@ Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, In
     if (sortie.recovery_stop != in_flight) {
         const Int here = log.stop[sortie.launch_stop].node;
         const Int to = log.stop[sortie.recovery_stop].node;
-        free = std::max(free, charged_launch(drone_kind.type, drone_kind.node[sortie.node], kept,
-                                             since, drone_kind.out(here, sortie.node),
-                                             drone_kind.home(sortie.node, to)));
+        free = std::max(free, drone_kind.flight(here, sortie.node, to).charged_launch(kept, since));
     }
     const Int takeoff = sortie_takeoff(setting, log, sortie, free, launched);
     sortie.trial_left =
@@ -92,11 +89,11 @@ private:
         Int service_start = arrival;
         leave_ = index == first_ ? leaves_first(setting_.type, arrival) : arrival;
         if (stop.node >= setting_.num_depots) {
-            const NodeRows place = setting_.node[stop.node];
-            service_start = start_of_service(place, arrival);
+            const Windows place = setting_.node[stop.node];
+            service_start = place.start_of_service(arrival);
             if (!is_allowed(place, arrival, stop.arrival)) return false;
             if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
-            leave_ = end_of_service(place, arrival);
+            leave_ = place.end_of_service(arrival);
         }
         free_ = busy_ = arrival;
         for (; op_ < log_.count.ops && log_.op[op_].stop == index; ++op_) {
@@ -134,7 +131,7 @@ private:
         LoggedSortie& sortie = log_.sortie[index];
         const Int customer = sortie.node;
         const DroneKind drone_kind = drone_kind_of(setting_, sortie.row);
-        const NodeRows place = drone_kind.node[customer];
+        const Windows place = drone_kind.node[customer];
         const bool is_flying = sortie.recovery_stop == in_flight;
         const Int takeoff = charges_aboard(drone_kind.type)
                                 ? charged_takeoff(setting_, log_, index, first_, free_, launched_)
@@ -143,8 +140,8 @@ private:
         // Who is still in flight may be launched before those of other types.
         const bool may_be_sooner = writes && is_flying && are_several(setting_.type);
         if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
-        const Int start = start_of_service(place, arrival);
-        const Int served = end_of_service(place, arrival);
+        const Int start = place.start_of_service(arrival);
+        const Int served = place.end_of_service(arrival);
         sortie.trial_takeoff = takeoff;
         sortie.trial_ready = served;
         if constexpr (writes) {
@@ -170,14 +167,13 @@ private:
         LoggedSortie& sortie = log_.sortie[index];
         const Int takeoff = sortie.trial_takeoff;
         const DroneKind drone_kind = drone_kind_of(setting_, sortie.row);
-        const Int out = drone_kind.out(log_.stop[sortie.launch_stop].node, sortie.node);
-        const Int home = drone_kind.home(sortie.node, node);
-        const Int back = sortie.trial_ready + home;
+        const Flight flight =
+            drone_kind.flight(log_.stop[sortie.launch_stop].node, sortie.node, node);
+        const Int back = sortie.trial_ready + flight.home;
         const Int begin = std::max(takes_no_time(drone_kind.type, true, 0) ? busy_ : free_, back);
         const Int end = recovery_end(drone_kind.type, begin);
         // A sortie as long as before may wait where that takes more.
-        Int left = left_after(drone_kind.type, drone_kind.node[sortie.node], out, home, takeoff,
-                              sortie.trial_ready, begin);
+        Int left = flight.left_after(takeoff, sortie.trial_ready, begin);
         if (charges_aboard(drone_kind.type)) {
             left -= battery_of(drone_kind.type) - sortie.trial_left;
             sortie.trial_left = left;
@@ -200,10 +196,10 @@ private:
     //
     // With drones, also that it is the same window: who has to wait for another may then be met
     // sooner, so that a start might cost nothing though an earlier one does.
-    bool is_allowed(NodeRows place, Int arrival, Int before) const {
-        if constexpr (writes) return !too_late(place, arrival);
-        if (log_.count.sorties > 0) return arrival <= in_same_window(place, before);
-        return arrival <= as_late(place, before);
+    bool is_allowed(Windows place, Int arrival, Int before) const {
+        if constexpr (writes) return !place.too_late(arrival);
+        if (log_.count.sorties > 0) return arrival <= place.in_same_window(before);
+        return arrival <= place.as_late(before);
     }
 
     // Tell whether a parcel is too long aboard on a trip that has left at `departure`.

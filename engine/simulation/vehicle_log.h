@@ -16,12 +16,12 @@ constexpr Int in_flight = -1;  // recovery stop of a sortie until it is recovere
 // What vehicle type `k` meets in problem `b`.
 inline Setting setting_of(const Instance& instance, Int b, Int k) {
     const VehicleType& type = instance.type(b, k);
-    const View<const Node, 3> nodes = instance.node[b];
+    const NodeTables nodes = instance.node[b];
     const View<const Int, 3> durations = instance.duration[b];
     return {
         .num_depots = instance.size[b].depots,
-        .node = places_of(nodes, type),
-        .node_by_air = places_by_air(nodes, type),
+        .node = nodes.by_truck(type),
+        .node_by_air = nodes.by_air(type),
         .amount = instance.amount[b],
         .goods = instance.goods[b],
         .max_time_aboard = instance.max_time_aboard[b],
@@ -42,7 +42,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
 // What drones meet whose type is at a row.
 inline DroneKind drone_kind_of(const Setting& setting, Int row) {
     const VehicleType& type = setting.types[row];
-    return {type, places_by_air(setting.nodes, type), setting.durations[type.drone_travel],
+    return {type, setting.nodes.by_air(type), setting.durations[type.drone_travel],
             setting.durations[type.home_travel]};
 }
 

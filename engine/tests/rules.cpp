@@ -14,7 +14,7 @@ using namespace tandem;
 
 namespace {
 
-NodeRows rows_of(const tandem_node* place, Int rows) { return {place, {rows}}; }
+Windows rows_of(const tandem_node* place, Int rows) { return View<const Node, 1>(place, {rows}); }
 
 void write(Int* found, std::initializer_list<Int> values) {
     std::copy(values.begin(), values.end(), found);
@@ -23,31 +23,31 @@ void write(Int* found, std::initializer_list<Int> values) {
 }  // namespace
 
 void service_at(const tandem_node* place, int64_t rows, int64_t arrival, int64_t* found) {
-    const NodeRows at = rows_of(place, rows);
-    write(found, {start_of_service(at, arrival), end_of_service(at, arrival), waiting(at, arrival),
-                  lateness(at, arrival), too_late(at, arrival)});
+    const Windows at = rows_of(place, rows);
+    write(found, {at.start_of_service(arrival), at.end_of_service(arrival), at.waiting(arrival),
+                  at.lateness(arrival), at.too_late(arrival)});
 }
 
 void last_arrivals(const tandem_node* place, int64_t rows, int64_t arrival, int64_t leave,
                    int64_t* found) {
-    const NodeRows at = rows_of(place, rows);
-    write(found, {as_late(at, arrival), latest_arrival(at, leave),
-                  latest_free_arrival(at, arrival, leave), in_same_window(at, arrival)});
+    const Windows at = rows_of(place, rows);
+    write(found, {at.as_late(arrival), at.latest_arrival(leave),
+                  at.latest_free_arrival(arrival, leave), at.in_same_window(arrival)});
 }
 
 void within_block(const tandem_node* place, int64_t rows, int64_t time, int64_t d, int64_t c,
                   int64_t* found) {
-    const auto [start_d, start_c] = start_within(rows_of(place, rows), time, d, c);
-    const auto [first, last] = allowed_within(rows_of(place, rows), time, d, c);
+    const auto [start_d, start_c] = rows_of(place, rows).start_within(time, {d, c});
+    const auto [first, last] = rows_of(place, rows).allowed_within(time, {d, c});
     write(found, {start_d, start_c, first, last});
 }
 
 void window_of(const tandem_node* place, int64_t rows, int64_t arrival, int64_t* found) {
-    *found = opening(rows_of(place, rows), arrival);
+    *found = rows_of(place, rows).opening(arrival);
 }
 
 void extent_of(const tandem_node* place, int64_t rows, int64_t* found) {
-    write(found, {closing(rows_of(place, rows)), width(rows_of(place, rows))});
+    write(found, {rows_of(place, rows).closing(), rows_of(place, rows).width()});
 }
 
 void begun_at(const tandem_vehicle_type* type, int64_t time, int64_t* found) {
@@ -80,9 +80,9 @@ void battery_limits(const tandem_vehicle_type* type, int64_t* found) {
 
 void flown(const tandem_vehicle_type* type, const tandem_node* place, int64_t rows, int64_t begin,
            int64_t out, int64_t home, int64_t* found) {
-    const NodeRows at = rows_of(place, rows);
-    const Int takeoff = held_takeoff(*type, at, take_off(*type, begin, 0), out, home);
-    const Int back = end_of_service(at, takeoff + out) + home;
+    const Windows at = rows_of(place, rows);
+    const Int takeoff = Flight{*type, at, out, home}.held_takeoff(take_off(*type, begin, 0));
+    const Int back = at.end_of_service(takeoff + out) + home;
     write(found, {takeoff, takeoff + out, back, recovery_end(*type, back)});
 }
 
@@ -93,20 +93,20 @@ void endures(const tandem_vehicle_type* type, int64_t takeoff, int64_t back, int
 
 void lasts(const tandem_vehicle_type* type, const tandem_node* place, int64_t rows, int64_t out,
            int64_t home, int64_t* found) {
-    write(found, {can_serve(*type, rows_of(place, rows), out, home),
+    write(found, {Flight{*type, rows_of(place, rows), out, home}.can_serve(),
                   unreachable(out) || unreachable(home)});
 }
 
 void enduring(const tandem_vehicle_type* type, int64_t takeoff_d, int64_t takeoff_c, int64_t d,
               int64_t c, int64_t* found) {
-    const auto [first, last] = lasting_within(endurance_of(*type), takeoff_d, takeoff_c, d, c);
+    const auto [first, last] = lasting_within(endurance_of(*type), {takeoff_d, takeoff_c}, {d, c});
     write(found, {first, last});
 }
 
 void battery_left(const tandem_vehicle_type* type, const tandem_node* place, int64_t rows,
                   int64_t out, int64_t home, int64_t takeoff, int64_t served, int64_t begin,
                   int64_t* found) {
-    *found = left_after(*type, rows_of(place, rows), out, home, takeoff, served, begin);
+    *found = Flight{*type, rows_of(place, rows), out, home}.left_after(takeoff, served, begin);
 }
 
 void handled(const tandem_vehicle_type* type, int64_t time, int64_t launched, int64_t* found) {
@@ -117,7 +117,7 @@ void handled(const tandem_vehicle_type* type, int64_t time, int64_t launched, in
 
 void demands_held(const tandem_vehicle_type* type, const tandem_node* places, int64_t count,
                   int64_t rows, int64_t* found) {
-    const NodesRows all(places, {count, rows});
+    const NodeTable all(View<const Node, 2>(places, {count, rows}));
     Amount load = nothing;
     for (Int index = 0; index < count - 1; ++index) load = plus(load, demand_of(all[index]));
     const Amount everything = plus(load, demand_of(all[count - 1]));

@@ -27,7 +27,7 @@ VehicleType powered() {
 }
 
 const Node customer = {50, far, 5, 0, 60, {1, 0, 0}};
-NodeRows place() { return {&customer, {1}}; }
+Windows place() { return View<const Node, 1>(&customer, {1}); }
 
 TEST_CASE("powers are linear between points, and on beyond the last") {
     const VehicleType type = powered();
@@ -77,22 +77,22 @@ TEST_CASE("a battery is charged aboard up to what it holds") {
 
 TEST_CASE("a drone is held back until its window lets it be back in time") {
     // It is back 5 + 20 after the window has opened at 50.
-    CHECK(held_takeoff(endurant(30), place(), 0, 10, 20) == 45);
-    CHECK(held_takeoff(endurant(80), place(), 0, 10, 20) == 0);
-    CHECK(held_takeoff(endurant(30), place(), 48, 10, 20) == 48);
+    CHECK(Flight{endurant(30), place(), 10, 20}.held_takeoff(0) == 45);
+    CHECK(Flight{endurant(80), place(), 10, 20}.held_takeoff(0) == 0);
+    CHECK(Flight{endurant(30), place(), 10, 20}.held_takeoff(48) == 48);
 }
 
 TEST_CASE("where it hovers, its battery lets it wait no longer") {
     // Out 10 with 1 aboard, hover 5 in service, home 20: 1000 - 90 - 100 - 200 are left, 30 at 20.
     const VehicleType type = powered();
-    CHECK(after_flight(type, place(), 10, 20) == 610);
-    CHECK(held_takeoff(type, place(), 0, 10, 20) == 75 - (35 + 30));
-    CHECK(can_wait(type, place(), 10, 20, 30));
-    CHECK_FALSE(can_wait(type, place(), 10, 20, 31));
-    CHECK(left_after(type, place(), 10, 20, 30, 55, 80) == 610 - 10 * 20 - 5 * 20);
+    CHECK(Flight{type, place(), 10, 20}.left() == 610);
+    CHECK(Flight{type, place(), 10, 20}.held_takeoff(0) == 75 - (35 + 30));
+    CHECK(Flight{type, place(), 10, 20}.can_wait(30));
+    CHECK_FALSE(Flight{type, place(), 10, 20}.can_wait(31));
+    CHECK(Flight{type, place(), 10, 20}.left_after(30, 55, 80) == 610 - 10 * 20 - 5 * 20);
     VehicleType landing = type;
     landing.lands = 1;
-    CHECK(held_takeoff(landing, place(), 0, 10, 20) == 0);
+    CHECK(Flight{landing, place(), 10, 20}.held_takeoff(0) == 0);
 }
 
 TEST_CASE("all launches of a trip but the first may take longer") {
@@ -117,13 +117,13 @@ TEST_CASE("waiting for the recovery counts where it is said to") {
 }
 
 TEST_CASE("an endurance allows an interval of arrivals at the beginning of a block") {
-    for (const Pair takeoff : {Pair{0, 0}, Pair{3, 20}, Pair{10, 5}}) {
-        for (const Pair more : {Pair{0, 0}, Pair{4, 15}, Pair{15, 4}, Pair{20, 20}}) {
-            const Pair back = {takeoff.d + more.d, takeoff.c + more.c};
-            const auto [first, last] = lasting_within(10, takeoff.d, takeoff.c, back.d, back.c);
+    for (const TimeSegment takeoff : {TimeSegment{0, 0}, TimeSegment{3, 20}, TimeSegment{10, 5}}) {
+        for (const TimeSegment more :
+             {TimeSegment{0, 0}, TimeSegment{4, 15}, TimeSegment{15, 4}, TimeSegment{20, 20}}) {
+            const TimeSegment back = {takeoff.d + more.d, takeoff.c + more.c};
+            const auto [first, last] = lasting_within(10, takeoff, back);
             for (Int time = -40; time < 60; ++time) {
-                const Int aloft =
-                    std::max(time + back.d, back.c) - std::max(time + takeoff.d, takeoff.c);
+                const Int aloft = back.at(time) - takeoff.at(time);
                 CHECK((first <= time && time <= last) == (aloft <= 10));
             }
         }

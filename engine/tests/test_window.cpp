@@ -17,67 +17,66 @@ const std::array<Node, 3> several = {{
     {60, far, 0, 0, 40, {}},
 }};
 
-NodeRows one_window() { return {&single, {1}}; }
-NodeRows three_windows() { return {several.data(), {3}}; }
-
-Int with(const Pair& pair, Int time) { return std::max(time + pair.d, pair.c); }
+Windows one_window() { return View<const Node, 1>(&single, {1}); }
+Windows three_windows() { return View<const Node, 1>(several.data(), {3}); }
 
 TEST_CASE("who comes early waits, who comes late is late, then too late") {
-    const NodeRows place = one_window();
-    CHECK(start_of_service(place, 4) == 10);
-    CHECK(waiting(place, 4) == 6);
-    CHECK(end_of_service(place, 14) == 19);
-    CHECK(lateness(place, 20) == 0);
-    CHECK(lateness(place, 21) == 1);
-    CHECK_FALSE(too_late(place, 28));
-    CHECK(too_late(place, 29));
-    CHECK(width(place) == 10);
+    const Windows place = one_window();
+    CHECK(place.start_of_service(4) == 10);
+    CHECK(place.waiting(4) == 6);
+    CHECK(place.end_of_service(14) == 19);
+    CHECK(place.lateness(20) == 0);
+    CHECK(place.lateness(21) == 1);
+    CHECK_FALSE(place.too_late(28));
+    CHECK(place.too_late(29));
+    CHECK(place.width() == 10);
 }
 
 TEST_CASE("who comes between two windows waits for the next") {
-    const NodeRows place = three_windows();
-    CHECK(start_of_service(place, 20) == 20);
-    CHECK(start_of_service(place, 21) == 30);
-    CHECK(start_of_service(place, 41) == 60);
-    CHECK(start_of_service(place, 65) == 65);
-    CHECK(closing(place) == 70);
-    CHECK(width(place) == 30);
+    const Windows place = three_windows();
+    CHECK(place.start_of_service(20) == 20);
+    CHECK(place.start_of_service(21) == 30);
+    CHECK(place.start_of_service(41) == 60);
+    CHECK(place.start_of_service(65) == 65);
+    CHECK(place.closing() == 70);
+    CHECK(place.width() == 30);
 }
 
 TEST_CASE("rows behind a customer's last gap say nothing") {
     std::array<Node, 3> rows = several;
     rows[0].window_latest = rows[0].arrival_limit = 40;
     rows[2] = {0, far, 0, 0, far, {}};
-    const NodeRows place(rows.data(), {3});
-    CHECK(start_of_service(place, 35) == 35);
-    CHECK(width(place) == 20);
+    const Windows place(View<const Node, 1>(rows.data(), {3}));
+    CHECK(place.start_of_service(35) == 35);
+    CHECK(place.width() == 20);
 }
 
 TEST_CASE("the last arrival that will do is in the window before a gap") {
-    const NodeRows place = three_windows();
-    CHECK(latest_arrival(place, 40) == 35);
-    CHECK(latest_arrival(place, 34) == 20);
-    CHECK(latest_arrival(place, 90) == 70);
-    CHECK(in_same_window(place, 12) == 20);
-    CHECK(in_same_window(place, 21) == 40);
-    CHECK(latest_free_arrival(place, 12, 90) == 70);
-    CHECK(as_late(one_window(), 24) == 24);
+    const Windows place = three_windows();
+    CHECK(place.latest_arrival(40) == 35);
+    CHECK(place.latest_arrival(34) == 20);
+    CHECK(place.latest_arrival(90) == 70);
+    CHECK(place.in_same_window(12) == 20);
+    CHECK(place.in_same_window(21) == 40);
+    CHECK(place.latest_free_arrival(12, 90) == 70);
+    CHECK(one_window().as_late(24) == 24);
 }
 
-TEST_CASE("a pair stands for all arrivals at the beginning of a block") {
-    for (const NodeRows place : {one_window(), three_windows()}) {
+TEST_CASE("a time segment holds for all arrivals at the beginning of a block") {
+    for (const Windows place : {one_window(), three_windows()}) {
         for (Int time = 0; time < 80; time += 3) {
-            for (const Pair at : {Pair{0, 0}, Pair{7, 22}, Pair{20, 5}, Pair{2, 45}}) {
-                if (too_late(place, at.c)) continue;
-                const Pair start = start_within(place, time, at.d, at.c);
-                const auto [first, last] = allowed_within(place, time, at.d, at.c);
-                const Int opens = opening(place, with(at, time));
+            for (const TimeSegment at :
+                 {TimeSegment{0, 0}, TimeSegment{7, 22}, TimeSegment{20, 5}, TimeSegment{2, 45}}) {
+                if (place.too_late(at.c)) continue;
+                const TimeSegment start = place.start_within(time, at);
+                const auto [first, last] = place.allowed_within(time, at);
+                const Int opens = place.opening(at.at(time));
                 for (Int other = 0; other < 90; ++other) {
-                    const Int arrival = with(at, other);
-                    const bool same = opening(place, arrival) == opens;
-                    const bool allowed = same && !too_late(place, arrival);
+                    const Int arrival = at.at(other);
+                    const bool same = place.opening(arrival) == opens;
+                    const bool allowed = same && !place.too_late(arrival);
                     CHECK((first <= other && other <= last) == allowed);
-                    if (allowed) CHECK(with(start, other) == start_of_service(place, arrival));
+                    if (allowed) CHECK(start.at(other) == place.start_of_service(arrival));
                 }
             }
         }

@@ -37,7 +37,7 @@ own."""
 def fields_of(text: str) -> set[str]:
     """Return the names of the fields that C++ reads or writes."""
     code = re.sub(r"//.*", "", text)
-    return set(re.findall(r"(?:\.|->)([a-z_]+)\b", code))
+    return set(re.findall(r"(?:\.|->)([a-z_]+)\b(?!\(\))", code))
 
 
 @pytest.mark.parametrize("home", HOMES)

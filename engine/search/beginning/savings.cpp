@@ -46,7 +46,7 @@ double speed_of(const ProblemData& data, const VehicleType& type) {
 struct Chains {
     const VehicleType& type;
     TravelLegs legs;
-    NodesRows places;
+    NodeTable places;
     View<Chain, 1> chain;
 };
 
@@ -64,18 +64,18 @@ struct Joint {
 // Lets a chain be one customer.
 void set_up_chain(const Chains& chains, Int node) {
     const auto& [type, legs, places, chain] = chains;
-    const NodeRows place = places[node];
+    const Windows place = places[node];
     const Int ready = std::max(leaves_first(type, type.shift_earliest), release_of(place));
     const Int leave = type.shift_latest - leg(legs, node, type.ends_at).duration;
     chain[node] = {
         .before = nowhere,
         .behind = nowhere,
         .route = node,
-        .leave = end_of_service(place, ready + leg(legs, type.begins_at, node).duration),
-        .latest = latest_arrival(place, leave),
+        .leave = place.end_of_service(ready + leg(legs, type.begins_at, node).duration),
+        .latest = place.latest_arrival(leave),
         .last = node,
         .length = 1,
-        .busy = service_duration(place),
+        .busy = place.service_duration(),
     };
 }
 
@@ -100,7 +100,7 @@ void link_up(const Chains& chains, const Joint& joint) {
     Int time = chain[a].leave + way;
     for (Int node = b; node != nowhere;) {
         const Int behind = chain[node].behind;
-        time = end_of_service(places[node], time);
+        time = places[node].end_of_service(time);
         chain[node].leave = time;
         if (behind != nowhere) time += leg(legs, node, behind).duration;
         node = behind;
@@ -108,7 +108,7 @@ void link_up(const Chains& chains, const Joint& joint) {
     Int leave_by = chain[b].latest - way;
     for (Int node = a; node != nowhere;) {
         const Int before = chain[node].before;
-        leave_by = latest_arrival(places[node], leave_by);
+        leave_by = places[node].latest_arrival(leave_by);
         chain[node].latest = leave_by;
         if (before != nowhere) leave_by -= leg(legs, before, node).duration;
         node = before;
@@ -150,22 +150,22 @@ void write_nearest_types(const ProblemData& data, View<Int, 1> nearest) {
 void write_excess(const ProblemData& data, Int k, Int ranks, View<Int, 1> excess) {
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     const double speed = speed_of(data, type);
     std::fill(excess.begin(), excess.end(), 0);
     for (Int a = data.num_depots; a < data.num_nodes; ++a) {
         data.deadline.go_on_late();
         if (!data.can(k, 0, a)) continue;
         const Int to_end = leg(legs, a, type.ends_at).distance;
-        const Int leaves = end_of_service(places[a], 0);
-        const Int leaves_last = end_of_service(places[a], closing(places[a]));
+        const Int leaves = places[a].end_of_service(0);
+        const Int leaves_last = places[a].end_of_service(places[a].closing());
         const Int first = (a - data.num_depots) * ranks;
         for (Int rank = 0; rank < ranks; ++rank) {
             const Int b = data.near(a, rank);
             if (b < 0 || !data.can(k, 0, b)) continue;
             const Leg way = leg(legs, a, b);
             const double more = detour(way.duration, double(leaves), double(leaves_last),
-                                       double(opening(places[b], 0)), double(closing(places[b]))) -
+                                       double(places[b].opening(0)), double(places[b].closing())) -
                                 double(way.duration);
             excess[first + rank] =
                 way.distance + Int(more * speed) - to_end - leg(legs, type.begins_at, b).distance;
@@ -218,7 +218,7 @@ void add_cargo(View<ChainCargo, 1> front, View<const ChainCargo, 1> rear) {
 void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, View<Chain, 1> chain,
           const View<ChainCargo, 2>& cargo) {
     const VehicleType& type = data.type[k];
-    const Chains chains{type, legs_of(data.leg, type.travel), places_of(data.place, type), chain};
+    const Chains chains{type, legs_of(data.leg, type.travel), data.place.by_truck(type), chain};
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         set_up_chain(chains, node);
         set_up_cargo(data, node, cargo[node]);

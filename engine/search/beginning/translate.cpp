@@ -131,10 +131,10 @@ extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem
 extern "C" int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
                                      const tandem_i64_1d* arrivals, const tandem_i64_1d* starts) {
     return guarded([&] {
-        const NodesRows places = View<Node, 2>(*place);
+        const NodeTable places{View<Node, 2>(*place)};
         const View<Int, 1> node = *nodes;
         for (Int index = 0; index < node.size(); ++index) {
-            starts->data[index] = start_of_service(places[node[index]], arrivals->data[index]);
+            starts->data[index] = places[node[index]].start_of_service(arrivals->data[index]);
         }
     });
 }
@@ -146,10 +146,10 @@ extern "C" int tandem_sortie_ends(const tandem_node_3d* places, const tandem_veh
     return guarded([&] {
         const View<const VehicleType, 1> rows = View<VehicleType, 1>(*types);
         const VehicleType& type = rows[row_of_drone(rows, k, drone)];
-        const NodesRows by_air = places_by_air(View<Node, 3>(*places), type);
+        const NodeTable by_air = NodeTables(View<Node, 3>(*places)).by_air(type);
         const View<Int, 1> node = *nodes;
         for (Int index = 0; index < node.size(); ++index) {
-            ends->data[index] = end_of_service(by_air[node[index]], arrivals->data[index]);
+            ends->data[index] = by_air[node[index]].end_of_service(arrivals->data[index]);
         }
         *aboard = recovery_end(type, begin);
     });

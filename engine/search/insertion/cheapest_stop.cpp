@@ -46,7 +46,7 @@ CheapestStop scan_stops(const Newcomer& newcomer, View<const Stop, 1> stops, Int
         }
         if (newcomer.comes_in_time(stops, p, stops[p].leave)) {
             if (uniform(rng) >= wanted.blink) found = {cost, p};
-        } else if (too_late(newcomer.place, stops[p].leave)) {
+        } else if (newcomer.place.too_late(stops[p].leave)) {
             break;
         }
     }
@@ -54,10 +54,10 @@ CheapestStop scan_stops(const Newcomer& newcomer, View<const Stop, 1> stops, Int
 }
 
 // As `scan_stops`, on a trip that has to wait for the customer's parcel.
-CheapestStop scan_delayed(NodesRows places, const Newcomer& newcomer, View<const Stop, 1> stops,
+CheapestStop scan_delayed(NodeTable places, const Newcomer& newcomer, View<const Stop, 1> stops,
                           Int first, Int last, Int start, const Wanted& wanted,
                           View<std::uint64_t, 1> rng) {
-    const NodeRows place = newcomer.place;
+    const Windows place = newcomer.place;
     CheapestStop found{wanted.best, nowhere};
     Int leave = release_of(place);
     if (leave > stops[start].latest) return found;
@@ -65,9 +65,9 @@ CheapestStop scan_delayed(NodesRows places, const Newcomer& newcomer, View<const
         if (p > start) {
             const Int arrival = leave + stops[p - 1].gap;
             if (arrival > stops[p].latest) break;
-            leave = end_of_service(places[stops[p].node], arrival);
+            leave = places[stops[p].node].end_of_service(arrival);
         }
-        if (too_late(place, leave)) break;
+        if (place.too_late(leave)) break;
         if (p < first) continue;
         const Int further = newcomer.further_behind(stops, p);
         const double cost = double(further) * wanted.rate;
@@ -92,7 +92,7 @@ CheapestStop scan_limited(const ProblemData& data, const Fleet& fleet, Int slot,
         if (cost >= found.cost || further > wanted.spare || !room_behind(newcomer.room, p)) {
             continue;
         }
-        if (too_late(newcomer.place, stops[p].leave)) break;
+        if (newcomer.place.too_late(stops[p].leave)) break;
         if (price_stop(data, fleet, slot, p, node) < infeasible && uniform(rng) >= wanted.blink) {
             found = {cost, p};
         }
@@ -114,7 +114,7 @@ CheapestStop scan_trip(const ProblemData& data, const Fleet& fleet, Int slot, In
         return scan_limited(data, fleet, slot, first, last, node, newcomer, wanted, rng);
     }
     if (release_of(newcomer.place) > stops[trip.first].leave) {
-        return scan_delayed(places_of(data.place, data.type[k]), newcomer, stops, first, last,
+        return scan_delayed(data.place.by_truck(data.type[k]), newcomer, stops, first, last,
                             trip.first, wanted, rng);
     }
     return scan_stops(newcomer, stops, first, last, wanted, rng);
@@ -143,7 +143,7 @@ ShortestDetour shortest_detour(const Newcomer& newcomer, View<const Stop, 1> sto
         if (further >= found.distance || !room_behind(newcomer.room, p)) continue;
         if (newcomer.comes_in_time(stops, p, stops[p].leave)) {
             found = {further, p};
-        } else if (too_late(newcomer.place, stops[p].leave)) {
+        } else if (newcomer.place.too_late(stops[p].leave)) {
             break;
         }
     }

@@ -218,16 +218,16 @@ Ending follow(const ProblemData& data, const Route& route, View<const Stop, 1> s
               Int time, Int cum, Int depart) {
     double cost = 0.0;
     const Int last = route.length - 1;
-    const NodesRows places = places_of(data.place, data.type[route.type]);
+    const NodeTable places = data.place.by_truck(data.type[route.type]);
     for (Int q = p; q <= last; ++q) {
         const Stop& stop = stops[q];
         Int leave = time;
         if (stop.kind == customer_stop) {
-            const NodeRows place = places[stop.node];
+            const Windows place = places[stop.node];
             cost += window_cost(data, stop.node, time) - stop.window_cost;
-            depart = std::min(depart, as_late(place, time) - cum);
-            leave = end_of_service(place, time);
-            cum += service_duration(place);
+            depart = std::min(depart, place.as_late(time) - cum);
+            leave = place.end_of_service(time);
+            cum += place.service_duration();
         } else if (stop.kind == start_stop) {
             leave = std::max(time, stop.release);
         }
@@ -312,19 +312,19 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, 
     const Stop &here = stops[p], &behind = stops[p + 1];
     const Int k = route.type;
     const VehicleType& type = data.type[k];
-    const NodeRows place = places_of(data.place, type)[node];
+    const Windows place = data.place.by_truck(type)[node];
     const Leg out = leg_from(legs_to(data.back, type.travel, node), here.node);
     const Leg on = leg(legs_of(data.leg, type.travel), node, behind.node);
     Int time = here.leave + out.duration, cum = here.cum + out.duration;
-    if (too_late(place, time)) return infeasible;
+    if (place.too_late(time)) return infeasible;
     double cost = double(out.distance + on.distance - here.leg) * data.rate[k].distance;
     if (loads_cost(data, k)) {
         cost += load_more_behind(data, fleet, slot, p, node, out.distance, on.distance);
     }
-    Int depart = std::min(here.depart, as_late(place, time) - cum);
+    Int depart = std::min(here.depart, place.as_late(time) - cum);
     const double late = window_cost(data, node, time);
-    time = end_of_service(place, time) + on.duration;
-    cum += service_duration(place) + on.duration;
+    time = place.end_of_service(time) + on.duration;
+    cum += place.service_duration() + on.duration;
     if (time > behind.latest || time < behind.early) return infeasible;
     Int finish;
     if (data.evaluation[k].priced) {

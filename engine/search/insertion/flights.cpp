@@ -49,7 +49,7 @@ public:
           length_(searcher.now.route[slot].length),
           type_(data.type[row]),
           rate_(data.rate[row]),
-          place_(places_by_air(data.place, type_)[node]),
+          place_(data.place.by_air(type_)[node]),
           inward_(legs_to(data.back, type_.drone_travel, node)),
           onward_(legs_from(data.leg, type_.home_travel, node)),
           room_(room_on(data, searcher.now, slot, searcher.now.route[slot].type, node)),
@@ -68,8 +68,8 @@ public:
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
         const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
         if (flown_cost(rate_, out.distance) + late - early_ >= best_) return;
-        if (too_late(place_, from.arrival + out.duration)) return;
-        const Int served = end_of_service(place_, from.arrival + out.duration);
+        if (place_.too_late(from.arrival + out.duration)) return;
+        const Int served = place_.end_of_service(from.arrival + out.duration);
         const Int left = gone_by(type_, from.leave);
         const Int begun = recovery_end(type_, ready) - idle_;
         Int last = free_until(data_, searcher_.now, slot_, launch, row_);
@@ -85,7 +85,7 @@ public:
                                               stops_[recovery + 1].latest) {
                 continue;
             }
-            const Int flight = out.duration + service_duration(place_) + home.duration;
+            const Flight flight{type_, place_, out.duration, home.duration};
             if (!within_endurance(type_, left, left, to.arrival)) {
                 // Held back for the window, the truck leaves later and may wait less on its way.
                 if (earliest_back(place_, left + out.duration, 0) <= left) break;
@@ -94,13 +94,12 @@ public:
                 }
             }
             // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
-            const Int longer = std::max(Int{0}, begun + flight - to.leave);
+            const Int longer = std::max(Int{0}, begun + flight.duration() - to.leave);
             double cost = flown + usual_work_cost(rate_, longer) + late - early_;
             if (loaded_) {
                 cost += load_more(data_, searcher_.now, slot_, launch, recovery, node_);
             }
-            if (cost < best_ && can_serve(type_, place_, out.duration, home.duration) &&
-                room_between(room_, launch, recovery)) {
+            if (cost < best_ && flight.can_serve() && room_between(room_, launch, recovery)) {
                 Move& offer = add_offer(searcher_, cost, by_sortie, slot_, launch);
                 offer.last = recovery;
                 offer.type = row_;
@@ -118,7 +117,7 @@ private:
     Int length_;
     const VehicleType& type_;
     Rate rate_;
-    NodeRows place_;
+    Windows place_;
     LegRow inward_;
     LegRow onward_;
     Room room_;

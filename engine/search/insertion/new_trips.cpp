@@ -63,13 +63,13 @@ bool halves_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
 }
 
 // Returns when a truck that arrives at a customer has served; `far` if it is too late.
-Int serve_at(NodesRows places, Int node, Int arrival) {
-    const NodeRows place = places[node];
-    return too_late(place, arrival) ? far : end_of_service(place, arrival);
+Int serve_at(NodeTable places, Int node, Int arrival) {
+    const Windows place = places[node];
+    return place.too_late(arrival) ? far : place.end_of_service(arrival);
 }
 
 // Returns when a truck that leaves stop `first` at `time` leaves stop `last`; `far`: too late.
-Int drive_to(NodesRows places, View<const Stop, 1> stops, Int first, Int last, Int time) {
+Int drive_to(NodeTable places, View<const Stop, 1> stops, Int first, Int last, Int time) {
     for (Int p = first + 1; p <= last && time < far; ++p) {
         time = serve_at(places, stops[p].node, time + stops[p - 1].gap);
     }
@@ -83,7 +83,7 @@ bool split_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
                 bool until) {
     const View<const Stop, 1> stops = fleet.stop[slot];
     const VehicleType& type = data.type[fleet.route[slot].type];
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int first = fleet.trip(slot, stops[p].trip).first;
     const Int last = fleet.trip(slot, stops[p].trip).last;
@@ -128,7 +128,7 @@ bool trip_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> stops = fleet.stop[slot];
     const VehicleType& type = data.type[route.type];
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     const TravelLegs legs = legs_of(data.leg, type.travel);
     Int time = p >= 0 ? stops[p].leave + type.reload_duration : type.shift_earliest;
     time = std::max(time, release_of(places[node]));

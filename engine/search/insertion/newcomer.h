@@ -16,7 +16,7 @@ struct Detour {
 };
 
 struct Newcomer {
-    NodeRows place;
+    Windows place;
     LegRow inward;  // legs to the customer
     LegRow onward;  // and from there
     Room room;
@@ -36,9 +36,9 @@ struct Newcomer {
     // following stop. Most are passed over by distance, so that durations are looked up here alone.
     bool comes_in_time(View<const Stop, 1> stops, Int p, Int leave) const {
         const Int arrival = leave + leg_from(inward, stops[p].node).duration;
-        if (too_late(place, arrival)) return false;
+        if (place.too_late(arrival)) return false;
         const Stop& behind = stops[p + 1];
-        return end_of_service(place, arrival) + leg_to(onward, behind.node).duration <=
+        return place.end_of_service(arrival) + leg_to(onward, behind.node).duration <=
                behind.latest;
     }
 };
@@ -47,15 +47,15 @@ struct Newcomer {
 inline Newcomer newcomer_on(const ProblemData& data, const Fleet& fleet, Int slot, Int by,
                             Int node) {
     const VehicleType& type = data.type[fleet.route[slot].type];
-    return {places_of(data.place, type)[node], legs_to(data.back, type.travel, node),
+    return {data.place.by_truck(type)[node], legs_to(data.back, type.travel, node),
             legs_from(data.leg, type.travel, node), room_on(data, fleet, slot, by, node)};
 }
 
 // Tells whether a truck that leaves at `leave` may serve a customer next, and then reach a stop.
-inline bool is_in_time(NodeRows place, const Detour& detour, Int leave, const Stop& behind) {
+inline bool is_in_time(Windows place, const Detour& detour, Int leave, const Stop& behind) {
     const Int arrival = leave + detour.out.duration;
-    return !too_late(place, arrival) &&
-           end_of_service(place, arrival) + detour.on.duration <= behind.latest;
+    return !place.too_late(arrival) &&
+           place.end_of_service(arrival) + detour.on.duration <= behind.latest;
 }
 
 }  // namespace tandem

@@ -43,13 +43,13 @@ double stop_costs(const ProblemData& data, Int k, const Newcomer& newcomer, cons
     if (evaluation.timed) {
         // While drones fly, the truck may have time before they are back.
         const Int longer =
-            detour.out.duration + detour.on.duration + service_duration(newcomer.place) - here.gap;
+            detour.out.duration + detour.on.duration + newcomer.place.service_duration() - here.gap;
         cost += usual_work_cost(rate, std::max(Int{0}, longer - slack.spare - here.idle));
     }
     if (cost >= best || !is_in_time(newcomer.place, detour, here.leave, behind)) return best;
     if (evaluation.priced) {
         const Int arrival = here.leave + detour.out.duration;
-        const Int following = end_of_service(newcomer.place, arrival) + detour.on.duration;
+        const Int following = newcomer.place.end_of_service(arrival) + detour.on.duration;
         cost += lateness_cost(data, node, arrival) + lateness_cost(data, behind.node, following) -
                 lateness_cost(data, behind.node, behind.arrival);
     }
@@ -234,7 +234,7 @@ void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, In
         // Each of two trips carries less, at best next to nothing.
         if (kind != new_trip && loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;
-        if (cost < best && (p < 0 || !too_late(data.place[0][node], stops[p].leave))) {
+        if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
             add_offer(searcher, cost, kind, slot, p);
         }
     }

@@ -48,7 +48,7 @@ void try_route(const ProblemData& data, const Searcher& searcher, Int slot, Int 
         offer_sorties(data, searcher, slot, first, last - 1, node);
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
-        const Int soonest = held_until(opening(data.place[0][node], leave), endurance_of(type));
+        const Int soonest = held_until(data.place[0][node].opening(leave), endurance_of(type));
         if (leave < soonest) offer_sorties(data, searcher, slot, last, last, node);
     }
     if (data.visits[k] > 1 && flies) offer_joining(data, searcher, slot, node);

@@ -207,11 +207,11 @@ Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int co
 void drive_on(const ProblemData& data, Linked& linked, Int slot, Int node, Int number) {
     if (node < data.num_depots) return;
     const VehicleType& type = data.type[linked.run[slot].type];
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     Int time = leaves_at(data, linked, type, linked.link[node].before);
     for (; node >= data.num_depots; --number) {
         Link& here = linked.link[node];
-        time = end_of_service(places[node], time + here.gap);
+        time = places[node].end_of_service(time + here.gap);
         if (here.leave == time && number <= 0) return;
         note_times(linked, node);
         here.leave = time;
@@ -222,7 +222,7 @@ void drive_on(const ProblemData& data, Linked& linked, Int slot, Int node, Int n
 void look_back(const ProblemData& data, Linked& linked, Int slot, Int node, Int number) {
     if (node < data.num_depots) return;
     const VehicleType& type = data.type[linked.run[slot].type];
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     const Int behind = linked.link[node].behind;
     Int leave_by = due_at(data, linked, type, behind);
     if (behind >= data.num_depots) {
@@ -232,7 +232,7 @@ void look_back(const ProblemData& data, Linked& linked, Int slot, Int node, Int 
     }
     for (; node >= data.num_depots; --number) {
         Link& here = linked.link[node];
-        const Int latest = latest_arrival(places[node], leave_by);
+        const Int latest = places[node].latest_arrival(leave_by);
         if (here.latest == latest && number <= 0) return;
         note_times(linked, node);
         here.latest = latest;

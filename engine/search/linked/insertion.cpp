@@ -284,9 +284,9 @@ private:
     bool keeps_windows(const VehicleType& type, const Gap& gap) const {
         const Int arrival = leaves_at(data_, linked_, type, gap.before) +
                             leg_from(newcomer_.inward, gap.before).duration;
-        const NodeRows place = places_of(data_.place, type)[newcomer_.node];
-        if (too_late(place, arrival)) return false;
-        return end_of_service(place, arrival) + leg_to(newcomer_.onward, gap.behind).duration <=
+        const Windows place = data_.place.by_truck(type)[newcomer_.node];
+        if (place.too_late(arrival)) return false;
+        return place.end_of_service(arrival) + leg_to(newcomer_.onward, gap.behind).duration <=
                due_at(data_, linked_, type, gap.behind);
     }
 

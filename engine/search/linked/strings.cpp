@@ -61,7 +61,7 @@ Cut draw_cut(View<std::uint64_t, 1> rng, Int stops, double longest) {
 bool is_in_time(const ProblemData& data, const Linked& linked, Int node) {
     const Link& here = linked.link[node];
     const VehicleType& type = data.type[linked.run[here.slot].type];
-    return here.leave - service_duration(places_of(data.place, type)[node]) <= here.latest;
+    return here.leave - data.place.by_truck(type)[node].service_duration() <= here.latest;
 }
 
 // Takes out a string around a customer, or all but some within; returns the saving.

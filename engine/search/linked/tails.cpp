@@ -43,12 +43,12 @@ bool come_in_time(const ProblemData& data, const Linked& linked, Int k, Int node
 bool drives_in_time(const ProblemData& data, const Linked& linked, Int k, Int before, Int node) {
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     Int time = leaves_at(data, linked, type, before);
     while (node >= data.num_depots) {
         time += leg(legs, before, node).duration;
-        if (too_late(places[node], time)) return false;
-        time = end_of_service(places[node], time);
+        if (places[node].too_late(time)) return false;
+        time = places[node].end_of_service(time);
         before = node;
         node = linked.link[node].behind;
     }

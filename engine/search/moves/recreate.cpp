@@ -32,7 +32,7 @@ constexpr double dearest_first = 0.5;
 
 // Returns where a customer comes in an order; least first.
 double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_t, 1> rng) {
-    const NodeRows place = data.place[0][node];
+    const Windows place = data.place[0][node];
     switch (order) {
         case by_cost:
             return -data.unassigned_more[node];
@@ -50,9 +50,9 @@ double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_
             return order == by_far ? -distance : distance;
         }
         case by_width:
-            return double(width(place));
+            return double(place.width());
         case by_latest:
-            return double(closing(place));
+            return double(place.closing());
         default:
             return uniform(rng);
     }

@@ -41,22 +41,19 @@ Int place_near(const ProblemData& data, View<const Line, 1> line, Int count, Int
     return 1 + below(rng, count);
 }
 
-// A drone's way to a customer, the service there and the way back to the truck.
+// A flight to a customer and back to the truck, and how far that is.
 struct WayByAir {
-    Leg out;
-    Leg home;
-    Int duration;
-
-    WayByAir(const ProblemData& data, const VehicleType& type, NodeRows place, Int from,
-             Int customer, Int to)
-        : out(leg(legs_of(data.leg, type.drone_travel), from, customer)),
-          home(leg(legs_of(data.leg, type.home_travel), customer, to)),
-          duration(out.duration + service_duration(place) + home.duration) {}
-
-    double distance_cost(const Rate& rate) const {
-        return flown_cost(rate, out.distance + home.distance);
-    }
+    Flight flight;
+    Int distance;
 };
+
+WayByAir way_by_air(const ProblemData& data, const VehicleType& type, Int from, Int customer,
+                    Int to) {
+    const Leg out = leg(legs_of(data.leg, type.drone_travel), from, customer);
+    const Leg home = leg(legs_of(data.leg, type.home_travel), customer, to);
+    return {{type, data.place.by_air(type)[customer], out.duration, home.duration},
+            out.distance + home.distance};
+}
 
 // Operations from place `i` of a line on which the drone of a vehicle serves one of the customers
 // between while the truck serves the others.
@@ -66,11 +63,10 @@ public:
         : data_(data),
           type_(data.type[k]),
           rate_(data.rate[k]),
-          places_(places_by_air(data.place, type_)),
           line_(line),
           i_(i),
           handled_(handling_duration(type_)) {
-        const Int here = service_duration(places_of(data.place, type_)[line[i].node]);
+        const Int here = data.place.by_truck(type_)[line[i].node].service_duration();
         launched_ = std::max(Int{0}, here - launch_duration(type_, 1)) - here;
     }
 
@@ -82,16 +78,15 @@ public:
         const Int drive = driven(j, spared.spared_drive);
         const double alone = ground(j, spared.spared_distance);
         if (usual_work_cost(rate_, handled_ + drive) + alone >= most) return infinite;
-        const NodeRows place = places_[spared.node];
-        const WayByAir flight(data_, type_, place, line_[i_].node, spared.node, line_[j].node);
-        const Int airborne = std::max(flight.duration, drive);
-        if (!within_endurance(type_, 0, flight.duration, airborne) ||
-            !can_wait(type_, place, flight.out.duration, flight.home.duration,
-                      airborne - flight.duration)) {
+        const auto [flight, distance] =
+            way_by_air(data_, type_, line_[i_].node, spared.node, line_[j].node);
+        const Int back = flight.duration();
+        const Int airborne = std::max(back, drive);
+        if (!within_endurance(type_, 0, back, airborne) || !flight.can_wait(airborne - back)) {
             return infinite;
         }
         return usual_work_cost(rate_, handled_ + airborne) + alone +
-               airborne_cost(rate_, airborne) + flight.distance_cost(rate_);
+               airborne_cost(rate_, airborne) + flown_cost(rate_, distance);
     }
 
 private:
@@ -107,7 +102,6 @@ private:
     const ProblemData& data_;
     const VehicleType& type_;
     Rate rate_;
-    NodesRows places_;
     View<const Line, 1> line_;
     Int i_;
     Int handled_;
@@ -118,14 +112,11 @@ private:
 double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
     const VehicleType& type = data.type[k];
     const Rate& rate = data.rate[k];
-    const NodeRows place = places_by_air(data.place, type)[customer];
-    const WayByAir flight(data, type, place, node, customer, node);
-    if (!data.strategy.loops ||
-        !can_serve(type, place, flight.out.duration, flight.home.duration)) {
-        return infinite;
-    }
-    return usual_work_cost(rate, flight.duration + handling_duration(type)) +
-           airborne_cost(rate, flight.duration) + flight.distance_cost(rate);
+    const auto [flight, distance] = way_by_air(data, type, node, customer, node);
+    if (!data.strategy.loops || !flight.can_serve()) return infinite;
+    const Int duration = flight.duration();
+    return usual_work_cost(rate, duration + handling_duration(type)) +
+           airborne_cost(rate, duration) + flown_cost(rate, distance);
 }
 
 // Return what it costs to come so far, be served and drive to the next stop.
@@ -164,7 +155,7 @@ void extend(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> 
     const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
     const View<const bool, 1> drives = data.can[k][0], flies = data.can[k][1];
     const Int here = line[i].node;
-    const Int service = service_duration(places_of(data.place, data.type[k])[here]);
+    const Int service = data.place.by_truck(data.type[k])[here].service_duration();
     const Crossing crossing(data, k, line, i);
     Flyable flyable;
     double loops = 0.0;
@@ -218,13 +209,13 @@ void shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::
 
 void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length) {
     const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
-    const NodesRows places = places_of(data.place, data.type[k]);
+    const NodeTable places = data.place.by_truck(data.type[k]);
     line[0].drive = line[0].distance = line[0].grounded = 0;
     for (Int j = 1; j < length; ++j) {
         const Line& last = line[j - 1];
         Line& next = line[j];
         const Leg way = leg(legs, last.node, next.node);
-        next.drive = last.drive + service_duration(places[last.node]) + way.duration;
+        next.drive = last.drive + places[last.node].service_duration() + way.duration;
         next.distance = last.distance + way.distance;
         next.grounded = last.grounded;
         if (j < length - 1 && !data.can(k, 0, next.node)) ++next.grounded;
@@ -234,7 +225,7 @@ void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length) {
         const Line& next = line[j + 1];
         const Leg direct = leg(legs, last.node, next.node);
         line[j].spared_drive =
-            next.drive - last.drive - direct.duration - service_duration(places[last.node]);
+            next.drive - last.drive - direct.duration - places[last.node].service_duration();
         line[j].spared_distance = next.distance - last.distance - direct.distance;
     }
 }
@@ -251,7 +242,7 @@ bool split(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> c
 double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, Int length) {
     const Rate& rate = data.rate[k];
     const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
-    const NodesRows places = places_of(data.place, data.type[k]);
+    const NodeTable places = data.place.by_truck(data.type[k]);
     double cost = 0.0;
     for (Int j = length - 1; j > 0; j = line[j].before) {
         const Int i = line[j].before;
@@ -261,7 +252,7 @@ double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, In
         }
         const Int here = line[i].node;
         const Leg way = leg(legs, here, line[j].node);
-        cost += usual_work_cost(rate, way.duration + service_duration(places[here])) +
+        cost += usual_work_cost(rate, way.duration + places[here].service_duration()) +
                 drive_cost(rate, way.distance);
         cost += rate.stop;
         for (Int place = i + 1; place < j; ++place) {

@@ -9,7 +9,7 @@
 
 namespace tandem {
 
-void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward,
+void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward,
             const VehicleType& type, Sortie& sortie, Int node) {
     sortie.taken = 0;
     for (Int index = 0; index < sortie.count; ++index) {
@@ -19,9 +19,9 @@ void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward
     Int here = sortie.home;
     for (Int index = sortie.count - 1; index >= 0; --index) {
         const Int before = sortie.nodes[index];
-        const NodeRows place = places[before];
+        const Windows place = places[before];
         const TravelLegs& way = index == sortie.count - 1 ? homeward : legs;
-        const Int flight = leg(way, before, here).duration, service = service_duration(place);
+        const Int flight = leg(way, before, here).duration, service = place.service_duration();
         left = after_leg(type, left, aboard, flight);
         aboard += weight_brought(place) - weight_taken(place);
         most = std::max(most, aboard);
@@ -34,12 +34,12 @@ void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward
     sortie.limit = longest_hold(type, flown + flight, sortie.left, most);
 }
 
-void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& sums) {
+void hover(NodeTable places, const VehicleType& type, Sortie& sortie, BlockSums& sums) {
     Int aboard = sortie.taken;
     for (Int index = sortie.count - 1; index >= 0; --index) {
-        const NodeRows place = places[sortie.nodes[index]];
+        const Windows place = places[sortie.nodes[index]];
         aboard += weight_brought(place) - weight_taken(place);
-        const Int waited = waiting(place, sortie.arrivals[index]);
+        const Int waited = place.waiting(sortie.arrivals[index]);
         if (waited > 0) {
             sortie.left = after_hovering(type, sortie.left, aboard, waited);
             sums.lo = std::max(sums.lo, sums.time);

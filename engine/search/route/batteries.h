@@ -10,13 +10,13 @@ namespace tandem {
 // Write what a sortie launched at `node` may hover for, without and before windows. In place.
 //
 // That is what its flight leaves of its battery.
-void charge(NodesRows places, const TravelLegs& legs, const TravelLegs& homeward,
+void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward,
             const VehicleType& type, Sortie& sortie, Int node);
 
 // Take what a sortie whose arrivals are known needs to wait for windows in the air. In place.
 //
 // Later it waits no longer, as long as windows are the same; sooner, nothing is said of.
-void hover(NodesRows places, const VehicleType& type, Sortie& sortie, BlockSums& sums);
+void hover(NodeTable places, const VehicleType& type, Sortie& sortie, BlockSums& sums);
 
 // Write with what the drone of a sortie has come aboard, and when it can fly. In place.
 //

@@ -14,11 +14,11 @@ Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node,
     Int time = takeoff, back = none, here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
-        const NodeRows place = drone_data.places[next];
+        const Windows place = drone_data.places[next];
         const Int flight = leg(drone_data.legs, here, next).duration;
-        back = std::max(back + flight + service_duration(place),
+        back = std::max(back + flight + place.service_duration(),
                         earliest_back(place, time + flight, 0));
-        time = end_of_service(place, time + flight);
+        time = place.end_of_service(time + flight);
         here = next;
     }
     return held_until(back + leg(drone_data.homeward, here, sortie.home).duration, sortie.limit);
@@ -28,7 +28,7 @@ Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node,
 Int soonest_takeoff(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
     takeoff = std::max(takeoff, sortie.held);
     if (charges_aboard(drone_data.type)) takeoff = std::max(takeoff, sortie.charged);
-    if (are_single(drone_data.places[0])) return takeoff;
+    if (drone_data.places[0].are_single()) return takeoff;
     Int held = held_by_windows(drone_data, sortie, node, takeoff);
     while (held > takeoff) {
         takeoff = held;
@@ -43,13 +43,13 @@ void bound_arrival(BlockSums& sums, Interval within) {
     sums.hi = std::min(sums.hi, within.last);
 }
 
-// Bound the truck's arrival by the window of a customer reached at (d, c), at `arrival`.
+// Bound the truck's arrival by the window of a customer who is reached so.
 //
 // In place; false if that is too late however soon the truck arrives.
-inline bool reach(NodeRows place, Int arrival, Int d, Int c, BlockSums& sums) {
-    if (too_late(place, c)) return false;
-    bound_arrival(sums, allowed_within(place, sums.time, d, c));
-    sums.dep = std::min(sums.dep, in_same_window(place, arrival) - d);
+inline bool reach(Windows place, TimeSegment reached, BlockSums& sums) {
+    if (place.too_late(reached.c)) return false;
+    bound_arrival(sums, place.allowed_within(sums.time, reached));
+    sums.dep = std::min(sums.dep, place.in_same_window(reached.at(sums.time)) - reached.d);
     return true;
 }
 
@@ -58,30 +58,28 @@ bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& s
     const VehicleType& type = drone_data.type;
     Int d = take_off(type, sums.free_d, sums.launched);
     Int c = take_off(type, sums.free_c, sums.launched);
-    const Int takeoff = std::max(sums.time + d, c);
+    const Int takeoff = TimeSegment{d, c}.at(sums.time);
     const Int held = soonest_takeoff(drone_data, sortie, node, takeoff);
     if (held > takeoff) c = held;
     if (charges_aboard(type)) {
         const Int free = d;
-        d = std::max(d, await_charge(type, sortie, std::max(sums.time + d, c), sums.time));
+        d = std::max(d, await_charge(type, sortie, TimeSegment{d, c}.at(sums.time), sums.time));
         sums.awaited += d - free;
     }
     sums.free_d = sortie.takeoff_d = d;
     sums.free_c = sortie.takeoff_c = c;
-    sortie.takeoff = std::max(sums.time + d, c);
+    sortie.takeoff = TimeSegment{d, c}.at(sums.time);
     Int here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
-        const NodeRows place = drone_data.places[next];
+        const Windows place = drone_data.places[next];
         const Int flight = leg(drone_data.legs, here, next).duration;
-        d += flight;
-        c += flight;
-        const Int arrival = std::max(sums.time + d, c);
-        if (unreachable(flight) || !reach(place, arrival, d, c, sums)) return false;
-        sortie.arrivals[index] = arrival;
-        const auto [start_d, start_c] = start_within(place, sums.time, d, c);
-        d = start_d + service_duration(place);
-        c = start_c + service_duration(place);
+        const TimeSegment reached{d + flight, c + flight};
+        if (unreachable(flight) || !reach(place, reached, sums)) return false;
+        sortie.arrivals[index] = reached.at(sums.time);
+        const auto [start_d, start_c] = place.start_within(sums.time, reached);
+        d = start_d + place.service_duration();
+        c = start_c + place.service_duration();
         here = next;
     }
     sortie.ready_d = d;
@@ -97,29 +95,28 @@ bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& s
 bool bring_home(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& sums) {
     const VehicleType& type = drone_data.type;
     const Int flight = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
-    const Int back_d = sortie.ready_d + flight, back_c = sortie.ready_c + flight;
-    const Int begin_d = std::max(sums.free_d, back_d), begin_c = std::max(sums.free_c, back_c);
+    const TimeSegment back{sortie.ready_d + flight, sortie.ready_c + flight};
+    const TimeSegment begin{std::max(sums.free_d, back.d), std::max(sums.free_c, back.c)};
     if (unreachable(flight)) return false;
-    bound_arrival(sums, lasting_within(endurance_of(type), sortie.takeoff_d, sortie.takeoff_c,
-                                       counted_until(type, back_d, begin_d),
-                                       counted_until(type, back_c, begin_c)));
+    bound_arrival(sums, lasting_within(endurance_of(type), {sortie.takeoff_d, sortie.takeoff_c},
+                                       {counted_until(type, back.d, begin.d),
+                                        counted_until(type, back.c, begin.c)}));
     if (is_limited(type)) {
-        const Interval hovering = lasting_within(longest_hover(type, sortie.left, sortie.taken),
-                                                 back_d, back_c, begin_d, begin_c);
+        const Interval hovering =
+            lasting_within(longest_hover(type, sortie.left, sortie.taken), back, begin);
         bound_arrival(sums, hovering);
         // A sortie as long as before may wait where that takes more.
         sums.dep = std::min(sums.dep, hovering.last);
     }
-    const Int begin = std::max(sums.time + begin_d, begin_c);
-    sortie.begin = begin;
+    sortie.begin = begin.at(sums.time);
     if (charges_aboard(type)) {
-        sortie.left = after_hovering(type, sortie.left, sortie.taken,
-                                     begin - std::max(sums.time + back_d, back_c));
+        sortie.left =
+            after_hovering(type, sortie.left, sortie.taken, sortie.begin - back.at(sums.time));
     }
-    const Int slack = begin - begin_d;
+    const Int slack = sortie.begin - begin.d;
     if (sortie.takeoff - sortie.takeoff_d > slack) sums.dep = std::min(sums.dep, slack);
-    sums.free_d = recovery_end(type, begin_d);
-    sums.free_c = recovery_end(type, begin_c);
+    sums.free_d = recovery_end(type, begin.d);
+    sums.free_c = recovery_end(type, begin.c);
     sortie.state = sortie_done;
     --sums.flying;
     return sums.lo <= sums.hi;
@@ -207,10 +204,10 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int 
 }
 
 // Write how long the truck waits for drones in a block, at all stops but the last. In place.
-void note_idle(NodesRows places, View<Stop, 1> stops, Int first, Int last) {
+void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
     Int idle = stops[first].d;
     for (Int p = first; p <= last; ++p) {
-        if (stops[p].kind == customer_stop) idle -= service_duration(places[stops[p].node]);
+        if (stops[p].kind == customer_stop) idle -= places[stops[p].node].service_duration();
         if (p < last) idle -= stops[p].gap;
     }
     for (Int p = first; p < last; ++p) stops[p].idle = idle;
@@ -220,7 +217,7 @@ void note_idle(NodesRows places, View<Stop, 1> stops, Int first, Int last) {
 }  // namespace
 
 void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count) {
-    const bool single = are_single(truck.own[0]);
+    const bool single = truck.own[0].are_single();
     for (Sortie& sortie : sorties.first(count)) {
         const DroneData drone_data = truck.drone_data(sortie);
         const Int node = sortie.home = stops[sortie.recovery].node;
@@ -236,9 +233,9 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
         Int home = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
         for (Int index = sortie.count - 1; index >= 0; --index) {
             const Int here = sortie.nodes[index];
-            const NodeRows place = drone_data.places[here];
+            const Windows place = drone_data.places[here];
             back = std::max(back, earliest_back(place, none, home));
-            home += service_duration(place);
+            home += place.service_duration();
             if (index > 0) home += leg(drone_data.legs, sortie.nodes[index - 1], here).duration;
         }
         sortie.held = held_until(back, sortie.limit);
@@ -261,7 +258,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
         stop.arrival = std::max(time + d, c);
         stop.block = first;
         if (stop.kind == customer_stop) {
-            if (!reach(truck.places[stop.node], stop.arrival, d, c, sums)) return -1;
+            if (!reach(truck.places[stop.node], {d, c}, sums)) return -1;
         } else if (stop.kind == start_stop) {
             c = std::max(c, std::max(stop.release, stop.hold));
         }
@@ -283,7 +280,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
         if (stop.kind == end_stop || p + 1 >= length) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
-        const Pair there = truck.travel(stop.node, next, stop.gap, {d, c});
+        const TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});
         d = there.d;
         c = there.c;
         ++p;

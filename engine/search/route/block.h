@@ -1,6 +1,6 @@
 // Timing of a block: the stops of a truck from one where all drones are aboard to the next.
 //
-// By pairs `(d, c)`, which docs/develop/route-times.md derives.
+// By time segments `(d, c)`, which docs/develop/route-times.md derives.
 #pragma once
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct Truck {
         : data(data_of_it),
           k(row),
           type(data_of_it.type[row]),
-          places(places_of(data_of_it.place, type)),
+          places(data_of_it.place.by_truck(type)),
           own(data_of_it.place[0]),
           drones(drone_data_at(data_of_it, first_drone_row(data_of_it.type, row))),
           alike(!are_several(type)),
@@ -44,8 +44,8 @@ struct Truck {
     const ProblemData& data;
     Int k;
     const VehicleType& type;
-    NodesRows places;  // as this type meets them
-    NodesRows own;     // by the service durations that are customers' own
+    NodeTable places;  // as this type meets them
+    NodeTable own;     // by the service durations that are customers' own
     DroneData drones;  // what its first drones meet
     bool alike;        // all of them
     bool steady;
@@ -55,23 +55,25 @@ struct Truck {
         return alike ? drones : drone_data_at(data, row_of_drone(data.type, k, sortie.drone));
     }
 
-    // Return the pair of an arrival at `time`, at the beginning of a block.
-    Pair origin(Int time) const { return steady ? Pair{0, none} : Pair{none, time}; }
+    // Return when the truck arrives at the beginning of a block, at `time`.
+    TimeSegment origin(Int time) const {
+        return steady ? TimeSegment{0, none} : TimeSegment{none, time};
+    }
 
-    // Return the pair at the end of a leg of `duration` at full speed, from `node` to another.
-    Pair travel(Int node, Int to, Int duration, Pair leave) const {
+    // Return when a leg of `duration` at full speed ends, from `node` to another.
+    TimeSegment travel(Int node, Int to, Int duration, TimeSegment leave) const {
         if (steady) return {leave.d + duration, leave.c + duration};
         const Int arrival =
             leg_end(type, data.profile_time[k], data.profile_factor[k], duration, leave.c);
         return {none, arrival + setup_beside(type, data.setup, node, to)};
     }
 
-    // Return the pair at the end of what it does at a stop by itself, reached at a pair.
-    Pair serve(const Stop& stop, Int time, Pair reached) const {
+    // Return when what it does at a stop by itself ends.
+    TimeSegment serve(const Stop& stop, Int time, TimeSegment reached) const {
         if (stop.kind == customer_stop) {
-            const NodeRows place = places[stop.node];
-            const auto [d, c] = start_within(place, time, reached.d, reached.c);
-            return {d + service_duration(place), c + service_duration(place)};
+            const Windows place = places[stop.node];
+            const auto [d, c] = place.start_within(time, reached);
+            return {d + place.service_duration(), c + place.service_duration()};
         }
         if (stop.kind == start_stop) {
             const Int ready = std::max(reached.c, std::max(stop.release, stop.hold));
@@ -89,9 +91,9 @@ struct Truck {
         stop.hi = far;
         stop.dep = far;
         if (stop.kind == customer_stop) {
-            const NodeRows place = own[stop.node];
-            stop.hi = latest_allowed(place);
-            stop.dep = in_same_window(place, time);
+            const Windows place = own[stop.node];
+            stop.hi = place.latest_allowed();
+            stop.dep = place.in_same_window(time);
         } else if (stop.kind == end_stop) {
             stop.hi = type.shift_latest;
         }

@@ -11,7 +11,7 @@ namespace tandem {
 // The row and the nodes of a sortie's drones, its legs to customers and those home.
 struct DroneData {
     const VehicleType& type;
-    NodesRows places;
+    NodeTable places;
     TravelLegs legs;
     TravelLegs homeward;
 };
@@ -19,7 +19,7 @@ struct DroneData {
 // Return what the drones of a row meet.
 inline DroneData drone_data_at(const ProblemData& data, Int row) {
     const VehicleType& type = data.type[row];
-    return {type, places_by_air(data.place, type), legs_of(data.leg, type.drone_travel),
+    return {type, data.place.by_air(type), legs_of(data.leg, type.drone_travel),
             legs_of(data.leg, type.home_travel)};
 }
 

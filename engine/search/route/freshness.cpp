@@ -15,10 +15,10 @@ namespace {
 Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 const Trip& trip, View<const Sortie, 1> sorties) {
     const Int departure = departure_of(data, route, stops, sorties, trip.first);
-    const NodesRows places = data.place[0];
+    const NodeTable places = data.place[0];
     Int most = -far;
     const auto serve = [&](Int node, Int arrival) {
-        const Int start = start_of_service(places[node], arrival);
+        const Int start = places[node].start_of_service(arrival);
         most = std::max(most, excess_aboard(data.max_time_aboard, node, departure, start));
     };
     for (Int p = trip.first; p <= trip.last; ++p) {

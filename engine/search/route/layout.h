@@ -6,14 +6,14 @@
 // `refresh`.
 //
 // Times inside a block of stops hang on the truck's arrival `t` as `max(t + d, c)`: `d` is the
-// longest path of durations from there, `c` what windows and releases hold up. Such pairs add up
-// and take maxima by parts, so that a block, a trip and a route are each a pair with an interval of
-// arrivals at which all rules hold (Vidal et al. 2013, time-window segments, with drones).
-// `docs/develop/route-times.md` derives what is made of them.
+// longest path of durations from there, `c` what windows and releases hold up. Such a `TimeSegment`
+// adds up and takes maxima by parts, so that a block, a trip and a route are each one with an
+// interval of arrivals at which all rules hold (Vidal et al. 2013, time-window segments, with
+// drones). `docs/develop/route-times.md` derives what is made of them.
 #pragma once
 
 #include "deadline.h"
-#include "problem/instance.h"
+#include "rules/window.h"
 
 namespace tandem {
 
@@ -65,7 +65,7 @@ struct ProblemData {
     View<const double, 1> unassigned_more;  // (node,) what leaving out another costs above that
     bool unassigned_costs_differ;           // leaving out some costs more than others
     View<const bool, 1> must_serve;  // (node,) leaving it out costs more than any route for one
-    View<const Node, 3> place;       // (variant, node, row)
+    NodeTables place;
     View<const std::int64_t, 3>
         amount;  // (node, tier, entry); no tiers where the demand of nodes tells all
     View<const Price, 1> price;                   // (node,) per ms
@@ -103,7 +103,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.unassigned_more,
             from.unassigned_costs_differ,
             from.must_serve,
-            from.place,
+            NodeTables(from.place),
             from.amount,
             from.price,
             from.goods,

@@ -22,17 +22,17 @@ void shift_lean(const Fleet& fleet, Int slot, Int p) {
 }
 
 // Bring departures behind a new stop `p`, and latest arrivals before, up to date. In place.
-void spread(NodesRows places, View<Stop, 1> stops, Int last, Int p) {
+void spread(NodeTable places, View<Stop, 1> stops, Int last, Int p) {
     Int time = stops[p - 1].leave;
     for (Int q = p; q <= last; ++q) {
         time += stops[q - 1].gap;
-        if (q < last) time = end_of_service(places[stops[q].node], time);
+        if (q < last) time = places[stops[q].node].end_of_service(time);
         if (q > p && stops[q].leave == time) break;
         stops[q].leave = time;
     }
     Int latest = stops[p + 1].latest;
     for (Int q = p; q > 0; --q) {
-        latest = latest_arrival(places[stops[q].node], latest - stops[q].gap);
+        latest = places[stops[q].node].latest_arrival(latest - stops[q].gap);
         if (q < p && stops[q].latest == latest) return;
         stops[q].latest = latest;
     }
@@ -48,7 +48,7 @@ bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Int k = route.type, last = route.length - 1;
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     clear_trip(trip);
     route.trips = 1;
     trip.last = last;
@@ -63,9 +63,9 @@ bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
         trip.distance += way.distance;
         time += way.duration;
         if (p < last) {
-            const NodeRows place = places[stop.node];
-            if (too_late(place, time)) return false;
-            time = end_of_service(place, time);
+            const Windows place = places[stop.node];
+            if (place.too_late(time)) return false;
+            time = place.end_of_service(time);
             add_load(trip, demand_of(place));
         }
         stop.leave = time;
@@ -76,7 +76,7 @@ bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
     Int latest = type.shift_latest;
     stops[last].latest = latest;
     for (Int p = last - 1; p > 0; --p) {
-        latest = latest_arrival(places[stops[p].node], latest - stops[p].gap);
+        latest = places[stops[p].node].latest_arrival(latest - stops[p].gap);
         stops[p].latest = latest;
     }
     stops[0].latest = latest - stops[0].gap;
@@ -107,7 +107,7 @@ void insert_lean(const ProblemData& data, const Fleet& fleet, Int slot, Int p, I
     trip.distance += detour;
     fleet.cost[slot] += static_cast<double>(detour) * data.rate[k].distance + data.rate[k].stop;
     add_load(trip, demand_of(data.place[0][node]));
-    spread(places_of(data.place, type), stops, trip.last, p + 1);
+    spread(data.place.by_truck(type), stops, trip.last, p + 1);
     if (tiers_aboard(fleet) > 0) weigh(data, fleet, slot);
 }
 

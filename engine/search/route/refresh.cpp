@@ -35,7 +35,7 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop
                     View<const Sortie, 1> sorties, Int first) {
     const Int k = route.type, last = route.length - 1;
     const VehicleType& type = data.type[k];
-    const NodesRows places = places_of(data.place, type);
+    const NodeTable places = data.place.by_truck(type);
     Int leave = far;
     for (Int p = last; p >= first; --p) {
         const Stop& stop = stops[p];
@@ -44,7 +44,7 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop
         if (p == last && plain) leave = stop.leave;
         if (plain) {
             arrival = stop.kind == customer_stop
-                          ? latest_free_arrival(places[stop.node], stop.arrival, leave)
+                          ? places[stop.node].latest_free_arrival(stop.arrival, leave)
                           : leave;
         }
         leave = arrival;

@@ -106,8 +106,8 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
 }
 
 void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
-    const NodesRows places = places_of(data.place, data.type[route.type]);
-    const bool single = are_single(places[0]);
+    const NodeTable places = data.place.by_truck(data.type[route.type]);
+    const bool single = places[0].are_single();
     Int latest = far, earliest = none, rest = 0, end = none, gap = 0;
     for (Int q = route.length - 1; q >= 0;) {
         if (q < route.length - 1) gap = stops[q].gap;
@@ -117,7 +117,7 @@ void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops)
         latest = std::min(stop.hi, leave - stop.d);
         if (stop.kind == customer_stop && !single) {
             // No drone flies, or the route would be retimed.
-            latest = latest_arrival(places[stop.node], leave);
+            latest = places[stop.node].latest_arrival(leave);
         }
         const bool is_held = stop.c < earliest - gap;
         earliest = is_held ? std::max(stop.lo, earliest - gap - stop.d) : stop.lo;

@@ -13,7 +13,7 @@ namespace tandem {
 
 // Put a customer's parcel on a trip. In place.
 inline void carry(const ProblemData& data, Trip& trip, Int node) {
-    const NodeRows place = data.place[0][node];
+    const Windows place = data.place[0][node];
     trip.release = std::max(trip.release, release_of(place));
     add_load(trip, demand_of(place));
 }
