@@ -11,7 +11,8 @@
 namespace tandem {
 
 // When something happens within a block of stops, by the arrival at its beginning: never before
-// `c`, nor sooner than `d` after it. Holds for arrivals in an interval (see docs/develop/route-times.md).
+// `c`, nor sooner than `d` after it. Holds for arrivals in an interval, as
+// docs/develop/route-times.md derives.
 struct TimeSegment {
     Int d, c;
 
