@@ -31,30 +31,6 @@ service a hundred times a second takes the processor from what is waited for."""
 
 Result = TypeVar("Result")
 
-
-SLOW = (
-    "tests/benchmarks/", "tests/console/", "tests/engine/rules/",
-    "tests/engine/test_engine_tests.py", "tests/training/", "tests/test_end_to_end.py",
-    *(f"tests/app/{name}" for name in (
-        "cli/test_plot.py", "formats/sheets/", "formats/vroom/test_planning.py",
-        "formats/vroom/test_windows.py", "maps/addresses/test_servers.py", "maps/roads/",
-        "plans/pictures/", "plans/test_task.py", "records/", "requests/test_bounds.py",
-        "requests/test_wrong_bodies.py", "schemas/test_clients.py", "serving/",
-        "test_api_fuzz.py")),
-    *(f"tests/model/{name}" for name in (
-        "policy/test_features.py",
-        "replanning/test_replan_random.py", "search/test_anneal.py",
-        "search/test_battery_optimum.py", "search/test_bookkeeping.py",
-        "search/test_computed_legs.py", "search/test_free_launches.py", "search/test_improve.py",
-        "search/test_insertion.py", "search/test_kept.py", "search/test_moves.py",
-        "search/test_optimum.py", "search/test_recombining.py",
-        "search/test_starts.py", "search/test_swaps.py", "simulation/test_held_launches.py",
-        "simulation/test_simulator.py", "simulation/test_vehicle_log.py", "test_planner.py")),
-)
-"""What `make test-quick` leaves out: it starts services or other processes, or plans and searches
-for seconds. Tests of the engine's rules are compiled first."""
-
-
 MOST_WORKERS = 8
 """Processes that run tests at most, since each takes a gigabyte."""
 
@@ -68,12 +44,12 @@ def pytest_xdist_auto_num_workers() -> int:
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark the slow ones, those with PostgreSQL among them, and have them begin. In place.
+    """Mark tests with PostgreSQL as slow, and have the slow ones begin. In place.
 
     What is quick fills the cores at the end.
     """
     for item in items:
-        if item.nodeid.startswith(SLOW) or "[postgresql" in item.name:
+        if "[postgresql" in item.name:
             item.add_marker(pytest.mark.slow)
     items.sort(key=lambda item: item.get_closest_marker("slow") is None)
 

@@ -14,6 +14,8 @@ from typer.testing import CliRunner
 from app.cli.commands import cli as command_line
 from tests.conftest import eventually, free_port
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parent.parent
 EXAMPLES = sorted((ROOT / "examples").glob("*.json"))
 

@@ -8,10 +8,14 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
+
 from app.database.connections import make_engine
 from app.serving.access.keys import SCOPES, KeyStore
 from app.serving.settings import Settings
 from tests.app.serving.observe.server import running
+
+pytestmark = pytest.mark.slow
 
 CASES = 1
 """Most of each operation in a phase."""

@@ -11,6 +11,8 @@ from tests.app.maps.addresses.conftest import helsinki  # noqa: F401
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, open_tab, planned, state
 
+pytestmark = pytest.mark.slow
+
 SHEET = """Name;Address;kg
 Anna;Mikonkatu 18, Helsinki;2
 Ben;Bulevardi, Helsinki;3

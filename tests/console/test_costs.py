@@ -11,6 +11,8 @@ from tests.console.steps import idle, open_example, open_file, open_tab, planned
 from tests.console.test_everyone import findings
 from tests.console.test_hands import PROBLEM, reply_of, told
 
+pytestmark = pytest.mark.slow
+
 LEFT_OUT: dict[str, Any] = PROBLEM | {
     "customers": [*PROBLEM["customers"], {"id": "G", "location": [5, 5], "demand": [99]}]}
 

@@ -19,6 +19,8 @@ from tests.app.records.dispatches.days import (
 from tests.console.steps import open_example, open_tab
 from tests.console.test_everyone import findings
 
+pytestmark = pytest.mark.slow
+
 Data = dict[str, Any]
 
 PHONE = {"viewport": {"width": 390, "height": 844}, "has_touch": True, "locale": "en-GB"}

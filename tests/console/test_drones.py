@@ -11,6 +11,8 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import idle, open_example, open_file, open_tab, planned, state
 from tests.console.test_everyone import findings
 
+pytestmark = pytest.mark.slow
+
 DRONES = {"count": 1, "capacity": [2], "endurance": 1800}
 
 

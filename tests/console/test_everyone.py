@@ -8,6 +8,8 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import idle, let_search, open_example, open_tab, state
 
+pytestmark = pytest.mark.slow
+
 TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes", "scenarios",
         "replan", "export", "drivers")
 

@@ -2,9 +2,12 @@
 
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_tab, state
+
+pytestmark = pytest.mark.slow
 
 NUM_CUSTOMERS = 60
 ROW_PIXELS = 28

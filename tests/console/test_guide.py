@@ -3,9 +3,12 @@
 import re
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.test_everyone import findings
+
+pytestmark = pytest.mark.slow
 
 
 def test_console_leads_to_the_guide_which_can_be_searched(

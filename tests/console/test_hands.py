@@ -11,6 +11,8 @@ from tests.console.steps import open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 from tests.console.test_keeping import edit, first_customer
 
+pytestmark = pytest.mark.slow
+
 PLACES = {"A": [2, 2], "B": [4, 2], "C": [6, 2], "D": [2, -2], "E": [4, -2], "F": [6, -2]}
 PROBLEM: dict[str, Any] = {
     "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],

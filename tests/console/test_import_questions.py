@@ -11,6 +11,8 @@ from playwright.sync_api import Page, Route, expect
 from tests.console.steps import open_file, planned, state
 from tests.console.test_importing import SHEET, dialog, read_anew, use
 
+pytestmark = pytest.mark.slow
+
 UNKNOWN: dict[str, Any] = {
     "id": "later:1", "kind": "later", "text": "Something that this console doesn't know?",
     "values": {}, "choices": [{"answer": "yes", "title": "Yes"}, {"answer": "no", "title": "No"}],

@@ -10,6 +10,8 @@ from playwright.sync_api import Locator, Page, expect
 from tests.app.formats.sheets import makes
 from tests.console.steps import open_example, open_file, open_tab, planned, state
 
+pytestmark = pytest.mark.slow
+
 SHEET = """name,lat,lon,kg,duration,open time,closes,notes
 Anna,47.38,8.54,5,3,8.30,10.00,ring twice
 Ben,47.39,8.51,7,3,,12.15,

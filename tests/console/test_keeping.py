@@ -11,6 +11,8 @@ from playwright.sync_api import Error, Locator, Page, expect
 from tests.conftest import soon
 from tests.console.steps import idle, let_search, open_example, open_tab, state, with_table1
 
+pytestmark = pytest.mark.slow
+
 SMALL = "smallest"
 
 

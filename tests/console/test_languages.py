@@ -14,6 +14,8 @@ from app.schemas.request import PlanRequest
 from tests.console.steps import EXAMPLES, ROOT, STATIC, idle, open_file, open_tab
 from tests.console.test_everyone import findings
 
+pytestmark = pytest.mark.slow
+
 FORMS = (
     "CustomerInput", "TimeWindowInput", "VehiclesInput", "DepotInput", "PlaceInput",
     "VehicleTypeInput", "CostsInput", "SpeedChangeInput", "ShiftInput", "OvertimeInput",

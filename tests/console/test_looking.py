@@ -4,11 +4,14 @@ import json
 import re
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import (
     EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
+
+pytestmark = pytest.mark.slow
 
 UNSERVABLE = {
     "planar_unit": 1000,

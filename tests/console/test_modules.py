@@ -5,6 +5,9 @@ from pathlib import Path
 
 import pytest
 
+
+pytestmark = pytest.mark.slow
+
 STATIC = Path(__file__).parents[2] / "app" / "console" / "static"
 MODULES = sorted((STATIC / "js").rglob("*.js"))
 MAX_FILE_LINES = 400

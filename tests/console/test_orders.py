@@ -12,6 +12,8 @@ from tests.console.steps import idle, open_file, open_tab, place_of, planned, st
 from tests.console.test_everyone import findings
 from tests.console.test_replanning import PROBLEM, begin, customers_of, plan_on
 
+pytestmark = pytest.mark.slow
+
 ONE_VAN: dict[str, Any] = {
     "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
     "customers": [{"id": "A", "location": [6, 0], "demand": [5], "service_duration": 60}],

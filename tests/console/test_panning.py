@@ -13,6 +13,8 @@ from tests.console.steps import idle, open_example, open_file, place_of, planned
 from tests.console.test_hands import bar_of, hands, told, tours
 from tests.console.test_speed import COUNT, large_problem
 
+pytestmark = pytest.mark.slow
+
 __all__ = ["hands"]
 
 DRAGS = 20

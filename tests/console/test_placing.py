@@ -10,6 +10,8 @@ from playwright.sync_api import Locator, Page, expect
 from tests.console.steps import open_file, planned, state
 from tests.console.test_importing import SHEET, dialog, read_anew, use
 
+pytestmark = pytest.mark.slow
+
 ADDRESSES = """Name,Street,Zip,Town,kg
 Anna,Ring 1,10000,Adorf,5
 Ben,Ring 2,10000,Adorf,7

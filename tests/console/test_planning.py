@@ -11,6 +11,8 @@ from tests.console.steps import (
     idle, let_search, open_advanced, open_file, open_tab, state, stop_button,
 )
 
+pytestmark = pytest.mark.slow
+
 
 def set_option(page: Page, name: str, value: str) -> None:
     """Set one of the options of planning."""

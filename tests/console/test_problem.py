@@ -4,11 +4,14 @@ import json
 import re
 from collections.abc import Callable
 
+import pytest
 from playwright.sync_api import Locator, Page, expect
 
 from tests.console.steps import (
     EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
+
+pytestmark = pytest.mark.slow
 
 def test_problem_is_opened_from_a_file(console: Page) -> None:
     open_file(console, "mine.json", (EXAMPLES / "smallest.json").read_text("utf-8"))

@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
+pytestmark = pytest.mark.slow
+
 
 APPLY = """async (request) => {
   const { applyRemedy } = await import(`${modules}/core/remedies.js`);

@@ -4,10 +4,13 @@ import json
 from collections.abc import Callable
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import idle, open_advanced, open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
+
+pytestmark = pytest.mark.slow
 
 # Three customers east and three west of the hub, 5 km apart, a minute each kilometre; windows
 # have them visited from the nearest on.

@@ -10,6 +10,8 @@ from tests.console.spreadsheets import CSV, HEAD, MUNICH, ROWS, SPREADSHEETS, Sp
 from tests.console.steps import open_file, state
 from tests.console.test_importing import dialog, read_anew, use
 
+pytestmark = pytest.mark.slow
+
 MOST_CLICKS = 6
 
 COUNT = """() => {

@@ -18,6 +18,8 @@ from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, place_of, planned, state
 
+pytestmark = pytest.mark.slow
+
 HUB = [24.9497, 60.1787]
 PLACES = {"station": [24.9425, 60.1704], "market": [24.9480, 60.1679], "park": [24.9437, 60.1664],
           "theatre": [24.9465, 60.1714]}

@@ -6,9 +6,12 @@ from io import StringIO
 from pathlib import Path
 from xml.etree import ElementTree
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_example, open_tab, state
+
+pytestmark = pytest.mark.slow
 
 DEPOTS = {"drones": "hub", "city_day": "hub-north"}
 

@@ -12,6 +12,8 @@ from tests.console.test_everyone import findings
 from tests.console.test_importing import SHEET, dialog, use
 from tests.console.test_keeping import edit, first_customer, loaded_anew, save, saved
 
+pytestmark = pytest.mark.slow
+
 PROBLEM: dict[str, Any] = {
     "depots": [{"id": "hub", "location": [0, 0]}],
     "customers": [{"id": "mine", "location": [3, 4], "demand": [1]}],

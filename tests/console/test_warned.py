@@ -3,9 +3,12 @@
 import json
 from typing import Any
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_file, open_tab, planned, state
+
+pytestmark = pytest.mark.slow
 
 
 def problem() -> dict[str, Any]:

@@ -1,8 +1,11 @@
 """Change one thing, compare fleets, sweep two fields, play the day."""
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import idle, open_example, open_tab, state
+
+pytestmark = pytest.mark.slow
 
 
 def test_change_shows_plan_and_cost_beside_the_former(page: Page) -> None:

@@ -2,6 +2,7 @@
 
 import json
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import (
@@ -9,6 +10,8 @@ from tests.console.steps import (
 )
 from tests.console.test_everyone import findings
 from tests.console.test_looking import UNSERVABLE
+
+pytestmark = pytest.mark.slow
 
 
 def test_clicked_customer_tells_what_else_it_would_cost(console: Page) -> None:

@@ -2,7 +2,11 @@
 
 import subprocess
 
+import pytest
+
 from tests.engine.rules.asking import built
+
+pytestmark = pytest.mark.slow
 
 
 def test_cases_of_the_engine_pass() -> None:

@@ -18,6 +18,8 @@ from model.solution import Route
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 
+pytestmark = pytest.mark.slow
+
 WEIGHTS = Path(__file__).parents[2] / "model" / "weights"
 POLICIES = sorted(folder.name for folder in WEIGHTS.iterdir())
 NUM_DECODED = 300

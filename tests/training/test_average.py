@@ -8,6 +8,8 @@ import torch
 from training.average import average, main
 from training.policies import POLICIES
 
+pytestmark = pytest.mark.slow
+
 
 def checkpoint(seed: int, step: int) -> dict[str, object]:
     """Return the part of a checkpoint that matters here."""

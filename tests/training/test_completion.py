@@ -18,6 +18,8 @@ from training.instances import VARIANTS, generate
 from training.labels import HOT, Actor, Origin
 from training.rollout import make_batch
 
+pytestmark = pytest.mark.slow
+
 COMPLETED = ("uniform", "vrptw", "appointed", "soft", "hetero", "cvrp")
 TIMED_OTHERWISE = {"soft"}
 """Where waiting costs, the search times routes otherwise than decisions do, so that what it finds

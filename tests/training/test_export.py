@@ -18,6 +18,8 @@ from training.export import WEIGHTS, Encoder, Step, example_inputs, export
 from tests.conftest import made_once
 from training.policies import POLICIES
 
+pytestmark = pytest.mark.slow
+
 STEP_INPUTS = ("here", "candidate", "feature", "allowed", "glob", "hidden")
 
 

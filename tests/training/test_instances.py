@@ -26,6 +26,8 @@ from training.instances import (
 from training.orders import Reach, open_orders, with_appointments
 from training.variants import solomon_vrptw, uniform_vrptw
 
+pytestmark = pytest.mark.slow
+
 SOUND = InstanceConfig(spoiled=0.0)
 
 

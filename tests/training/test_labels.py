@@ -21,6 +21,8 @@ from training.labels import (
 )
 from training.rollout import Simulation, make_batch
 
+pytestmark = pytest.mark.slow
+
 ORIGIN = Origin("uniform", 10, 3)
 
 

@@ -19,6 +19,8 @@ from training.learn import (
 from training.policies import AnyPolicy
 from training.rollout import Batch, Outcome, greedy, make_batch, roll_out, sampler
 
+pytestmark = pytest.mark.slow
+
 CPU = torch.device("cpu")
 NUM_ROLLOUTS = 3
 

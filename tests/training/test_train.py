@@ -17,6 +17,8 @@ from training.heuristics import nearest_neighbour
 from training.policies import POLICIES, widened
 from training.train import Leg, train, validation_batches
 
+pytestmark = pytest.mark.slow
+
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
 LOADED = 600.0

@@ -16,6 +16,8 @@ from training.labels import (
     NEWEST, Actor, Labelled, Origin, label, label_by_trials, read, read_policy, write,
 )
 
+pytestmark = pytest.mark.slow
+
 EXPORTED = Path(__file__).parents[2] / "model" / "weights" / "attention"
 
 CONFIG = LabelConfig(plans=3, problems=3, rollouts=2, learning_rate=3e-4, warm_up=1,

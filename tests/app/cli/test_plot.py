@@ -11,6 +11,8 @@ from app.cli import commands
 from app.cli.file_errors import EXIT_BAD_INPUT
 from tests.app.plans.pictures.conftest import planned
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 
 

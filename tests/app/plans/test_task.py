@@ -9,6 +9,8 @@ import pytest
 
 from app.schemas.response import PlanReply
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 
 

@@ -11,6 +11,8 @@ from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.conftest import soon
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 
 MOST = 18

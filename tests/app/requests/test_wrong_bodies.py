@@ -32,6 +32,8 @@ from tests.app.conftest import APP_DIR, FirstFitPlanner, ready
 from tests.app.requests.wrong_bodies import SHAPES, body_of
 from tests.conftest import PATIENCE, made_once
 
+pytestmark = pytest.mark.slow
+
 MULTIPLE, BESIDE = 32, 250 * 2**20
 """What reading a body may take: so many times its length, and so many bytes beside."""
 

@@ -15,6 +15,8 @@ from typer.testing import CliRunner
 from app.cli.commands import cli
 from tests.app.serving.observe.server import Server, running
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[3]
 GUIDE = (ROOT / "docs" / "use" / "clients.md").read_text("utf-8")
 GUIDE_URL = "http://127.0.0.1:8000"

@@ -14,6 +14,8 @@ import pytest
 from benchmarks.fuzz.problems import Fault, Study, happened, hold_to_the_past
 from benchmarks.fuzz.wild_problems import wild_request
 
+pytestmark = pytest.mark.slow
+
 Data = dict[str, Any]
 Answer = Callable[[Data], Data]
 

@@ -14,6 +14,8 @@ from benchmarks.fuzz.problems import Study
 from benchmarks.fuzz.remedies import Remedies, alone, console, late_drones
 from benchmarks.fuzz.wild_problems import wild_request
 
+pytestmark = pytest.mark.slow
+
 Data = dict[str, Any]
 
 PROBLEMS = 40

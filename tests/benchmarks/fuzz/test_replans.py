@@ -13,6 +13,8 @@ from benchmarks.fuzz.changing_days import Change, committed_to, morning, what_ha
 from benchmarks.fuzz.problems import Fault
 from benchmarks.fuzz.replans import Days, aboard
 
+pytestmark = pytest.mark.slow
+
 Data = dict[str, Any]
 
 DAYS = 40

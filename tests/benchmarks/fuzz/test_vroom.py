@@ -15,6 +15,8 @@ from benchmarks.fuzz.problems import Fault
 from benchmarks.fuzz.vroom import Study, judge
 from benchmarks.fuzz.wild_vroom import wild_vroom
 
+pytestmark = pytest.mark.slow
+
 REQUESTS = 40
 
 REQUEST: dict[str, Any] = {

@@ -8,10 +8,13 @@ import sys
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 from benchmarks.peers.answers import cost_of_all, timed_plan
 from benchmarks.peers.filo2 import solve
 from benchmarks.quality.large import as_problem, drawn, read
+
+pytestmark = pytest.mark.slow
 
 PROGRAM = """#!{python}
 import pathlib, sys

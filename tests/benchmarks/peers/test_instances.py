@@ -9,6 +9,8 @@ from benchmarks.peers.answers import PeerRoute, judge
 from benchmarks.peers.instances import UNIFORM_UNIT, load_vrptw_uniform, uniform_set
 from benchmarks.peers.published import to_problem
 
+pytestmark = pytest.mark.slow
+
 RECORD = {"name": "tiny", "capacity": 5, "horizon": 4.6, "speed": 1,
           "locations": [[0.0, 0.0], [0.3, 0.4], [0.6, 0.8]], "demand": [0, 2, 3],
           "time_windows": [[0.0, 4.6], [0.5, 0.7], [1.000001, 1.2]],

@@ -11,6 +11,8 @@ from benchmarks.peers.published import (
 )
 from model.problem import UNLIMITED
 
+pytestmark = pytest.mark.slow
+
 SOLOMON = """C901
 
 VEHICLE

@@ -10,6 +10,8 @@ from benchmarks.peers.answers import PeerAnswer, Verdict, has_rare_rules, judge,
 from benchmarks.peers.published import Published, read_routes, routes_of_types, to_problem
 from benchmarks.peers.rule_sets import read_rule_instance, rule_set
 
+pytestmark = pytest.mark.slow
+
 # Three customers on a street, the depots at its ends.
 DEPOTS = """NAME: PR90A
 TYPE: MDVRPTW

@@ -22,6 +22,8 @@ from benchmarks.peers.workers import SOLVERS, NoPlanError, Solver, Worker, requi
 from benchmarks.results import Result
 from benchmarks.rows import append_rows, columns, read_rows
 
+pytestmark = pytest.mark.slow
+
 FILE = """TINY
 
 VEHICLE

@@ -15,6 +15,8 @@ from benchmarks.peers.vroom_requests import (
 from model.planner import Planner, load_planner
 from tests.app.formats.vroom.judge import judge
 
+pytestmark = pytest.mark.slow
+
 Data = dict[str, Any]
 
 SIZE, SECONDS = 30, 1.0

@@ -18,6 +18,8 @@ from model.policy.decode import load_policy
 from model.problem import Customer, Problem, VehicleType
 from model.solution import Solution
 
+pytestmark = pytest.mark.slow
+
 
 def made_up(problem: str, size: int, way: Way, cost: float) -> Trial:
     """Return a trial that never was."""

@@ -16,6 +16,8 @@ from model.judge.timing import RouteDecision, SortieDecision, TripDecision, sche
 from model.problem import Customer, DroneType, Problem, VehicleType
 from model.solution import Solution
 
+pytestmark = pytest.mark.slow
+
 BEST_WITHOUT_LOOPS = 4.0
 """The truck serves a, the drone b on the way out and c on the way home, or the other way round."""
 

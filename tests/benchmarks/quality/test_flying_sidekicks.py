@@ -10,6 +10,8 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.solution import Solution
 
+pytestmark = pytest.mark.slow
+
 # All drives take 100 s, all flights 80 s, climb and descent included.
 THREE = Sidekicks("three", "101", 2, 410.0, 100.0 * (1 - np.eye(3)), 80.0 * (1 - np.eye(3)),
                   (-1.0, 100.0, 4.0))

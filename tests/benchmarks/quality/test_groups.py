@@ -12,6 +12,8 @@ from model.problem import Problem
 from model.solution import Solution
 from model.together.exact import best_by_trucks
 
+pytestmark = pytest.mark.slow
+
 WEIGHTS = Path(__file__).parents[3] / "model" / "weights"
 SEED = 11
 NUM_TRIED, NUM_PLANNED = 100, 25

@@ -10,6 +10,8 @@ from typer.testing import CliRunner
 
 from benchmarks.quality.large import as_problem, drawn, main, runs, with_types
 
+pytestmark = pytest.mark.slow
+
 NAME = "drawn-1-60-30-central"
 
 

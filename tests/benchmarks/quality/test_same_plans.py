@@ -4,9 +4,12 @@ import json
 from pathlib import Path
 from typing import Any
 
+import pytest
 from typer.testing import CliRunner
 
 from benchmarks.quality.same_plans import app, differences, problems, read
+
+pytestmark = pytest.mark.slow
 
 RUN = CliRunner()
 

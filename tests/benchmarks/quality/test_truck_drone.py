@@ -15,6 +15,8 @@ from model.judge.timing import RouteDecision, SortieDecision, TripDecision, sche
 from model.problem import Problem
 from model.solution import Solution
 
+pytestmark = pytest.mark.slow
+
 AGATZ = """/*The speed of the Truck*/
 1.0
 /*The speed of the Drone*/

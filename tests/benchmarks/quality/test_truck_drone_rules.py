@@ -10,6 +10,8 @@ from model.judge.timing import RouteDecision, SortieDecision, TripDecision, sche
 from model.problem import Customer, DroneType, Problem, VehicleType
 from model.solution import Solution
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def problem(tiny_problem: Callable[..., Problem]) -> Problem:

@@ -3,11 +3,14 @@
 from pathlib import Path
 
 import numpy as np
+import pytest
 import torch
 
 from app.serving.settings import Settings
 from benchmarks.quality.weights import CLASSES, Case, plan_costs, rows
 from training.export import WEIGHTS
+
+pytestmark = pytest.mark.slow
 
 WEIGHTS_FILE = Settings().weights_dir / "attention" / WEIGHTS
 

@@ -3,12 +3,15 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from app.schemas.limits import DEFAULT_POLICY
 from app.serving.settings import Settings
 from benchmarks.quality.without_drones import POLICY, SEARCH, Pair, grounded, plan_pairs, table
 from model.planner import load_planner
 from training.instances import generate
+
+pytestmark = pytest.mark.slow
 
 
 def test_trucks_serve_all_where_drones_are_taken_away() -> None:

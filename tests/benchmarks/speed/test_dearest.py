@@ -25,6 +25,8 @@ from benchmarks.speed.dear_requests import (
 )
 from benchmarks.speed.dearest import Asker, Companion, Search, main
 
+pytestmark = pytest.mark.slow
+
 Data = dict[str, Any]
 
 

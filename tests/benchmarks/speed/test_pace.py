@@ -6,9 +6,12 @@ The measurement is `python -m benchmarks.speed.pace`.
 import io
 from collections import Counter
 
+import pytest
 from rich.console import Console
 
 from benchmarks.speed.pace import kinds, paces, table
+
+pytestmark = pytest.mark.slow
 
 
 def test_there_are_twelve_kinds_of_problems() -> None:

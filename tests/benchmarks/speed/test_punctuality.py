@@ -11,6 +11,8 @@ import pytest
 from app.requests.reading import read_request
 from benchmarks.speed.punctuality import ask, requests, told
 
+pytestmark = pytest.mark.slow
+
 REQUESTS = requests()
 
 

@@ -5,6 +5,8 @@ import pytest
 from benchmarks.speed.queueing import FIRST, LOOKING, ROUNDS, SECONDS, Night
 from benchmarks.speed.service_times import REGION, DatabaseTimes, JobTimes
 
+pytestmark = pytest.mark.slow
+
 NOTHING = JobTimes(4 * REGION, convert=0.0, divide=0.0, take=0.0, merge=0.0, reply=0.0)
 FREE = DatabaseTimes(waiting=0.0, region=0.0)
 

@@ -18,6 +18,8 @@ from benchmarks.study.tasks import (
     FULL, GREEDY, MIXED, NOBODY, QUICK, SINGLE, Planned, Scale, Task, TripRow, all_tasks,
 )
 
+pytestmark = pytest.mark.slow
+
 TINY = Scale(sizes=(25,), cases=2, seeds=1, table1_turns=(5, 20), table1_seeds=1,
              hours=(4.0, 8.0), fleet_turns=2, hour_turns=1, drone_sizes=(25,), drone_cases=1,
              drone_turns=1, policy_turns=(1,))

@@ -2,7 +2,11 @@
 
 import time
 
+import pytest
+
 from tests.engine.rules.asking import asked
+
+pytestmark = pytest.mark.slow
 
 
 def test_the_engines_clock_is_that_of_python() -> None:

@@ -1,6 +1,7 @@
 """Tests of what flying takes in the engine against the judge's."""
 
 import numpy as np
+import pytest
 
 from model.judge.energy import hover_energy, leg_energy
 from model.kernel.instance import FAR, pack
@@ -8,6 +9,8 @@ from model.kernel.records import Record
 from model.problem import UNREACHABLE, Energy
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_energy
+
+pytestmark = pytest.mark.slow
 
 EMPTY = -1
 """What is left of a battery once more was asked of it than it held."""

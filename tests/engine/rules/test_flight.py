@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from model.judge.check import check
 from model.judge.launches import launch_duration
@@ -13,6 +14,8 @@ from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, draw_late, draw_tiny, with_energy, with_gaps, with_pickups
+
+pytestmark = pytest.mark.slow
 
 
 def flown(kind: Record, places: Records, node: int, begin: int, out: int,

@@ -9,6 +9,8 @@ from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from tests.engine.rules.asking import legs_of, write
 
+pytestmark = pytest.mark.slow
+
 COUNT = 60
 
 

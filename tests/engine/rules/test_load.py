@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from model.engine.header import dtype_of
 from model.kernel.instance import DIMENSIONS_PER_TIER, pack
@@ -13,6 +14,8 @@ from model.problem import IntArray, Problem
 from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_dimensions, with_pickups
+
+pytestmark = pytest.mark.slow
 
 
 def judged(kind: Record, places: Records) -> tuple[int, ...]:

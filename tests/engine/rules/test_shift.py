@@ -13,6 +13,8 @@ from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings, with_duty
 
+pytestmark = pytest.mark.slow
+
 
 def judged(kind: Record, departure: int, end: int, stops: int) -> tuple[int, ...]:
     return asked("worked_until", 3, kind, departure, end, stops)

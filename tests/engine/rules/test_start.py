@@ -12,6 +12,8 @@ from model.kernel.records import Record
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings
 
+pytestmark = pytest.mark.slow
+
 
 def begun(kind: Record, time: int) -> tuple[int, ...]:
     return asked("begun_at", 3, kind, time)

@@ -12,6 +12,8 @@ from model.solution import Route, Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, draw_tiny, with_gaps
 
+pytestmark = pytest.mark.slow
+
 
 def times(place: Records, arrival: int) -> tuple[int, ...]:
     return asked("service_at", 5, place, len(place), arrival)

@@ -18,6 +18,8 @@ from tests.model.rollouts import Batch, Units, in_other_units, random_problems, 
 from tests.model.tiny import draw_tiny, with_energy
 from training.instances import generate
 
+pytestmark = pytest.mark.slow
+
 TOLERANCE = 1e-5
 SIGNED = {
     "detour",  # may be a short cut where the triangle inequality fails

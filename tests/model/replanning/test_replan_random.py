@@ -21,6 +21,8 @@ from tests.model.tiny import (
 )
 from training.instances import VARIANTS, generate
 
+pytestmark = pytest.mark.slow
+
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
 
 

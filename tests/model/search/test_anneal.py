@@ -15,6 +15,8 @@ from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
+pytestmark = pytest.mark.slow
+
 TURNS, SEEDS = 1500, 6
 
 

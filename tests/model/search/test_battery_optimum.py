@@ -13,6 +13,8 @@ from tests.model.tiny import (
     with_beginnings, with_charging, with_dimensions, with_energy, with_gaps, with_pickups,
 )
 
+pytestmark = pytest.mark.slow
+
 
 def charged_batteries(rng: np.random.Generator) -> Problem:
     """A drone or two, charged aboard as fast as they fly, or much slower."""

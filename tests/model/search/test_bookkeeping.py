@@ -17,6 +17,8 @@ from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
+pytestmark = pytest.mark.slow
+
 ROUNDS, TURNS = 12, 25
 SOME = 420
 """Customers, so that insertions are tried beside neighbours only."""

@@ -18,6 +18,8 @@ from model.solution import Solution
 from tests.model.search.mixed_rules import all_rules, all_rules_open, all_rules_setups
 from training.instances import generate
 
+pytestmark = pytest.mark.slow
+
 
 def twins(variant: str, size: int, points: Points) -> tuple[Problem, Problem]:
     """Return a problem whose legs are computed, and the same with tables of them."""

@@ -1,11 +1,14 @@
 """The search serves whoever can be served where windows open long after all else is done."""
 
 import numpy as np
+import pytest
 
 from model.problem import Customer, DroneType, Problem, VehicleType
 from tests.model.search.free_launches import can_serve_all
 from tests.model.search.test_optimum import street_problem
 from tests.model.simulation.test_held_launches import searched
+
+pytestmark = pytest.mark.slow
 
 MINUTE = 60_000
 

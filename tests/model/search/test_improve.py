@@ -22,6 +22,8 @@ from tests.model.rollouts import random_problems, roll
 from tests.model.tiny import draw_tiny
 from training.instances import VARIANTS, generate
 
+pytestmark = pytest.mark.slow
+
 
 def nobody(problem: Problem) -> Solution:
     """Return the plan that serves nobody."""

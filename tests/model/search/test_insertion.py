@@ -19,6 +19,8 @@ from model.search.problem_data import make_data
 from model.solution import Route, Solution
 from tests.model.search.found import read_plan
 
+pytestmark = pytest.mark.slow
+
 MINUTE = 60_000
 CUSTOMERS = 7
 SEEDS = 40  # some of which let neither a blink nor a dear route of its own spoil the insertion

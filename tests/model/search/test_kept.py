@@ -17,6 +17,8 @@ from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 
+pytestmark = pytest.mark.slow
+
 TURNS, ROUNDS = 40, 25
 
 

@@ -17,6 +17,8 @@ from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.strategy import Moves
 from model.solution import Solution
 
+pytestmark = pytest.mark.slow
+
 MINUTE = 60_000
 
 TRUCK = VehicleType("truck", 2, (40_000,), 0, cost_per_km=1.0)

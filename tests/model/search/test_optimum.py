@@ -23,6 +23,8 @@ from tests.model.search.mixed_rules import (
 )
 from tests.model.tiny import with_dimensions, with_places
 
+pytestmark = pytest.mark.slow
+
 MINUTE = 60_000
 TURNS = 300, 6_000
 """Few first, since they mostly do."""

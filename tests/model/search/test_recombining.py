@@ -23,6 +23,8 @@ from model.solution import Solution
 from training.instances import generate
 from tests.model.search.found import read_plan
 
+pytestmark = pytest.mark.slow
+
 Routes = dict[frozenset[int], float]
 
 VARIANTS = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", "mixed", "appointed")

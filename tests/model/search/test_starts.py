@@ -22,6 +22,8 @@ from model.solution import Solution
 from training.instances import VARIANTS, generate
 from tests.model.search.found import read_plan
 
+pytestmark = pytest.mark.slow
+
 TRUCKS = [name for name in VARIANTS
           if name not in ("drone", "table1", "mixed", "various", "particular")]
 

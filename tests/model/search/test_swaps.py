@@ -19,6 +19,8 @@ from model.solution import Solution
 from tests.model.tiny import MINUTE
 from training.instances import generate
 
+pytestmark = pytest.mark.slow
+
 SEEDS = 12
 
 AT_STOP, BY_SORTIE, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL = 0, 1, 4, 5, 6

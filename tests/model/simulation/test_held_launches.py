@@ -22,6 +22,8 @@ from tests.model.rollouts import legal, roll
 from tests.model.simulation.test_simulator import walk
 from tests.model.tiny import draw_late, with_energy, with_gaps
 
+pytestmark = pytest.mark.slow
+
 MINUTE = 60_000
 
 

@@ -23,6 +23,8 @@ from tests.model.tiny import (
     with_table, with_turnaround,
 )
 
+pytestmark = pytest.mark.slow
+
 Change = Callable[[np.random.Generator, Problem], Problem]
 
 

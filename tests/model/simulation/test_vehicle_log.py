@@ -17,6 +17,8 @@ from tests.model.mask_oracle import MINUTE, costs_nothing
 from tests.model.rollouts import random_problems, roll
 from tests.model.tiny import draw_tiny
 
+pytestmark = pytest.mark.slow
+
 
 def planned(problem: Problem, seed: int) -> Iterator[tuple[Route, RouteDecision]]:
     """Yield the routes of a random rollout and the decisions they state."""

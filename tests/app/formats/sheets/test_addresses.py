@@ -15,6 +15,8 @@ from app.maps.addresses.geocoder import Candidates, GeocoderUnavailableError
 from tests.app.maps.addresses.conftest import helsinki  # noqa: F401
 from tests.app.maps.addresses.stated import StatedGeocoder, place
 
+pytestmark = pytest.mark.slow
+
 HEAD = "Name,Street,Zip,Town,kg"
 ROWS = ("Anna,Ring 1,10000,Adorf,5", "Ben,Ring 2,10000,Adorf,5", "Cleo,Ring 3,10000,Adorf,5",
         "Dora,Ring 4,10000,Adorf,5")

@@ -12,6 +12,8 @@ from app.formats.sheets.numbers import amount_of, number, uses_comma
 from app.formats.sheets.readers import read
 from app.formats.sheets.units import clock_unit, duration_unit
 
+pytestmark = pytest.mark.slow
+
 DAY = Style(day=date(2026, 11, 23))
 
 

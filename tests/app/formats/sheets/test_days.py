@@ -1,11 +1,14 @@
 """Days of an import, planned by their clocks, and what looks wrong with what was made."""
 
+import pytest
 from pydantic_core import to_json
 
 from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportSettings
 from app.requests.reading import read_request
 from tests.app.formats.sheets.test_importing import codes, read
+
+pytestmark = pytest.mark.slow
 
 
 def test_a_day_in_a_zone_is_planned_by_its_clocks() -> None:

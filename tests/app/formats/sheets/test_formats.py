@@ -12,6 +12,8 @@ from app.formats.sheets.schemas import ImportReply, ImportSettings
 from app.formats.sheets.table import NotASheetError
 from tests.app.formats.sheets.test_importing import codes
 
+pytestmark = pytest.mark.slow
+
 PLACEMARK = ("<Placemark><name>{name}</name><description>{told}</description>"
              "<ExtendedData><Data name=\"Kisten\"><value>{boxes}</value></Data></ExtendedData>"
              "<Point><coordinates>{lon},{lat},0</coordinates></Point></Placemark>")

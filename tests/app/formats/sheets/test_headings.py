@@ -1,7 +1,11 @@
 """Headings of several languages: what their columns mean, and what they are counted in."""
 
+import pytest
+
 from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportReply, ImportSettings
+
+pytestmark = pytest.mark.slow
 
 
 def read(*rows: str) -> ImportReply:

@@ -9,6 +9,8 @@ from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportReply, ImportSettings
 from app.formats.sheets.table import NotASheetError
 
+pytestmark = pytest.mark.slow
+
 HEAD = "name,lat,lon,kg,from,to,service (min)"
 ROWS = ("Anna,48.10,11.50,5,8:00,10:00,10", "Ben,48.20,11.60,7,9:00,12:00,5",
         "Cleo,48.15,11.55,3,8:30,17:00,5")

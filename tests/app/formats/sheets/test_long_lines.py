@@ -19,6 +19,8 @@ from app.formats.sheets.text import LONGEST_LINE, PIECE, NoTextError, read_text
 from app.formats.sheets.vans import vans_of
 from tests.app.formats.sheets.makes import open_document
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_line_without_end_is_refused() -> None:
     with pytest.raises(NoTextError, match="a line of more than"):

@@ -9,6 +9,8 @@ from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportReply, ImportSettings
 from tests.app.formats.sheets import makes
 
+pytestmark = pytest.mark.slow
+
 Customer = dict[str, Any]
 
 MAKES: dict[str, Callable[[], bytes]] = {

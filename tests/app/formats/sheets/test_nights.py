@@ -4,6 +4,8 @@ import pytest
 
 from tests.app.formats.sheets.test_importing import codes, read
 
+pytestmark = pytest.mark.slow
+
 
 def test_a_window_over_midnight_ends_on_the_day_after() -> None:
     reply = read("A,1,1,22:00,6:00", "B,2,2,17:00,+1 02:00", head="name,x,y,from,to")

@@ -9,6 +9,8 @@ from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportReply, ImportSettings, QuestionReply
 from tests.app.formats.sheets.makes import workbook
 
+pytestmark = pytest.mark.slow
+
 HEAD = "Name;Breite;Länge;Menge"
 ROWS = ("Anna;48,10;11,50;5", "Ben;48,20;11,60;7", "Cleo;48,15;11,55;3")
 

@@ -22,6 +22,8 @@ from tests.app.formats.sheets import makes
 from tests.app.serving.load.waiting import WaitingPlanner
 from tests.conftest import eventually
 
+pytestmark = pytest.mark.slow
+
 SETTINGS = makes.GERMAN_SETTINGS
 GERMAN = makes.GERMAN.encode("cp1252")
 EXPECTED = import_file(GERMAN, ImportSettings.model_validate(SETTINGS))

@@ -27,7 +27,7 @@ from tests.model.dialects.vroom.drawn import best_value, drawn_request
 Data = dict[str, Any]
 Solve = Callable[..., Data]
 
-pytestmark = pytest.mark.by_clock
+pytestmark = [pytest.mark.by_clock, pytest.mark.slow]
 
 
 @pytest.fixture(scope="session")

@@ -21,7 +21,7 @@ from tests.app.formats.vroom.reference import solve
 
 Data = dict[str, Any]
 
-pytestmark = pytest.mark.by_clock
+pytestmark = [pytest.mark.by_clock, pytest.mark.slow]
 
 DAY = 43_200
 

@@ -24,9 +24,9 @@ from tests.app.maps.roads import faults
 from tests.app.maps.roads.faults import Fault, Proxy, standing_in
 from tests.conftest import free_port
 
-pytestmark = pytest.mark.filterwarnings(
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings(
     # asyncio leaves a socket to be collected if it is cancelled while that connects.
-    "ignore:Exception ignored in:pytest.PytestUnraisableExceptionWarning")
+    "ignore:Exception ignored in:pytest.PytestUnraisableExceptionWarning")]
 
 Data = dict[str, Any]
 

@@ -6,6 +6,8 @@ import pytest
 from app.maps.roads.answers import Part, Snap, joined, snapped_at
 from app.maps.roads.engine import RoadsAnswerError, RoadTable, whole
 
+pytestmark = pytest.mark.slow
+
 PLACES = np.array([[24.94, 60.17], [24.940001, 60.17]])
 
 

@@ -14,6 +14,8 @@ from app.maps.roads.stages import CONTRACTING, Progress
 from app.maps.roads.tools import Tools, ToolsMissingError, find_tools
 from tests.app.maps.roads.conftest import HELSINKI
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def extract(tmp_path: Path) -> Extract:

@@ -19,6 +19,8 @@ from app.maps.roads.tools import Tools
 from tests.app.maps.roads.conftest import Places, served
 from tests.app.maps.roads.wheels import ROOT
 
+pytestmark = pytest.mark.slow
+
 
 def soon() -> float:
     return time.perf_counter() + 60

@@ -25,6 +25,8 @@ from model.problem import FloatArray
 from tests.app.conftest import FirstFitPlanner
 from tests.app.maps.roads.test_legs import request
 
+pytestmark = pytest.mark.slow
+
 PLACES = 26
 
 

@@ -21,9 +21,9 @@ from tests.app.maps.roads.fault_kinds import MENDED, NOWHERE, SLOW, WRONG
 from tests.app.maps.roads.faults import Fault, proxied
 from tests.app.maps.roads.faulty_plans import Tries
 
-pytestmark = pytest.mark.filterwarnings(
+pytestmark = [pytest.mark.slow, pytest.mark.filterwarnings(
     # asyncio leaves a socket to be collected if it is cancelled while that connects.
-    "ignore:Exception ignored in:pytest.PytestUnraisableExceptionWarning")
+    "ignore:Exception ignored in:pytest.PytestUnraisableExceptionWarning")]
 
 TRIES, PLANS = 500, 40
 DOWN = RoadsUnavailableError

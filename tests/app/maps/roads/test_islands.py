@@ -15,6 +15,8 @@ from app.maps.roads.server import RoadServer
 from tests.app.maps.roads import faults
 from tests.app.maps.roads.faults import standing_in
 
+pytestmark = pytest.mark.slow
+
 MAINLAND = 25.0
 """East of it lies an island without a bridge; its places are put on the mainland's shore, unless
 all are the island's."""

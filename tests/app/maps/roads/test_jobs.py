@@ -32,6 +32,8 @@ from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import WHOLE, ended, read, submit
 from tests.conftest import eventually
 
+pytestmark = pytest.mark.slow
+
 DOWN = RoadsUnavailableError("They are down.")
 
 

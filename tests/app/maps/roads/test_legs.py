@@ -21,6 +21,8 @@ from app.schemas.errors import InvalidRequestError, NoRoadsError
 from model.problem import UNREACHABLE, FloatArray
 from tests.app.maps.roads.fake import StatedRoads, table_of
 
+pytestmark = pytest.mark.slow
+
 NAN = float("nan")
 DURATIONS = [[0, 100, 200], [150, 0, 300], [250, 350, 0]]
 DEGREE_M = 111_195  # of latitude

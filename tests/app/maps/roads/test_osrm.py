@@ -20,6 +20,8 @@ from model.problem import FloatArray
 from tests.app.maps.roads.conftest import Places, served
 from tests.conftest import free_port
 
+pytestmark = pytest.mark.slow
+
 
 def soon() -> float:
     """Return a time that no answer reaches, unless the machine stalls."""

@@ -18,6 +18,8 @@ from app.maps.roads.server import RoadServer
 from model.problem import FloatArray
 from tests.app.maps.roads.conftest import Places
 
+pytestmark = pytest.mark.slow
+
 
 def table_of(url: str, form: TableForm, places: FloatArray, max_places: int = 100) -> RoadTable:
     engine = Osrm(RoadServer(url, max_places), form=form)

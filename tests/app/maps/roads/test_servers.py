@@ -11,6 +11,8 @@ from app.maps.roads.servers import ServerKind, server_engine
 from tests.app.maps.roads import faults
 from tests.app.maps.roads.faults import standing_in
 
+pytestmark = pytest.mark.slow
+
 
 def asked_by(kind: ServerKind, profile: str, options: str = "",
              count: int = 2) -> tuple[list[str], list[bytes], dict[str, str]]:

@@ -27,6 +27,8 @@ from tests.app.conftest import FirstFitPlanner, ready
 from tests.app.maps.roads.conftest import HELSINKI_BOX, served
 from tests.conftest import complete
 
+pytestmark = pytest.mark.slow
+
 DEPOT = [24.9425, 60.1705]
 TALLINN = [24.7536, 59.4370]
 

@@ -4,6 +4,8 @@ import pytest
 
 from app.maps.roads.setting import Extract, Server, SettingError, read_setting
 
+pytestmark = pytest.mark.slow
+
 
 def test_nothing_set_means_no_roads() -> None:
     assert read_setting("") == read_setting("  ") == {}

@@ -20,6 +20,8 @@ from tests.app.maps.roads.conftest import Places
 from tests.app.maps.roads.faults import Answer, Fault, Reply, proxied
 from tests.app.maps.roads.test_osrm import drivable
 
+pytestmark = pytest.mark.slow
+
 FAR = (10.0, 10.0)
 """No road of Helsinki is near."""
 

@@ -16,6 +16,8 @@ from app.maps.roads.roads import Roads
 from model.problem import FloatArray
 from tests.app.maps.roads.fake import StatedRoads, table_of
 
+pytestmark = pytest.mark.slow
+
 NAN = float("nan")
 
 

@@ -27,6 +27,8 @@ from app.plans.pictures.scene import clock, label
 from app.schemas.errors import InvalidRequestError
 from tests.app.plans.pictures.conftest import scene_of
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -17,6 +17,8 @@ from tests.app.records.dispatches.days import (
     dispatched, event, holding, token_of,
 )
 
+pytestmark = pytest.mark.slow
+
 REQUEST = DispatchRequest.model_validate({"problem": PROBLEM, "plan": PLAN}, strict=False)
 
 

@@ -24,6 +24,8 @@ from tests.app.records.dispatches.days import (
 )
 from tests.conftest import eventually
 
+pytestmark = pytest.mark.slow
+
 Serve = Callable[..., httpx.Client]
 
 

@@ -13,6 +13,8 @@ from app.serving.settings import Settings
 from tests.app.records.jobs.stepping import SteppingPlanner, request_of, submit
 from tests.conftest import SOON, eventually
 
+pytestmark = pytest.mark.slow
+
 Headers = dict[str, str]
 Serve = Callable[..., httpx.Client]
 

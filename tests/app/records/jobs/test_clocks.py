@@ -3,10 +3,13 @@
 from typing import Any
 
 import httpx
+import pytest
 
 from app.records.jobs.schemas import JobReply
 from tests.app.records.jobs.stepping import ended, request_of, submit
 from tests.app.records.jobs.test_routes import errors_of
+
+pytestmark = pytest.mark.slow
 
 Request = dict[str, Any]
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import httpx
+import pytest
 from sqlalchemy import create_engine, text
 
 from app.records.jobs.housekeeping import PATIENCE as RESCUED
@@ -14,6 +15,8 @@ from tests.app.records.jobs.conftest import Postgres
 from tests.app.records.jobs.served import Served, truly
 from tests.app.records.jobs.stepping import NUM_CUSTOMERS, ended, read, request_of, submit
 from tests.conftest import eventually
+
+pytestmark = pytest.mark.slow
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 

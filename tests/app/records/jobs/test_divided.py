@@ -28,6 +28,8 @@ from model.search.regions.region import Region
 from model.solution import Solution
 from tests.app.records.jobs.regional import NUM_CUSTOMERS, Office, served_by, until
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Office]:

@@ -4,10 +4,14 @@ import asyncio
 from collections.abc import Collection
 from dataclasses import replace
 
+import pytest
+
 from app.records.jobs.errors import JobsUnavailableError
 from app.records.jobs.events import Watcher, events
 from app.records.jobs.rows import JobRow
 from tests.conftest import complete
+
+pytestmark = pytest.mark.slow
 
 ROW = JobRow(
     id="j", kind="plan", owner="me", state="running", parent=None, position=None, fingerprint="f",

@@ -3,9 +3,12 @@
 import uuid
 
 import httpx
+import pytest
 
 from app.schemas.explain import ExplainReply
 from tests.app.records.jobs.stepping import RAISING_SEED, ended, read, request_of, submit
+
+pytestmark = pytest.mark.slow
 
 
 def test_plan_of_a_job_is_explained(jobs: httpx.Client) -> None:

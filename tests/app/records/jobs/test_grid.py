@@ -6,6 +6,8 @@ import pytest
 
 from app.records.jobs.grid import places, put, read_path
 
+pytestmark = pytest.mark.slow
+
 DATA = {"fleet": [{"count": 1, "capacity": [5.0, 6.0], "drones": None},
                   {"count": 2, "capacity": [7.0, 8.0], "drones": None}],
         "customers": [], "planar_unit": 1.0}

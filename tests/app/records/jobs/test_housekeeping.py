@@ -15,6 +15,8 @@ from app.records.jobs.rows import JobRow, NewJob, Standing
 from app.records.jobs.service import JobService, OpenLimits, Submission
 from app.records.jobs.store import JobStore
 
+pytestmark = pytest.mark.slow
+
 
 @dataclass(frozen=True)
 class Office:

@@ -6,9 +6,13 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from threading import Event, Thread
 
+import pytest
+
 from tests.app.records.jobs.served import Served
 from tests.app.records.jobs.stepping import request_of
 from tests.conftest import eventually
+
+pytestmark = pytest.mark.slow
 
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 

@@ -10,6 +10,8 @@ from app.serving.settings import Settings
 from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import ended, request_of, submit
 
+pytestmark = pytest.mark.slow
+
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 NOBODY = "00000000-0000-4000-8000-000000000000"
 

@@ -4,11 +4,14 @@ import uuid
 import xml.etree.ElementTree as ElementTree
 
 import httpx
+import pytest
 
 from tests.app.records.jobs.stepping import (
     NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
 from tests.conftest import eventually
+
+pytestmark = pytest.mark.slow
 
 
 def test_plan_of_a_job_is_drawn(jobs: httpx.Client) -> None:

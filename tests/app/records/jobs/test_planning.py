@@ -24,6 +24,8 @@ from app.schemas.request import PlanRequest
 from app.serving.settings import Settings
 from tests.app.records.jobs.stepping import NUM_CUSTOMERS, WHOLE, SteppingPlanner, request_of
 
+pytestmark = pytest.mark.slow
+
 FULL_COST = 2.0 * NUM_CUSTOMERS
 
 PLANNER = SteppingPlanner()

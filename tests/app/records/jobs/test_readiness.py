@@ -18,6 +18,8 @@ from tests.app.records.jobs.conftest import Postgres
 from tests.app.records.jobs.stepping import SteppingPlanner, request_of
 from tests.conftest import eventually, free_port
 
+pytestmark = pytest.mark.slow
+
 Serve = Callable[..., httpx.Client]
 
 

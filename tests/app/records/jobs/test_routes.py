@@ -18,6 +18,8 @@ from tests.app.records.jobs.stepping import (
 )
 from tests.conftest import eventually
 
+pytestmark = pytest.mark.slow
+
 Job = dict[str, Any]
 
 FULL_COST = 2.0 * NUM_CUSTOMERS

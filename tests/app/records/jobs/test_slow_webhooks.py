@@ -4,11 +4,14 @@ import threading
 from http.server import BaseHTTPRequestHandler, HTTPServer
 
 import httpx
+import pytest
 
 from app.records.jobs.worker import CALLS_OF_A_HOST, WEBHOOKS_AT_ONCE
 from tests.app.records.jobs.receiving import Receiver, drip
 from tests.app.records.jobs.stepping import request_of, submit
 from tests.conftest import eventually
+
+pytestmark = pytest.mark.slow
 
 
 def test_slow_receivers_of_one_host_hold_up_no_other(jobs: httpx.Client) -> None:

@@ -13,6 +13,8 @@ from app.records.jobs.rows import NewJob, OpenPlans, Standing
 from app.records.jobs.store import JobStore
 from app.serving.settings import Settings
 
+pytestmark = pytest.mark.slow
+
 
 class Books:
     """What a store told others."""

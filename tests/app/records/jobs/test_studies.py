@@ -12,6 +12,8 @@ from tests.app.records.jobs.stepping import (
 from tests.app.records.jobs.test_routes import errors_of
 from tests.conftest import eventually
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 
 

@@ -17,6 +17,8 @@ from app.serving.settings import Settings
 from tests.app.records.jobs.receiving import Receiver, drip
 from tests.conftest import apart
 
+pytestmark = pytest.mark.slow
+
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 
 

@@ -2,6 +2,7 @@
 
 from pathlib import Path
 
+import pytest
 from sqlalchemy import text
 
 from app.database.durable import connect
@@ -9,6 +10,8 @@ from app.serving.settings import Settings
 from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import ended, request_of, submit
 from tests.conftest import eventually
+
+pytestmark = pytest.mark.slow
 
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 

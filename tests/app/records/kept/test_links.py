@@ -10,6 +10,8 @@ from sqlalchemy import text
 from app.database.connections import make_engine
 from tests.app.records.kept.conftest import PLAN, REQUEST, Owner, Service, content
 
+pytestmark = pytest.mark.slow
+
 
 def see(client: httpx.Client, token: str) -> httpx.Response:
     """Ask for a shared plan without a key."""

@@ -10,6 +10,8 @@ from app.records.kept.reading import read_content
 from app.schemas.errors import InvalidRequestError, NotJsonError
 from tests.app.records.kept.conftest import content
 
+pytestmark = pytest.mark.slow
+
 
 def body_with(**parts: bytes) -> bytes:
     """Return a body with parts as they are written."""

@@ -9,6 +9,8 @@ import pytest
 
 from tests.app.records.kept.conftest import PLAN, REQUEST, Owner, Service, content
 
+pytestmark = pytest.mark.slow
+
 Keeping = Callable[..., httpx.Client]
 
 

@@ -17,6 +17,8 @@ from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, ready
 from tests.conftest import complete
 
+pytestmark = pytest.mark.slow
+
 ORIGIN = "https://dispatch.example.org"
 
 Serve = Callable[..., httpx.Client]

@@ -17,6 +17,8 @@ from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, opened, ready
 from tests.conftest import soon
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 Serve = Callable[..., httpx.Client]
 

@@ -18,6 +18,8 @@ from app.serving.access.keys import KeyStore, StoredKey, find_key
 from app.serving.settings import Settings
 from tests.app.conftest import opened
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture
 def engine(tmp_path: Path) -> Iterator[Engine]:

@@ -14,6 +14,8 @@ from app.serving.access.limits import Limits, Rates, TooManyRequestsError, clien
 from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, opened, ready
 
+pytestmark = pytest.mark.slow
+
 Serve = Callable[..., httpx.Client]
 
 PLAN = frozenset({"plan"})

@@ -9,6 +9,8 @@ import pytest
 from app.serving.load.admission import Admission, OverloadedError
 from tests.conftest import complete
 
+pytestmark = pytest.mark.slow
+
 
 async def settle(condition: Callable[[], bool]) -> None:
     """Let other tasks run until a condition holds."""

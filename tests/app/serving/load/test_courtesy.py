@@ -11,6 +11,8 @@ from app.serving.load import courtesy
 from app.serving.load.courtesy import NICENESS, Courtesy, stand_back
 from tests.conftest import soon
 
+pytestmark = pytest.mark.slow
+
 
 def niceness() -> int:
     """Return that of the thread that asks."""

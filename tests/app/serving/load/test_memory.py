@@ -6,6 +6,9 @@ import sys
 
 import pytest
 
+
+pytestmark = pytest.mark.slow
+
 PROGRAM = """
 import resource, threading
 import numpy as np

@@ -12,6 +12,8 @@ from app.serving.settings import Settings
 from tests.app.serving.load.nonsense import Taken
 from tests.conftest import made_once
 
+pytestmark = pytest.mark.slow
+
 EACH = 12
 """Of so many kinds one is sent to a route here, and another one to the next."""
 

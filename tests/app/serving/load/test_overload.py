@@ -14,6 +14,8 @@ from tests.app.conftest import FirstFitPlanner
 from tests.app.serving.load.waiting import WaitingPlanner
 from tests.conftest import soon
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 Serve = Callable[..., httpx.Client]
 

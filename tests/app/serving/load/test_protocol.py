@@ -15,7 +15,7 @@ from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.conftest import soon
 
-pytestmark = pytest.mark.by_clock
+pytestmark = [pytest.mark.by_clock, pytest.mark.slow]
 
 GET = b"GET /health/live HTTP/1.1\r\nHost: localhost\r\n\r\n"
 

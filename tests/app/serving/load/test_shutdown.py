@@ -19,6 +19,8 @@ from app.serving.settings import Settings
 from tests.app.serving.load.waiting import ROOT, process_of_its_own, status_of
 from tests.conftest import eventually, free_port, soon
 
+pytestmark = pytest.mark.slow
+
 Request = dict[str, Any]
 
 DRAIN = 3.0

@@ -12,6 +12,8 @@ from app.serving.observe.logs import log_config, make_formatter
 from tests.app.serving.observe.server import CRASHING_SEED, Server, running
 from tests.conftest import eventually
 
+pytestmark = pytest.mark.slow
+
 SECRET = "tdm_not_for_logs"
 
 

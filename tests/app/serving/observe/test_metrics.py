@@ -17,6 +17,8 @@ from app.serving.observe.metrics import MULTIPROCESS_DIR, Metrics
 from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner, ready
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[4]
 Request = dict[str, Any]
 Samples = dict[tuple[str, frozenset[tuple[str, str]]], float]

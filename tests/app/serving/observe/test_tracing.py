@@ -15,6 +15,8 @@ from opentelemetry.proto.trace.v1.trace_pb2 import Span
 from app.serving.observe.tracing import Tracing
 from tests.app.serving.observe.server import running
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[4]
 SECOND = 10**9
 
