@@ -676,6 +676,10 @@ typedef struct tandem_goods_2d {
     tandem_goods* data;
     int64_t shape[2];
 } tandem_goods_2d;
+typedef struct tandem_stop_load_2d {
+    tandem_stop_load* data;
+    int64_t shape[2];
+} tandem_stop_load_2d;
 typedef struct tandem_stop_load_3d {
     tandem_stop_load* data;
     int64_t shape[3];
@@ -1068,6 +1072,10 @@ typedef struct tandem_linked {
     bool timed;                /* something limits when customers are served */
     tandem_i64_1d
         reach; /* (node,) how far it is to who is farther of both beside; see `layout.h` */
+    tandem_stop_load_2d
+        aboard; /* (tier, row) around customers, and where routes begin and end; see `layout.h` */
+    tandem_bool_1d stale; /* (slot,) what is aboard isn't written anew yet */
+    bool one_travel;      /* all vehicles drive by the same legs */
 } tandem_linked;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */

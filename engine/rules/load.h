@@ -208,10 +208,42 @@ inline void add_come(StopLoad& stop_load, const Amount& amount, Int sum_of_all) 
     stop_load.comes += sum_of_all;
 }
 
-// Writes what is aboard at the stops of a trip, by what leaves and comes aboard at each. False if
-// it is too much, or picked up too early.
-bool weigh_trip(const VehicleType& type, View<StopLoad, 1> stop_loads, Int first, Int last,
-                Int tier);
+// Writes what is aboard at the stops of a trip, `behind` not among them, by what leaves and comes
+// aboard at each; both are pointers, or go from stop to stop as those do. False if it is too much,
+// or picked up too early.
+template <class Stops>
+bool weigh_trip(const VehicleType& type, Stops first, Stops behind, Int tier) {
+    Amount load = nothing;
+    Int given = 0;
+    for (Stops at = first; at != behind; ++at) {
+        load = plus(load, amount_of(at->leaving));
+        given += at->leaves;
+    }
+    Amount most = load;
+    Int due = given, picked = 0;
+    bool in_order = true;
+    for (Stops at = first; at != behind; ++at) {
+        StopLoad& stop_load = *at;
+        write_amount(most, stop_load.before);
+        in_order = in_order && !out_of_order(type, picked, stop_load.leaves);
+        due -= stop_load.leaves;
+        stop_load.picked = picked;
+        stop_load.due = due;
+        stop_load.given = given;
+        picked += stop_load.comes;
+        load = plus(minus(load, amount_of(stop_load.leaving)), amount_of(stop_load.coming));
+        stop_load.load = load[0];
+        write_amount(load, stop_load.behind);
+        most = larger(most, load);
+    }
+    Amount later = load;
+    for (Stops at = behind; at != first;) {
+        StopLoad& stop_load = *--at;
+        later = larger(later, amount_of(stop_load.behind));
+        write_amount(later, stop_load.behind);
+    }
+    return in_order && holds_in(type, most, tier) && !comes_first(type, picked, given);
+}
 
 // Whether a customer may be served on a trip on top of all others. The parcel leaves the truck at
 // stop `left`, or just before it, and what is picked up comes aboard at stop `came`, or just behind

@@ -142,7 +142,7 @@ void rooms_between(const tandem_vehicle_type* type, const int64_t* amounts, int6
             add_left(stops(tier, p), delivered_of(asked, node, tier), total_delivered(asked, node));
             add_come(stops(tier, p), picked_of(asked, node, tier), total_picked(asked, node));
         }
-        allowed = weigh_trip(*type, stops[tier], 0, length + 1, tier) && allowed;
+        allowed = weigh_trip(*type, &stops(tier, 0), &stops(tier, 0) + length + 2, tier) && allowed;
     }
     found[0] = allowed;
     for (Int p = 0; p <= length; ++p) {

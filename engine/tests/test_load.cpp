@@ -28,8 +28,7 @@ std::vector<StopLoad> trip(const std::vector<std::pair<Int, Int>>& stops) {
 }
 
 bool weighed(const VehicleType& type, std::vector<StopLoad>& stop_loads) {
-    const Int count = static_cast<Int>(stop_loads.size());
-    return weigh_trip(type, {stop_loads.data(), {count}}, 0, count - 1, 0);
+    return weigh_trip(type, stop_loads.begin(), stop_loads.end(), 0);
 }
 
 TEST_CASE("amounts are compared in each dimension") {

@@ -100,11 +100,9 @@ def only_loads_limit(data: ProblemData) -> bool:
 def can_be_linked(data: ProblemData) -> bool:
     """Tell whether the search may go by linked stops.
 
-    Vehicles then make one trip each by the same legs, distance alone costs, and no rarer rule is
-    stated.
+    Vehicles then make one trip each, and distance alone costs.
     """
-    travel = data.type["travel"][:data.num_types]
-    return not (_states_rarer_rules(data) or data.general) and bool((travel == travel[0]).all())
+    return not data.general
 
 
 def are_timed(data: ProblemData) -> bool:
@@ -120,18 +118,6 @@ def may_be_turned(data: ProblemData) -> bool:
             and data.num_types == 1 and len(data.amount[0]) == 0
             and kind.begins_at == kind.ends_at and kind.shift_latest >= UNLIMITED
             and are_the_same_back(data.leg, data.back))
-
-
-def _states_rarer_rules(data: ProblemData) -> bool:
-    """Tell whether a rule is stated that linked stops don't know."""
-    types, rate, number = data.type, data.rate, data.num_nodes - data.num_depots
-    tables = (data.place[0, :, 1:], data.amount[:, :, 0], data.goods, data.setup,
-              data.max_time_aboard)
-    rarer = (types["variant"] > 0) | (types["changes_ends"] > 0) | (types["points"] > 0)
-    rarer |= (types["max_stops"] < number) | (types["max_sorties"] < number)
-    rarer |= (types["relaunch_duration"] != types["launch_duration"]) | (types["drone_row"] >= 0)
-    rarer |= (rate["overtime"] > 0) | (rate["load"] > 0)
-    return bool(any(table.size for table in tables) or data.unassigned_costs_differ or rarer.any())
 
 
 def _must_serve(problem: Problem, instance: Instance) -> BoolArray:

@@ -5,6 +5,7 @@
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
+#include "search/linked/aboard.h"
 #include "search/linked/retype.h"
 #include "search/route/state.h"
 
@@ -45,6 +46,11 @@ void take_load(const ProblemData& data, Run& run, Int node) {
     write_amount(minus(amount_of(run.load), demand_of(data.place[0][node])), run.load);
 }
 
+// Lets what is aboard along a route be written anew before somebody asks.
+void note_stale(Linked& linked, Int slot) {
+    if (looks_aboard(linked)) linked.stale[slot] = true;
+}
+
 // Notes when a customer is left, and has to be reached, before that changes.
 void note_times(Linked& linked, Int node) {
     Noted& noted = *linked.noted;
@@ -64,6 +70,7 @@ void untie(const ProblemData& data, Searcher& searcher, Linked& linked) {
     Run& run = linked.run[slot];
     join(data, linked, run, here.before, here.behind, entry.onward);
     if (here.behind >= data.num_depots) linked.link[here.behind].gap = entry.gap;
+    note_stale(linked, slot);
     take_load(data, run, entry.node);
     here.slot = nowhere;
     linked.reach[entry.node] = out_of_reach;
@@ -78,6 +85,7 @@ void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
     const Piece& piece = linked.piece[--noted.pieces];
     Run& run = linked.run[piece.slot];
     if (run.count == 0) open_run(data, searcher, linked, piece.slot, piece.type);
+    note_stale(linked, piece.slot);
     const Int begin = noted.removed - piece.count;
     for (Int index = begin; index < noted.removed; ++index) {
         const Int node = linked.removed_node[index];
@@ -150,6 +158,7 @@ void tie_in(const ProblemData& data, Linked& linked, Int slot, Int before, Int n
         here.gap = leg_from(inward, before).duration;
         if (behind >= data.num_depots) linked.link[behind].gap = leg_to(onward, behind).duration;
     }
+    note_stale(linked, slot);
     ++run.count;
     run.distance += there + on - entry.onward;
     add_load(data, run, node);
@@ -157,6 +166,7 @@ void tie_in(const ProblemData& data, Linked& linked, Int slot, Int before, Int n
 
 Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int behind) {
     Run& run = linked.run[slot];
+    note_stale(linked, slot);
     Int distance = 0;
     if (before >= data.num_depots || behind >= data.num_depots) {
         const LegRow onward = legs_from(data.leg, data.type[run.type].travel, before);
@@ -174,6 +184,7 @@ Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int co
     Run& run = linked.run[slot];
     Piece& piece = linked.piece[noted.pieces++];
     piece = {slot, run.type, count, 0, 0};
+    note_stale(linked, slot);
     const Int before = linked.link[first].before;
     Int saved = linked.link[first].inward;
     Int node = first;

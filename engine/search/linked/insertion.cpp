@@ -12,6 +12,7 @@
 #include "search/insertion/evaluate.h"
 #include "search/insertion/passing.h"
 #include "search/insertion/places.h"
+#include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/linked/retype.h"
 #include "search/moves/recreate.h"
@@ -26,20 +27,28 @@ namespace {
 // From which distance on `Linked::near` doesn't tell.
 constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
 
-// A customer to be inserted, the legs there and from there, and whether a route may be given a
-// larger type for him.
-struct Newcomer {
-    Int node;
+// The legs of a travel to a customer, and from there.
+struct Ways {
     LegRow inward;
     LegRow onward;
-    bool enlarge;
-    bool same_back;  // legs are as far there as back
 };
 
-Newcomer newcomer_at(const ProblemData& data, Int m, Int node, bool enlarge) {
-    const LegRow inward = legs_to(data.back, m, node);
-    const LegRow onward = legs_from(data.leg, m, node);
-    return {node, inward, onward, enlarge, are_same(inward, onward)};
+Ways ways_beside(const ProblemData& data, Int m, Int node) {
+    return {legs_to(data.back, m, node), legs_from(data.leg, m, node)};
+}
+
+// A customer to be inserted, how all vehicles, or those of the first type, drive there and on, and
+// whether a route may be given a larger type for him.
+struct Newcomer {
+    Int node;
+    Ways ways;
+    bool enlarge;
+    bool same_back;  // `Linked::near` tells legs there and back
+};
+
+Newcomer newcomer_at(const ProblemData& data, const Linked& linked, Int node, bool enlarge) {
+    const Ways ways = ways_beside(data, data.type[0].travel, node);
+    return {node, ways, enlarge, linked.one_travel && are_same(ways.inward, ways.onward)};
 }
 
 // What routes may carry at most, by type, so that they may serve a customer more; less than nothing
@@ -86,11 +95,12 @@ private:
     std::array<Amount, most_known + 1> most_;
 };
 
-// Which route a customer joins, by which type, what driving costs that, and what all costs but for
-// the detour.
+// Which route a customer joins, by which type and which legs, what driving costs that, and what all
+// costs but for the detour.
 struct Joining {
     Int slot;
     Int type;
+    const Ways* ways;
     double rate;
     double cost;
 };
@@ -132,8 +142,8 @@ public:
             const std::size_t count = choose(first, behind, neighbours);
             for (std::size_t index = 0; index < count; ++index) {
                 const Link& at = linked_.link[neighbours[index].node];
-                prefetch(newcomer_.onward, at.behind);
-                prefetch(newcomer_.inward, at.before);
+                prefetch(newcomer_.ways.onward, at.behind);
+                prefetch(newcomer_.ways.inward, at.before);
             }
             for (std::size_t index = 0; index < count; ++index) try_neighbour(neighbours[index]);
             first = behind;
@@ -169,7 +179,7 @@ public:
             const Run& run = linked_.run[slot];
             for (Int before = run.first; before != run.last;) {
                 const Link& at = linked_.link[before];
-                try_between(joins, between(before, at.behind, at.onward));
+                try_between(joins, between(*joins.ways, before, at.behind, at.onward));
                 before = at.behind;
             }
         }
@@ -232,20 +242,19 @@ private:
         Int inward = nearest;
         Int onward = nearest;
         if (!newcomer_.same_back || nearest == farthest) {
-            inward = distance_from(newcomer_.inward, node);
-            onward = distance_to(newcomer_.onward, node);
+            inward = distance_from(joins.ways->inward, node);
+            onward = distance_to(joins.ways->onward, node);
         }
-        const Int on = distance_to(newcomer_.onward, at.behind);
+        const Int on = distance_to(joins.ways->onward, at.behind);
         try_between(joins, {node, at.behind, inward + on - at.onward});
-        const Int there = distance_from(newcomer_.inward, at.before);
+        const Int there = distance_from(joins.ways->inward, at.before);
         try_between(joins, {at.before, node, there + onward - at.inward});
     }
 
     // Two who are so far apart.
-    Gap between(Int before, Int behind, Int distance) const {
+    static Gap between(const Ways& ways, Int before, Int behind, Int distance) {
         return {before, behind,
-                distance_from(newcomer_.inward, before) + distance_to(newcomer_.onward, behind) -
-                    distance};
+                distance_from(ways.inward, before) + distance_to(ways.onward, behind) - distance};
     }
 
     // Writes a detour that, as all longer ones, costs no less than the best, whoever drives it.
@@ -258,35 +267,52 @@ private:
 
     // Whether somebody may serve a customer more on a route, and who that is: a larger type if that
     // may be.
-    bool may_join(Int slot, Joining& joins) const {
+    bool may_join(Int slot, Joining& joins) {
         const Run& run = linked_.run[slot];
-        if (room_.is_on(run)) {
+        if (room_.is_on(run) && has_stop_left(run) &&
+            (!looks_aboard(linked_) || may_hold(slot, run.type))) {
             const Rate& rate = data_.rate[run.type];
-            joins = {slot, run.type, rate.distance, rate.stop};
+            joins = {slot, run.type, ways_by(run.type), rate.distance, rate.stop};
             return true;
         }
         return newcomer_.enlarge && may_join_enlarged(slot, joins);
     }
 
-    [[gnu::noinline]] bool may_join_enlarged(Int slot, Joining& joins) const {
+    bool has_stop_left(const Run& run) const {
+        return allows_stops(data_.type[run.type], run.count + 1);
+    }
+
+    bool may_hold(Int slot, Int k) const {
+        return may_hold_more(data_, linked_, slot, data_.type[k], newcomer_.node);
+    }
+
+    // How vehicles of a type drive to the customer and on; until that is asked again.
+    const Ways* ways_by(Int k) {
+        if (linked_.one_travel) return &newcomer_.ways;
+        ways_ = ways_beside(data_, data_.type[k].travel, newcomer_.node);
+        return &ways_;
+    }
+
+    [[gnu::noinline]] bool may_join_enlarged(Int slot, Joining& joins) {
         const Run& run = linked_.run[slot];
         const Haul haul = haul_of(run);
-        const auto any = [](Int) { return true; };
-        const Int by = larger_type(data_, searcher_.now, run.type, haul, newcomer_.node, any);
+        const auto fits = [&](Int k) { return !looks_aboard(linked_) || may_hold(slot, k); };
+        const Int by = larger_type(data_, searcher_.now, run.type, haul, newcomer_.node, fits);
         if (by < 0) return false;
         const Rate& rate = data_.rate[by];
         const double more = route_cost(data_, by, haul) - route_cost(data_, run.type, haul);
-        joins = {slot, by, rate.distance, more + rate.stop};
+        joins = {slot, by, ways_by(by), rate.distance, more + rate.stop};
         return true;
     }
 
     // Whether a customer may come between two by what windows, and the shift, allow.
-    bool keeps_windows(const VehicleType& type, const Gap& gap) const {
+    bool keeps_windows(const Joining& joins, const Gap& gap) const {
+        const VehicleType& type = data_.type[joins.type];
         const Int arrival = leaves_at(data_, linked_, type, gap.before) +
-                            leg_from(newcomer_.inward, gap.before).duration;
+                            leg_from(joins.ways->inward, gap.before).duration;
         const Windows place = data_.place.by_truck(type)[newcomer_.node];
         if (place.too_late(arrival)) return false;
-        return place.end_of_service(arrival) + leg_to(newcomer_.onward, gap.behind).duration <=
+        return place.end_of_service(arrival) + leg_to(joins.ways->onward, gap.behind).duration <=
                due_at(data_, linked_, type, gap.behind);
     }
 
@@ -298,7 +324,12 @@ private:
 
     // Takes a place between two for the best if it may be there and isn't overlooked.
     void take(const Joining& joins, const Gap& gap, double cost) {
-        if (linked_.timed && !keeps_windows(data_.type[joins.type], gap)) return;
+        if (linked_.timed && !keeps_windows(joins, gap)) return;
+        if (looks_aboard(linked_) &&
+            !has_room_between(data_, linked_, joins.slot, data_.type[joins.type], gap.before,
+                              gap.behind, newcomer_.node)) {
+            return;
+        }
         if (uniform(searcher_.rng) < data_.strategy.blink) return;
         Move& move = searcher_.scratch->move;
         move.kind = at_stop;
@@ -315,8 +346,8 @@ private:
         const VehicleType& type = data_.type[run.type];
         const Link& first = linked_.link[run.first];
         const Link& last = linked_.link[run.last];
-        try_between(joins, between(type.begins_at, run.first, first.inward));
-        try_between(joins, between(run.last, type.ends_at, last.onward));
+        try_between(joins, between(*joins.ways, type.begins_at, run.first, first.inward));
+        try_between(joins, between(*joins.ways, run.last, type.ends_at, last.onward));
     }
 
     const ProblemData& data_;
@@ -326,6 +357,7 @@ private:
     const Room room_;
     double best_;
     Int longest_detour_ = far;
+    Ways ways_;  // of whom `ways_by` was asked last, where they differ
 };
 
 // Inserts a customer where `searcher.scratch->move` says. False if no slot is free.
@@ -367,7 +399,6 @@ double find_linked(const ProblemData& data, Searcher& searcher, const Linked& li
 Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
                           double spare) {
     const View<Int, 1> absent = searcher.absent;
-    const Int m = data.type[0].travel;  // that of all types, looked up once for each customer
     const bool opening = uniform(searcher.rng) < opening_share;
     const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
     double total = 0.0;
@@ -375,7 +406,7 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
         if (data.deadline.passed()) return {false, total};
-        const Newcomer newcomer = newcomer_at(data, m, node, enlarge);
+        const Newcomer newcomer = newcomer_at(data, linked, node, enlarge);
         const bool opens = opening && index == first;
         const double cost = find_linked(data, searcher, linked, newcomer, opens);
         const double left_out = data.unassigned_cost + data.unassigned_more[node];

@@ -39,13 +39,20 @@ struct Linked {
     // (node,) the longer of a customer's legs, `out_of_reach` of one on no route. That is all that
     // tells of most neighbours that a place beside them is too far, and many fit a cache.
     View<std::int64_t, 1> reach;
+    // (tier, row) what is aboard around customers, by node, and behind all nodes where the route of
+    // each slot begins and where it ends; no tiers where `Run.load` tells all. A route's rows are
+    // written as soon as somebody asks.
+    View<StopLoad, 2> aboard;
+    View<bool, 1> stale;  // (slot,) its rows aren't written since it changed
+    bool one_travel;      // all vehicles drive by the same legs
 };
 
 inline Linked linked_of(const tandem_linked& from) {
-    return {from.link,     from.run,    from.piece,      from.removed,   from.removed_node,
-            from.entry,    from.moment, from.retyped,    from.former,    from.noted,
-            from.hit,      from.near,   from.best_first, from.best_type, from.best_behind,
-            from.cheapest, from.timed,  from.reach};
+    return {from.link,      from.run,    from.piece,      from.removed,   from.removed_node,
+            from.entry,     from.moment, from.retyped,    from.former,    from.noted,
+            from.hit,       from.near,   from.best_first, from.best_type, from.best_behind,
+            from.cheapest,  from.timed,  from.reach,      from.aboard,    from.stale,
+            from.one_travel};
 }
 
 }  // namespace tandem

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "randomness.h"
+#include "search/linked/aboard.h"
 #include "search/route/state.h"
 
 namespace tandem {
@@ -31,8 +32,8 @@ double trade_run(const ProblemData& data, Searcher& searcher, Linked& linked, In
         if (!data.swap(k, by)) continue;
         const double spared = route_cost(data, k, haul) + route_cost(data, by, other_haul) -
                               route_cost(data, by, haul) - route_cost(data, k, other_haul);
-        if (spared > least_saved && holds(data.type[by], haul.load) &&
-            holds(data.type[k], other_haul.load)) {
+        if (spared > least_saved && can_take(data, linked, slot, data.type[by]) &&
+            can_take(data, linked, another, data.type[k])) {
             give_run(searcher, linked, slot, by);
             give_run(searcher, linked, another, k);
             saved += spared;
@@ -62,7 +63,7 @@ double cheapen_run(const ProblemData& data, Searcher& searcher, Linked& linked, 
     for (Int k = 0; k < data.num_types; ++k) {
         if (!data.swap(run.type, k) || !is_left(data, searcher.now, k)) continue;
         const double spared = route_cost(data, run.type, haul) - route_cost(data, k, haul);
-        if (spared > least_saved && holds(data.type[k], haul.load)) {
+        if (spared > least_saved && can_take(data, linked, slot, data.type[k])) {
             give_run(searcher, linked, slot, k);
             saved += spared;
         }

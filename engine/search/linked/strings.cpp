@@ -4,6 +4,7 @@
 
 #include "randomness.h"
 #include "rules/window.h"
+#include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/moves/ruin.h"
 #include "search/route/refresh.h"
@@ -66,7 +67,8 @@ bool is_in_time(const ProblemData& data, const Linked& linked, Int node) {
 
 // Takes out a string around a customer, or all but some within; returns the saving.
 //
-// Takes nobody out if a vehicle then came too late, as where the direct leg is the longer one.
+// Takes nobody out if a vehicle then came too late, as where the direct leg is the longer one, or
+// picked up what it must not before it has delivered something.
 double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, Int customer,
                   double longest) {
     const View<Link, 1> link = linked.link;
@@ -86,13 +88,16 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
         for (Int number = 1; number < spared; ++number) last_left = link[last_left].behind;
         saved += cut_out(data, linked, slot, link[last_left].behind, size - gap);
     }
+    bool allowed = run.count == 0 || !looks_aboard(linked) || weigh_run(data, linked, slot);
     if (linked.timed && run.count > 0) {
         drive_on(data, linked, slot, first_left, spared + 1);
         look_back(data, linked, slot, last_left, spared + 1);
-        if (!is_in_time(data, linked, first_left < data.num_depots ? last_left : first_left)) {
-            restore(data, searcher, linked, slot, noted);
-            return 0.0;
-        }
+        const Int left = first_left < data.num_depots ? last_left : first_left;
+        allowed = allowed && is_in_time(data, linked, left);
+    }
+    if (!allowed) {
+        restore(data, searcher, linked, slot, noted);
+        return 0.0;
     }
     double cost = double(saved) * rate.distance + double(size) * rate.stop;
     if (run.count == 0) {

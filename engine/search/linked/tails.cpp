@@ -5,6 +5,7 @@
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
+#include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/refresh.h"
@@ -118,6 +119,16 @@ double cost_of_swap(const ProblemData& data, const Linked& linked, const Cutting
     return cost;
 }
 
+// Whether vehicles of types `k` and `by` may carry what they do once the tails behind `node` and
+// before `other` are swapped, by what is aboard alone.
+bool may_carry_swapped(const ProblemData& data, const Linked& linked, Int k, Int node, Int by,
+                       Int other) {
+    const bool is_new = other < data.num_depots;
+    const Int before = is_new ? data.type[by].begins_at : linked.link[other].before;
+    return may_carry_both(data, linked, data.type[k], node, other) &&
+           may_carry_both(data, linked, data.type[by], before, linked.link[node].behind);
+}
+
 // The slot whose tail is best swapped, `nowhere` if none is, who leads that, and what it costs.
 struct Tail {
     Int slot;
@@ -150,6 +161,8 @@ Tail find_tail_linked(const ProblemData& data, const Searcher& searcher, const L
         if (by != k && !(may_serve(data, linked, k, other) && may_serve(data, linked, by, after))) {
             continue;
         }
+        // Where it matters who comes when, few tails fit: look for one that does.
+        if (looks_aboard(linked) && !may_carry_swapped(data, linked, k, node, by, other)) continue;
         if (by != k || !linked.timed ||
             come_in_time(data, linked, k, node, link[other].before, other)) {
             best = {b, other, cost};
@@ -244,7 +257,12 @@ bool swap_tails_linked(const ProblemData& data, Searcher& searcher, Linked& link
     const Stretch tail = tail_behind(data, linked, one, head, after);
     const Stretch tail_by = tail_behind(data, linked, two, head_by, other);
     if (!holds(data.type[k], plus(head.load, tail_by.load)) ||
-        !holds(data.type[by], plus(head_by.load, tail.load))) {
+        !holds(data.type[by], plus(head_by.load, tail.load)) ||
+        !allows_stops(data.type[k], head.customers + tail_by.customers) ||
+        !allows_stops(data.type[by], head_by.customers + tail.customers)) {
+        return false;
+    }
+    if (is_new && looks_aboard(linked) && !may_carry_swapped(data, linked, k, node, by, other)) {
         return false;
     }
     // Vehicles of other types may have to be home at other times, and elsewhere.

@@ -6,6 +6,7 @@
 #include "guard.h"
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
@@ -15,7 +16,20 @@ namespace tandem {
 
 namespace {
 
-constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
+constexpr std::int32_t farthest = std::numeric_limits<std::int32_t>::max();
+
+// Writes how near a customer's neighbours are by vehicles of a type, if that is nearer than known.
+void measure_near_by(const ProblemData& data, Linked& linked, Int k, Int node) {
+    const LegRow inward = legs_to(data.back, data.type[k].travel, node);
+    const LegRow onward = legs_from(data.leg, data.type[k].travel, node);
+    for (Int rank = 0; rank < data.fit.shape(1); ++rank) {
+        const Int other = data.fit(node, rank);
+        if (other < 0) continue;
+        std::int32_t& near = linked.near(node, rank);
+        const Int distance = std::min(nearness(inward, onward, other), Int{near});
+        near = static_cast<std::int32_t>(distance);
+    }
+}
 
 // Links the stops of a route.
 void link_route(const ProblemData& data, Linked& linked, const Fleet& fleet, Int slot) {
@@ -106,16 +120,11 @@ void clear_route(Fleet& fleet, Int slot, Int stamp) {
 }  // namespace
 
 void measure_near(const ProblemData& data, Linked& linked) {
-    const Int m = data.type[0].travel;
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         data.deadline.go_on_late();
-        const LegRow inward = legs_to(data.back, m, node);
-        const LegRow onward = legs_from(data.leg, m, node);
-        for (Int rank = 0; rank < data.fit.shape(1); ++rank) {
-            const Int other = data.fit(node, rank);
-            if (other < 0) continue;
-            const Int distance = std::min(nearness(inward, onward, other), farthest);
-            linked.near(node, rank) = static_cast<std::int32_t>(distance);
+        for (Int rank = 0; rank < data.fit.shape(1); ++rank) linked.near(node, rank) = farthest;
+        for (Int k = 0; k < data.num_types; ++k) {
+            if (k == 0 || !linked.one_travel) measure_near_by(data, linked, k, node);
         }
     }
 }
@@ -131,6 +140,7 @@ void tie(const ProblemData& data, Searcher& searcher, Linked& linked) {
         linked.best_first[slot] = nowhere;
         if (searcher.best.route[slot].length > 0) link_best(linked, searcher.best, slot);
     }
+    note_amounts(data, linked);
     forget(linked);
     searcher.count->changed = all_slots;
 }

@@ -93,7 +93,7 @@ bool weigh(const ProblemData& data, const Fleet& fleet, Int slot) {
             stop_loads[p].driven = driven;
             driven += stops[p].leg;
             if (p + 1 == route.length || stops[p + 1].kind == start_stop) {
-                allowed = weigh_trip(type, stop_loads, first, p, tier) && allowed;
+                allowed = weigh_trip(type, &stop_loads[first], &stop_loads[p] + 1, tier) && allowed;
             }
         }
     }

@@ -13,7 +13,7 @@ import numpy as np
 
 from model.engine.library import dtype_of
 from model.kernel.records import Record, Records, one
-from model.problem import Int32Array, IntArray
+from model.problem import BoolArray, Int32Array, IntArray
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 
@@ -49,6 +49,9 @@ class Linked(NamedTuple):
     cheapest: Record  # costs, of all types
     timed: bool  # something limits when customers are served
     reach: IntArray  # (node,) mm of the longer of a customer's legs; `layout.h` says more
+    aboard: Records  # (tier, row) around customers, and where routes begin and end; likewise
+    stale: BoolArray  # (slot,) what is aboard isn't written anew yet
+    one_travel: bool  # all vehicles drive by the same legs
 
 
 def make_linked(data: ProblemData, searcher: Searcher, timed: bool) -> Linked:
@@ -72,7 +75,10 @@ def make_linked(data: ProblemData, searcher: Searcher, timed: bool) -> Linked:
         hit=np.zeros(slots, np.int64), near=np.zeros(data.fit.shape, np.int32),
         best_first=np.full(slots, NOWHERE), best_type=np.zeros(slots, np.int64),
         best_behind=np.zeros(nodes, np.int64), cheapest=cheapest, timed=timed,
-        reach=np.zeros(nodes, np.int64))
+        reach=np.zeros(nodes, np.int64),
+        aboard=np.zeros((data.amount.shape[1], nodes + 2 * slots), dtype_of("tandem_stop_load")),
+        stale=np.ones(slots, np.bool_),
+        one_travel=bool((data.type["travel"][:data.num_types] == data.type["travel"][0]).all()))
 
 
 def _in_lines(size: int, kind: np.dtype[np.record]) -> Records:

@@ -109,6 +109,70 @@ def on_the_globe(size: int) -> Problem:
     return replace(problem, travel=(Travel.along(legs),))
 
 
+def both_ways(problem: Problem, each: int) -> Problem:
+    """Return a problem where every other customer has something picked up as well, and one in
+    `each` nothing delivered.
+    """
+    return replace(problem, customers=tuple(
+        replace(customer, pickup=customer.demand if number % 2 or not number % each else (0,),
+                demand=customer.demand if number % each else (0,))
+        for number, customer in enumerate(problem.customers)))
+
+
+def with_loads_both_ways(size: int) -> Problem:
+    """Return one with several types and loads both ways."""
+    return both_ways(with_several_types(size), 3)
+
+
+def with_pickups(size: int) -> Problem:
+    """Return one with loads both ways and vehicles of one type."""
+    return both_ways(with_windows(size), 3)
+
+
+def with_pickups_last(size: int) -> Problem:
+    """Return one where each trip delivers something first, then picks up."""
+    problem = with_pickups(size)
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, pickups="last") for kind in problem.vehicle_types))
+
+
+def with_many_dimensions(size: int) -> Problem:
+    """Return one with windows where what is scarce is the last of five dimensions."""
+    problem = with_windows(size)
+    return replace(
+        problem, amount_decimals=problem.amount_decimals * 5,
+        customers=tuple(replace(each, demand=(1, 0, 0, 0, *each.demand))
+                                 for each in problem.customers),
+        vehicle_types=tuple(replace(kind, capacity=(size, 0, 0, 0, *kind.capacity))
+                            for kind in problem.vehicle_types))
+
+
+def with_few_stops(size: int) -> Problem:
+    """Return one with several types whose trips have few stops, the more the larger they are."""
+    problem = with_several_types(size)
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, max_stops=3 + number) for number, kind in enumerate(problem.vehicle_types)))
+
+
+def with_other_legs(size: int) -> Problem:
+    """Return one with several types, half of which drive a third farther, now and then less far."""
+    problem = with_several_types(size)
+    drawn = np.random.default_rng(5).random((problem.num_nodes, problem.num_nodes))
+    farther = np.where(drawn < 0.2, 3, 6)
+    travel, *_ = (each.arrays() for each in problem.travel)
+    other = Travel(*(legs * farther // 4 for legs in travel))
+    return replace(problem, travel=(Travel(*travel), other), vehicle_types=tuple(
+        replace(kind, travel=number % 2) for number, kind in enumerate(problem.vehicle_types)))
+
+
+def with_some_dearer(size: int) -> Problem:
+    """Return one where somebody has to be left out, which costs more of some than of others."""
+    problem = with_few_vehicles(size)
+    return replace(problem, customers=tuple(
+        replace(each, unassigned_cost=problem.unassigned_cost * (1 + number % 5))
+        for number, each in enumerate(problem.customers)))
+
+
 def begun(problem: Problem) -> tuple[ProblemData, Searcher, Linked]:
     """Return a search that has planned a problem by insertion, its stops linked."""
     data = make_data(problem, pack([problem], legs=False))
@@ -157,7 +221,9 @@ def routes_of(data: ProblemData, searcher: Searcher, linked: Linked) -> list[lis
 
 @pytest.mark.parametrize("make", [
     loads_alone, with_windows, with_few_vehicles, with_two_depots, with_other_shifts,
-    with_several_types, with_one_way_streets, with_legs_stated_anyhow, on_the_globe])
+    with_several_types, with_one_way_streets, with_legs_stated_anyhow, on_the_globe,
+    with_loads_both_ways, with_pickups_last, with_many_dimensions, with_few_stops, with_other_legs,
+    with_some_dearer])
 @pytest.mark.parametrize("size", [40, 420])
 def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-untyped-def]
     problem = make(size)
@@ -186,7 +252,8 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
 
 
 @pytest.mark.parametrize("make", [
-    loads_alone, with_windows, with_several_types, with_one_way_streets, with_legs_stated_anyhow])
+    loads_alone, with_windows, with_several_types, with_one_way_streets, with_legs_stated_anyhow,
+    with_pickups])
 @pytest.mark.parametrize("moments", [None, 3])
 def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore[no-untyped-def]
     data, searcher, linked = begun(make(120))
