@@ -5,10 +5,12 @@ import os
 import socket
 import threading
 import time
+from collections import defaultdict
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from copy import deepcopy
+from heapq import nlargest
 from inspect import signature
 from pathlib import Path
 from typing import Any, TypeVar
@@ -52,6 +54,22 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
         if "[postgresql" in item.name:
             item.add_marker(pytest.mark.slow)
     items.sort(key=lambda item: item.get_closest_marker("slow") is None)
+
+
+SLOWEST = 10
+"""Files of tests that are told of at the end, with how long they took."""
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Tell which files took longest, fixtures included, on whichever core they ran."""
+    took: defaultdict[str, float] = defaultdict(float)
+    for reports in terminalreporter.stats.values():
+        for report in reports:
+            if isinstance(report, pytest.TestReport):
+                took[report.nodeid.partition("::")[0]] += report.duration
+    terminalreporter.section(f"slowest {SLOWEST} files")
+    for path in nlargest(SLOWEST, took, key=took.__getitem__):
+        terminalreporter.write_line(f"{took[path]:7.1f} s  {path}")
 
 
 TRIES = 5
