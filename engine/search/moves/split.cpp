@@ -47,12 +47,11 @@ struct WayByAir {
     Int distance;
 };
 
-WayByAir way_by_air(const ProblemData& data, const VehicleType& type, Int from, Int customer,
-                    Int to) {
+WayByAir way_by_air(const ProblemData& data, const VehicleType& type, Windows place, Int from,
+                    Int customer, Int to) {
     const Leg out = leg(legs_of(data.leg, type.drone_travel), from, customer);
     const Leg home = leg(legs_of(data.leg, type.home_travel), customer, to);
-    return {{type, data.place.by_air(type)[customer], out.duration, home.duration},
-            out.distance + home.distance};
+    return {{type, place, out.duration, home.duration}, out.distance + home.distance};
 }
 
 // Operations from place `i` of a line on which the drone of a vehicle serves one of the customers
@@ -63,6 +62,7 @@ public:
         : data_(data),
           type_(data.type[k]),
           rate_(data.rate[k]),
+          places_(data.place.by_air(type_)),
           line_(line),
           i_(i),
           handled_(handling_duration(type_)) {
@@ -78,8 +78,8 @@ public:
         const Int drive = driven(j, spared.spared_drive);
         const double alone = ground(j, spared.spared_distance);
         if (usual_work_cost(rate_, handled_ + drive) + alone >= most) return infinite;
-        const auto [flight, distance] =
-            way_by_air(data_, type_, line_[i_].node, spared.node, line_[j].node);
+        const auto [flight, distance] = way_by_air(data_, type_, places_[spared.node],
+                                                   line_[i_].node, spared.node, line_[j].node);
         const Int back = flight.duration();
         const Int airborne = std::max(back, drive);
         if (!within_endurance(type_, 0, back, airborne) || !flight.can_wait(airborne - back)) {
@@ -102,6 +102,7 @@ private:
     const ProblemData& data_;
     const VehicleType& type_;
     Rate rate_;
+    NodeTable places_;
     View<const Line, 1> line_;
     Int i_;
     Int handled_;
@@ -112,7 +113,8 @@ private:
 double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
     const VehicleType& type = data.type[k];
     const Rate& rate = data.rate[k];
-    const auto [flight, distance] = way_by_air(data, type, node, customer, node);
+    const auto [flight, distance] =
+        way_by_air(data, type, data.place.by_air(type)[customer], node, customer, node);
     if (!data.strategy.loops || !flight.can_serve()) return infinite;
     const Int duration = flight.duration();
     return usual_work_cost(rate, duration + handling_duration(type)) +
