@@ -1,6 +1,7 @@
 """What pages and comments name is there."""
 
 import re
+import statistics
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -81,3 +82,65 @@ def test_files_that_pages_and_comments_name_are_there() -> None:
 ])
 def test_paths_that_lead_nowhere_are_found(text: str, paths: list[str]) -> None:
     assert missing(text) == paths
+
+
+MOST_WORDS = 30_000
+MOST_WORDS_OF_A_PAGE = 2_500
+MOST_WORDS_ON_BENCHMARKS = 1_500
+MEDIAN_SENTENCE = 20
+SENTENCE_END = re.compile(r"(?<=[.?!:]) (?=[A-Z`\[*(])")
+"""Within a line of prose. A colon may end a sentence that goes on in a list or a table."""
+
+
+def pages_to_read() -> dict[str, str]:
+    """Return the guide's pages by name, but the log and what the service prints itself."""
+    docs = ROOT / "docs"
+    pages = {path.relative_to(docs).as_posix(): path.read_text("utf-8")
+             for path in docs.rglob("*.md")}
+    return {name: text for name, text in pages.items()
+            if not name.startswith("develop/log/") and name != "operate/settings.md"}
+
+
+def words(text: str) -> list[str]:
+    """Return what has a letter, of tables and code as well."""
+    return [word for word in text.split() if re.search(r"[^\W\d_]", word)]
+
+
+def paragraphs(page: str) -> list[str]:
+    """Return the paragraphs and items of lists, each with its lines."""
+    prose = re.sub(r"^```.*?^```$", "", page, flags=re.MULTILINE | re.DOTALL)
+    parts = re.split(r"\n\s*\n|\n(?=\s*(?:[-*]|\d+\.) )", prose)
+    return [part.strip() for part in parts if part.strip() and part.strip()[0] not in "|#<!"]
+
+
+def sentences(page: str) -> list[str]:
+    """Return the sentences of a page's paragraphs, without the marks of lists."""
+    marked = (re.sub(r"^(?:[-*]|\d+\.) ", "", part) for part in paragraphs(page))
+    return [sentence for part in marked
+            for sentence in SENTENCE_END.split(" ".join(part.split()))]
+
+
+def test_pages_are_short() -> None:
+    lengths = {name: len(words(text)) for name, text in pages_to_read().items()}
+    assert sum(lengths.values()) <= MOST_WORDS
+    assert {name for name, length in lengths.items() if length > MOST_WORDS_OF_A_PAGE} == set()
+    assert lengths["develop/benchmarks.md"] <= MOST_WORDS_ON_BENCHMARKS
+
+
+def test_sentences_are_short() -> None:
+    medians = {name: statistics.median(len(sentence.split()) for sentence in sentences(text))
+               for name, text in pages_to_read().items()}
+    assert {name: median for name, median in medians.items() if median >= MEDIAN_SENTENCE} == {}
+
+
+def test_a_line_of_prose_holds_one_sentence() -> None:
+    lines = {name: [line for part in paragraphs(text) for line in part.splitlines()
+                    if re.search(r"[^\d][.?!] (?=[A-Z`])", line)]
+             for name, text in pages_to_read().items()}
+    assert {name: found for name, found in lines.items() if found} == {}
+
+
+def test_sentences_of_paragraphs_and_lists_are_found() -> None:
+    page = ("# T\n\nOne here. Two\ngoes on.\n\n- Three.\n  Four.\n- Five\n\n"
+            "```\nA. B.\n```\n| A. B |\n")
+    assert sentences(page) == ["One here.", "Two goes on.", "Three.", "Four.", "Five"]

@@ -24,25 +24,27 @@ OVERRUN = 1.2
 TITLE = "# Benchmarks\n\nTandem beside other solvers on public instances."
 
 NOTES = """\
-Mean gap to the best known cost in %, ± the standard deviation of the means of each seed, the best
-in bold. In brackets, how many of the plans were infeasible, left customers out or never came: they
-are out of the mean; and how long the call took on average where it was well over the budget.
-Blank: the solver can't plan such instances or keep to such a budget. The last column divides
-Tandem's gap on one thread by that of the best other solver.
+Mean gap to the best known cost in %, ± the standard deviation of the seeds' means, the best bold.
+In brackets: how many plans were infeasible, left customers out or never came, which are out of the
+mean; and how long the call took on average where it was well over the budget.
+Blank: the solver can't plan such instances or keep to such a budget.
+The last column divides Tandem's gap on one thread by that of the best other solver.
 
-Budgets are the wall-clock of the solver's call, code loaded before. All plans were
-timed and judged by Tandem's checker; conventions and best known costs are those of the sets.
-VROOM is the better of exploration levels 0 and 5, OR-Tools (guided local search) the better of two
-first plans, each given the whole budget. HGS counts processor time."""
+Budgets are the wall-clock of the solver's call, code loaded before.
+All plans were timed and judged by Tandem's checker.
+Conventions and best known costs are those of the sets.
+VROOM is the better of exploration levels 0 and 5.
+OR-Tools (guided local search) is the better of two first plans, each given the whole budget.
+HGS counts processor time."""
 
 RULE_NOTES = """\
-Mean gap to the best known cost in %, ± the standard deviation of the means of each seed, the best
-in bold; in brackets, as above, plans that don't count and calls well over the budget. A blank
-means that the solver can't plan such instances. Costs are the sets' own, counted once by the
-judge and once from the instance's numbers; the best known plans, judged, cost exactly what is
-stated. Of `vrpmtw` none are known: the gap is to plans that PyVRP found in 80 s, and may be
-negative. PyVRP takes several windows as clients of whom one is served, tables of who may serve
-whom and backhauls as legs far too long, open ends as a depot that all legs to have no length."""
+Mean gap to the best known cost in %, as above.
+Costs are the sets' own, counted once by the judge and once from the instance's numbers.
+The best known plans, judged, cost exactly what is stated.
+Of `vrpmtw` none are known: the gap is to plans that PyVRP found in 80 s, and may be negative.
+PyVRP takes several windows as clients of whom one is served.
+It takes tables of who may serve whom, and backhauls, as legs far too long.
+It takes open ends as a depot that all legs to have no length."""
 
 PARTS = {"versus": NOTES, "rule-sets": RULE_NOTES}
 """Parts of the page, by the names in their markers, and what is said below their tables."""
@@ -126,7 +128,7 @@ def _circumstances(results: Sequence[Result]) -> str:
             versions.append(f"{name} {', '.join(found)} ({threads})")
     machines = "; ".join(sorted({row.machine for row in results}))
     seeds = ", ".join(str(seed) for seed in sorted({row.seed for row in results}))
-    return (f"Measured {when}, {machines}, with the seeds {seeds} where a solver has any. "
+    return (f"Measured {when}, {machines}, with the seeds {seeds} where a solver has any.\n"
             f"Versions: {'; '.join(versions)}.")
 
 

@@ -1,7 +1,7 @@
 """The study's report: text around tables and pictures, `docs/develop/study.md`."""
 
 import json
-import textwrap
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -19,8 +19,8 @@ from benchmarks.study.tasks import Planned, TripRow
 PLAN = "table1_plan.json"
 """File of the best plan of Table 1 that can be made again."""
 
-WIDTH = 100
-"""Characters of a line of text."""
+SENTENCE_END = re.compile(r"(?<=[.?]) (?=[A-Z`])")
+"""Where a line of text ends."""
 
 CHOICES = (
     ("all", "places of other cases", "whole, each once, within Table 1's x and y"),
@@ -76,16 +76,17 @@ def write_report(study: Study, page: Path) -> None:
     append_rows(recomputed, GroupRow, map(measured, groups()))
     parts = [HEAD, _made(study), _inputs(), _table1(), _routes(study, plan), _fleets(study),
              _hours(study), _drones(study), _policies(study), _files()]
-    text = "\n".join(map(_wrapped, "\n\n".join(parts).splitlines()))
+    text = "\n\n".join(map(_by_sentence, "\n\n".join(parts).split("\n\n")))
     page.write_text(text.replace("](study/", f"]({folder.name}/") + "\n", encoding="utf-8")
 
 
-def _wrapped(line: str) -> str:
-    """Return a line of text as lines of 100 characters; tables and pictures stay as they are."""
-    if len(line) <= WIDTH or line[0] in "|!#":
-        return line
-    return textwrap.fill(line, WIDTH, break_long_words=False, break_on_hyphens=False,
-                         subsequent_indent="  " if line.startswith("- ") else "")
+def _by_sentence(part: str) -> str:
+    """Return a paragraph or list with a line a sentence; tables and pictures stay as they are."""
+    if part[0] in "|!#":
+        return part
+    if part.startswith("- "):
+        return SENTENCE_END.sub("\n  ", part)
+    return SENTENCE_END.sub("\n", part.replace("\n", " "))
 
 
 def _draw(study: Study, plan: Mapping[str, Any], folder: Path) -> None:
