@@ -4,18 +4,16 @@ import logging
 import threading
 from pathlib import Path
 
-from alembic import command
-from alembic.config import Config
-from alembic.migration import MigrationContext
-from alembic.script import ScriptDirectory
-from sqlalchemy import Connection, Engine, Inspector, Table, inspect
+from sqlalchemy import Connection, Engine, Inspector, Table, inspect, select
 from sqlalchemy.exc import DBAPIError
 
 from app.database.connections import Purpose, alone, is_outage
-from app.database.migrations.version import VERSION_TABLE
+from app.database.migrations.version import STATED, Direction
 from app.database.tables import TABLES
 
 logger = logging.getLogger(__name__)
+
+VERSIONS = Path(__file__).parent / "versions"
 
 _ONE_AT_A_TIME = threading.Lock()
 """Alembic hands connections to migrations in variables of its modules."""
@@ -39,7 +37,10 @@ def upgrade(engine: Engine) -> None:
     """
     with _ONE_AT_A_TIME, alone(engine, Purpose.CHANGING_TABLES) as connection:
         before = _checked_version(connection)
-        _run(connection, "upgrade", newest())
+        if _is_empty(connection):
+            _make_tables(connection)
+        elif before != newest():
+            _run(connection, "upgrade", newest())
         misfit = _misfit(connection)
         if misfit is not None:
             raise SchemaError(misfit)
@@ -89,24 +90,15 @@ def newest() -> str:
 
 def _versions() -> list[str]:
     """Return all versions that this code knows, which are numbered, in order."""
-    scripts = ScriptDirectory.from_config(_config())
-    return sorted(script.revision for script in scripts.walk_revisions())
+    return sorted(path.name[1:5] for path in VERSIONS.glob("v*.py"))
 
 
-def _config() -> Config:
-    # Alembic tells each step at the level of information.
-    logging.getLogger("alembic").setLevel(logging.WARNING)
-    config = Config()
-    config.set_main_option("script_location", str(Path(__file__).parent).replace("%", "%%"))
-    config.set_main_option("path_separator", "os")
-    return config
+def _run(connection: Connection, direction: Direction, version: str) -> None:
+    # Not before it is needed: mostly the tables are as they should be, and Alembic takes 10 MB.
+    from app.database.migrations.steps import run
 
-
-def _run(connection: Connection, direction: str, version: str) -> None:
-    config = _config()
-    config.attributes["connection"] = connection
     try:
-        getattr(command, direction)(config, version)
+        run(connection, direction, version)
     except DBAPIError as error:
         if is_outage(error):
             raise
@@ -114,9 +106,21 @@ def _run(connection: Connection, direction: str, version: str) -> None:
                           f"{error.orig}.") from error
 
 
+def _make_tables(connection: Connection) -> None:
+    """Make those of this version in a database that has none of them. In place."""
+    TABLES.create_all(connection)
+    STATED.create(connection)
+    connection.execute(STATED.insert().values(version_num=newest()))
+
+
+def _is_empty(connection: Connection) -> bool:
+    return not {STATED.name, *TABLES.tables} & {*inspect(connection).get_table_names()}
+
+
 def _version(connection: Connection) -> str | None:
-    context = MigrationContext.configure(connection, opts={"version_table": VERSION_TABLE})
-    return context.get_current_revision()
+    if not inspect(connection).has_table(STATED.name):
+        return None
+    return connection.execute(select(STATED.c.version_num)).scalar()
 
 
 def _checked_version(connection: Connection) -> str | None:

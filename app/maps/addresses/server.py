@@ -4,8 +4,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
 
-import httpx
-
 from app.maps.remote.servers import require_address, require_positive
 
 ServerKind = Literal["nominatim", "photon", "pelias"]
@@ -67,6 +65,8 @@ class GeocodingServer:
     @property
     def host(self) -> str:
         """Who answers."""
+        import httpx  # not before it is needed, as `require_address` has it
+
         return httpx.URL(self.url).host
 
     @property

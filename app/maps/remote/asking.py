@@ -10,9 +10,8 @@ from concurrent.futures import FIRST_COMPLETED, Future, wait
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from email.utils import parsedate_to_datetime
-from typing import Generic, Protocol, TypeVar
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar
 
-import httpx
 from circuitbreaker import CircuitBreaker
 from tenacity import (
     AsyncRetrying, RetryCallState, retry_if_exception_type, stop_after_attempt, stop_any,
@@ -20,6 +19,9 @@ from tenacity import (
 )
 
 from app.maps.remote.errors import SourceError, SourceKind, SourceUnavailableError
+
+if TYPE_CHECKING:
+    import httpx
 
 logger = logging.getLogger(__name__)
 
@@ -130,7 +132,7 @@ class Question(Generic[Answer]):
 class _Round:
     """Questions asked together, some at a time; once one has failed no other is sent."""
 
-    def __init__(self, at_once: int, client: httpx.AsyncClient) -> None:
+    def __init__(self, at_once: int, client: "httpx.AsyncClient") -> None:
         self.gate = asyncio.Semaphore(at_once)
         self.client = client  # by which all are sent, even if it is being closed meanwhile
         self.has_failed = False
@@ -232,6 +234,8 @@ class Asking:
         The loop that sends has a thread of its own: no look-up of a name, however long it takes,
         keeps a caller beyond its time. Whoever closes comes before all of them or ends all.
         """
+        import httpx  # not before it is needed, as `require_address` has it
+
         with self._lock:
             if self._loop is None or self._client is None:
                 self._loop = asyncio.new_event_loop()
@@ -278,7 +282,9 @@ class Asking:
         stated = failure.pause if isinstance(failure, _TransientError) else 0.0
         return max(stated, self._backoff(state))
 
-    async def _attempted(self, question: Question[Answer], client: httpx.AsyncClient) -> bytes:
+    async def _attempted(self, question: Question[Answer], client: "httpx.AsyncClient") -> bytes:
+        import httpx
+
         if self._turn is not None:
             await asyncio.sleep(await asyncio.to_thread(self._turn))
         try:
@@ -289,7 +295,7 @@ class Asking:
         except httpx.RequestError as error:
             raise _TransientError(type(error).__name__) from error
 
-    async def _got(self, question: Question[Answer], client: httpx.AsyncClient) -> bytes:
+    async def _got(self, question: Question[Answer], client: "httpx.AsyncClient") -> bytes:
         method = "GET" if question.body is None else "POST"
         headers = {} if question.body is None else {"Content-Type": "application/json"}
         async with client.stream(method, question.path, content=question.body,
@@ -337,7 +343,7 @@ def _answer(question: Question[Answer], outcome: bytes | SourceError) -> Answer:
     raise outcome
 
 
-async def _ended(client: httpx.AsyncClient) -> None:
+async def _ended(client: "httpx.AsyncClient") -> None:
     """End what is being asked, and close connections."""
     others = asyncio.all_tasks() - {asyncio.current_task()}
     for task in others:
@@ -360,7 +366,7 @@ def _counts(kind: type[BaseException], error: BaseException) -> bool:
     return isinstance(error, SourceUnavailableError) and error.counts
 
 
-def _retry_after(response: httpx.Response) -> float:
+def _retry_after(response: "httpx.Response") -> float:
     """Return the seconds of a `Retry-After`, 0 without one that can be read."""
     stated = response.headers.get("Retry-After", "").strip()
     if stated.isdigit():

@@ -4,8 +4,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlsplit, urlunsplit
 
-import httpx
-
 
 @dataclass(frozen=True)
 class Options:
@@ -45,6 +43,9 @@ def numbers_of(stated: Mapping[str, str], known: Options, whose: str) -> dict[st
 
 def require_address(address: str, whose: str) -> None:
     """Check a server's address; raises `ValueError` if it is another than that of one by HTTP."""
+    # Not before it is needed: it takes 8 MB, and many services ask nobody.
+    import httpx
+
     try:
         url = httpx.URL(address)
     except httpx.InvalidURL as error:

@@ -2,11 +2,13 @@
 
 import logging
 import socket
+import ssl
 from datetime import UTC, datetime
+from functools import cached_property
+from typing import TYPE_CHECKING
 from urllib.parse import urlsplit
 
 import anyio
-import httpx
 from anyio import to_thread
 from pydantic import SecretStr
 from standardwebhooks import Webhook
@@ -14,6 +16,9 @@ from standardwebhooks import Webhook
 from app.records.jobs.addresses import is_public
 from app.schemas.errors import InputError, InvalidRequestError
 from app.serving.settings import Settings
+
+if TYPE_CHECKING:
+    import httpx
 
 logger = logging.getLogger(__name__)
 
@@ -67,6 +72,9 @@ def host_of(url: str) -> str:
 
 
 def _is_callable(url: str) -> bool:
+    # Not before it is needed: it takes 8 MB, and most services call nobody.
+    import httpx
+
     try:
         parts = urlsplit(url)
         httpx.URL(url)
@@ -112,7 +120,12 @@ class Caller:
         self._webhook = Webhook(secret.get_secret_value())
         self._may_call_private = may_call_private
         self._patience = patience
-        self._tls = httpx.create_ssl_context(trust_env=False)
+
+    @cached_property
+    def _tls(self) -> ssl.SSLContext:
+        import httpx
+
+        return httpx.create_ssl_context(trust_env=False)
 
     def call(self, url: str, message_id: str, body: str) -> None:
         """Send a message.
@@ -122,6 +135,8 @@ class Caller:
         UnreachableError
             If it was not received.
         """
+        import httpx
+
         now = datetime.now(UTC)
         headers = {
             "Content-Type": "application/json",
@@ -140,8 +155,10 @@ class Caller:
         if not 200 <= status < 300:
             raise UnreachableError(f"the answer was {status}")
 
-    async def _post(self, target: httpx.URL, headers: dict[str, str], body: str) -> int:
+    async def _post(self, target: "httpx.URL", headers: dict[str, str], body: str) -> int:
         """Return the status of the answer, whose body, however long, is not read."""
+        import httpx
+
         with anyio.fail_after(self._patience):
             address = await self._resolved(target)
             # What was checked is what is called, whatever the name means next.
@@ -154,7 +171,7 @@ class Caller:
             ):
                 return response.status_code
 
-    async def _resolved(self, target: httpx.URL) -> str:
+    async def _resolved(self, target: "httpx.URL") -> str:
         """Return an address of a host that may be called."""
         try:
             found = await to_thread.run_sync(_look_up, target, abandon_on_cancel=True)
@@ -165,6 +182,6 @@ class Caller:
         return found[0]
 
 
-def _look_up(target: httpx.URL) -> list[str]:
+def _look_up(target: "httpx.URL") -> list[str]:
     found = socket.getaddrinfo(target.host, target.port, type=socket.SOCK_STREAM)
     return [str(info[4][0]) for info in found]
