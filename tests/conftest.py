@@ -1,6 +1,7 @@
 """Tiny problems whose answers were worked out by hand."""
 
 import asyncio
+import gc
 import os
 import socket
 import threading
@@ -19,6 +20,7 @@ import numpy as np
 import pytest
 from filelock import FileLock
 
+from app.serving.load.memory import collect_seldom
 from model.kernel.cores import num_cores
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 
@@ -43,6 +45,16 @@ def pytest_xdist_auto_num_workers() -> int:
     Who waits for a service, a browser or the end of some time leaves a core to another.
     """
     return min(num_cores() + 1, MOST_WORKERS)
+
+
+def pytest_configure() -> None:
+    """Have Python look for circles of objects seldom, as a service has it."""
+    collect_seldom()
+
+
+def pytest_collection_finish() -> None:
+    """Leave out what was imported and collected, by far the most, when circles are looked for."""
+    gc.freeze()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -8,7 +8,7 @@ from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial
-from itertools import product
+from itertools import product, starmap
 from pathlib import Path
 from time import thread_time
 from types import ModuleType
@@ -71,9 +71,12 @@ def patterns() -> dict[str, re.Pattern[Any]]:
             for pattern in patterns_in(value)}
 
 
+def text_of(size: int, start: str, piece: str, end: str) -> str:
+    return start + piece * (size // len(piece)) + end
+
+
 def texts(size: int) -> Iterator[str]:
-    for start, piece, end in product(STARTS, PIECES, ENDS):
-        yield start + piece * (size // len(piece)) + end
+    return starmap(partial(text_of, size), product(STARTS, PIECES, ENDS))
 
 
 def seconds_of(work: Callable[[], object], times: int = 1) -> float:
@@ -88,8 +91,10 @@ def seconds_of(work: Callable[[], object], times: int = 1) -> float:
 def slow_texts(work: Callable[[str], object]) -> list[str]:
     """Return starts of texts whose time grows faster than their length."""
     slow = []
-    for text, longer in zip(texts(SIZE), texts(LONGER), strict=True):
+    for parts in product(STARTS, PIECES, ENDS):
+        text = text_of(SIZE, *parts)
         if seconds_of(partial(work, text)) > QUICK:
+            longer = text_of(LONGER, *parts)
             short, long = seconds_of(partial(work, text), 3), seconds_of(partial(work, longer), 3)
             if short > QUICK and long > GROWTH * short:
                 slow.append(text[:60])
