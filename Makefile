@@ -9,7 +9,7 @@ RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw,ovrp,vrpb,vrpspd
 
 BIN := .venv/bin
 PIP := $(BIN)/python -m pip --disable-pip-version-check
-# On all cores; who is idle takes over what others have left. Threads of PyTorch's own would wait for
+# On all cores, by `tests/conftest.py`; who is idle takes over what others have left. Threads of PyTorch's own would wait for
 # each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the
 # environment says: dozens of processes load them all.
 PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal

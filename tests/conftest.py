@@ -40,11 +40,12 @@ MOST_WORKERS = 8
 
 
 def pytest_xdist_auto_num_workers() -> int:
-    """Return how many processes run tests: one more than there are cores, within the quota on them.
+    """Return how many processes run tests: two for each core, within the quota on them.
 
-    Who waits for a service, a browser or the end of some time leaves a core to another.
+    Who waits for a service, a browser or the end of some time leaves a core to another: one more
+    than there are cores left a third of two cores idle.
     """
-    return min(num_cores() + 1, MOST_WORKERS)
+    return min(2 * num_cores(), MOST_WORKERS)
 
 
 def pytest_configure() -> None:
