@@ -1204,10 +1204,9 @@ int tandem_go_back(const tandem_searcher* searcher);
 /* Tell what it costs to insert a customer as a move says. */
 int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
                       const tandem_move* move, int64_t node, double* cost);
-/* Tell what the cheapest stop beside neighbours costs a customer, where all routes are lean and it
-   is cheaper than `best`. */
-int tandem_scan_beside_lean(const tandem_problem_data* data, const tandem_searcher* searcher,
-                            int64_t node, double best, bool enlarge, double* cost);
+/* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
+int tandem_cost_beside(const tandem_problem_data* data, const tandem_searcher* searcher,
+                       int64_t node, double* cost);
 
 /* Search: moves. */
 

@@ -150,6 +150,9 @@ public:
 
     NodeTable operator[](Int variant) const { return rows_[variant]; }
 
+    // How many ways there are to meet nodes.
+    Int variants() const { return rows_.shape(0); }
+
     // As trucks of a type meet nodes.
     NodeTable by_truck(const VehicleType& type) const { return rows_[type.variant]; }
 

@@ -7,12 +7,6 @@
 
 namespace tandem {
 
-// What insertions are looked for.
-struct Bound {
-    double best;   // cost below which
-    double blink;  // how often one is overlooked
-};
-
 // A place in an order of customers that truck and drone serve.
 struct Line {
     Int node;
@@ -54,8 +48,6 @@ struct Scratch {
     Row<Move> offer;        // insertions that may be best
     Row<double> least;      // what each costs at least
     Int offers = 0;         // how many are listed
-    Move move{};            // the best insertion
-    Bound bound{};
 
 private:
     Scratch(const ProblemData& data, Searcher& searcher, Int most_offers);

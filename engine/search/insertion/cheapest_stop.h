@@ -1,47 +1,28 @@
 // The cheapest stop for a customer where only the distance of the detour counts.
 #pragma once
 
-#include <array>
-
-#include "search/route/layout.h"
+#include "search/insertion/best.h"
 
 namespace tandem {
-
-// A type of vehicles that would serve a customer more on a trip, and what it costs more.
-struct Serving {
-    Int type;
-    double cost;
-};
 
 // Tells whether an insertion into a route costs its detour alone.
 bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot);
 
-// Returns the type that would serve a customer more on a trip: a larger one if `enlarge`; or
-// `nowhere`.
-Serving serving_type(const ProblemData& data, const Fleet& fleet, Int slot, Int index, Int node,
-                     bool enlarge);
+// Tells whether somebody may serve a customer more on a trip, and who that is: a larger type if
+// that may be.
+bool may_join(const Insertion& insertion, Int slot, Int index, Joining& joins);
 
-// Lets the move be to serve a customer behind one of two stops of a lean route, if that costs less
-// than `best`; returns the best cost so far.
-double take_cheaper(const ProblemData& data, const Searcher& searcher, Int slot,
-                    const std::array<Int, 2>& places, Int node, Serving serving, double best);
+// Tries the customer behind some stops of a trip where only distance counts, but for one.
+void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int last,
+               Int skipped = nowhere);
 
-// Finds the cheapest stop where all routes are lean; returns the best cost so far.
-//
-// In place: the move, if that is a stop that costs less than `best`; also what is kept.
-double scan_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
-                 bool enlarge);
+// Tries the customer on all trips of a route where only distance counts.
+void scan_simple(const Insertion& insertion, Int slot);
 
-// Finds the cheapest stop on a route where only distance counts. As `try_route` of places.h.
-void scan_simple(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
-                 bool enlarge);
+// Tries the customer beside neighbours where only distance counts.
+void scan_beside(const Insertion& insertion);
 
-// Finds the cheapest stop beside neighbours where only distance counts. As `scan_lean`.
-double scan_beside(const ProblemData& data, const Searcher& searcher, Int node, double best,
-                   bool enlarge);
-
-// Finds the cheapest stop beside neighbours where all routes are lean. As `scan_lean`.
-double scan_beside_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
-                        bool enlarge);
+// Tries the customer on all routes where all are lean. In place: also what is kept.
+void scan_lean(const Insertion& insertion);
 
 }  // namespace tandem

@@ -306,26 +306,29 @@ bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, 
            release_of(data.place[0][node]) <= fleet.trip(slot, stop.trip).release;
 }
 
-double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
+double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
+                  const Newcomer& newcomer) {
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> stops = fleet.stop[slot];
     const Stop &here = stops[p], &behind = stops[p + 1];
-    const Int k = route.type;
+    const Int k = route.type, node = newcomer.node;
     const VehicleType& type = data.type[k];
-    const Windows place = data.place.by_truck(type)[node];
-    const Leg out = leg_from(legs_to(data.back, type.travel, node), here.node);
-    const Leg on = leg(legs_of(data.leg, type.travel), node, behind.node);
-    Int time = here.leave + out.duration, cum = here.cum + out.duration;
-    if (place.too_late(time)) return infeasible;
-    double cost = double(out.distance + on.distance - here.leg) * data.rate[k].distance;
+    const Windows place = newcomer.place;
+    const auto [out, on, distance] = newcomer.detour(here.node, behind.node, here.leg);
+    const Int arrival = here.leave + out.duration;
+    if (!newcomer.is_in_time(arrival, behind.latest, [&] { return on.duration; })) {
+        return infeasible;
+    }
+    const Int time = place.end_of_service(arrival) + on.duration;
+    if (time < behind.early) return infeasible;
+    double cost = double(distance) * data.rate[k].distance;
     if (loads_cost(data, k)) {
         cost += load_more_behind(data, fleet, slot, p, node, out.distance, on.distance);
     }
-    Int depart = std::min(here.depart, place.as_late(time) - cum);
-    const double late = window_cost(data, node, time);
-    time = place.end_of_service(time) + on.duration;
+    Int cum = here.cum + out.duration;
+    Int depart = std::min(here.depart, place.as_late(arrival) - cum);
+    const double late = window_cost(data, node, arrival);
     cum += place.service_duration() + on.duration;
-    if (time > behind.latest || time < behind.early) return infeasible;
     Int finish;
     if (data.evaluation[k].priced) {
         const Ending ending = follow(data, route, stops, p + 1, time, cum, depart);

@@ -1,7 +1,7 @@
 // What an insertion costs: from the blocks around it, or by timing the whole route again.
 #pragma once
 
-#include "search/route/layout.h"
+#include "search/insertion/newcomer.h"
 
 namespace tandem {
 
@@ -25,6 +25,7 @@ bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, 
 // Returns what it costs to insert a customer behind stop `p`; `infeasible` if it can't be.
 //
 // For where `stands_alone`; in constant time unless lateness costs.
-double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node);
+double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
+                  const Newcomer& newcomer);
 
 }  // namespace tandem

@@ -12,7 +12,6 @@
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {
@@ -39,25 +38,25 @@ Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch
 // Sorties to a customer by drones of a row on a route.
 class Flights {
 public:
-    Flights(const ProblemData& data, const Searcher& searcher, Int slot, Int row, Int node)
-        : data_(data),
-          searcher_(searcher),
+    Flights(const Insertion& insertion, Int slot, Int row)
+        : data_(insertion.data),
+          searcher_(insertion.searcher),
           slot_(slot),
           row_(row),
-          node_(node),
-          stops_(searcher.now.stop[slot]),
-          length_(searcher.now.route[slot].length),
-          type_(data.type[row]),
-          rate_(data.rate[row]),
-          place_(data.place.by_air(type_)[node]),
-          inward_(legs_to(data.back, type_.drone_travel, node)),
-          onward_(legs_from(data.leg, type_.home_travel, node)),
-          room_(room_on(data, searcher.now, slot, searcher.now.route[slot].type, node)),
-          best_(searcher.scratch->bound.best),
-          early_(searcher.now.early[slot]),
-          idle_(idle_time(searcher.now.route[slot])),
-          priced_(data.evaluation[searcher.now.route[slot].type].priced),
-          loaded_(loads_cost(data, searcher.now.route[slot].type)) {}
+          node_(insertion.node),
+          stops_(searcher_.now.stop[slot]),
+          length_(searcher_.now.route[slot].length),
+          type_(data_.type[row]),
+          rate_(data_.rate[row]),
+          place_(data_.place.by_air(type_)[node_]),
+          inward_(legs_to(data_.back, type_.drone_travel, node_)),
+          onward_(legs_from(data_.leg, type_.home_travel, node_)),
+          room_(room_on(data_, searcher_.now, slot, searcher_.now.route[slot].type, node_)),
+          best_(insertion.best.cost),
+          early_(searcher_.now.early[slot]),
+          idle_(idle_time(searcher_.now.route[slot])),
+          priced_(data_.evaluation[searcher_.now.route[slot].type].priced),
+          loaded_(loads_cost(data_, searcher_.now.route[slot].type)) {}
 
     // Lists those from stop `launch`.
     void offer_from(Int launch) const {
@@ -130,24 +129,24 @@ private:
 
 }  // namespace
 
-void offer_sorties(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
-                   Int node) {
+void offer_sorties(const Insertion& insertion, Int slot, Int first, Int last) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Trip& trip = now.trip(slot, now.stop(slot, first).trip);
-    const auto may_fly = [&](Int row) {
+    const auto may_fly = [&, &data = data, node = node](Int row) {
         return data.can(row, 1, node) && has_battery(data.type, route, now.sortie[slot], trip, row);
     };
     const Int first_row = first_drone_row(data.type, route.type);
     if (next_drone_row(data.type, first_row) == no_row) {
         if (!may_fly(first_row)) return;
-        const Flights flights(data, searcher, slot, first_row, node);
+        const Flights flights(insertion, slot, first_row);
         for (Int launch = first; launch <= last; ++launch) flights.offer_from(launch);
         return;
     }
     for (Int launch = first; launch <= last; ++launch) {
         for (Int row = first_row; row >= 0; row = next_drone_row(data.type, row)) {
-            if (may_fly(row)) Flights(data, searcher, slot, row, node).offer_from(launch);
+            if (may_fly(row)) Flights(insertion, slot, row).offer_from(launch);
         }
     }
 }

@@ -1,61 +1,55 @@
-// A customer who is to be inserted, as the vehicles of one route meet it.
+// A customer who is to be inserted, as vehicles of one type meet him between any two places.
 #pragma once
 
 #include "rules/leg.h"
 #include "rules/window.h"
 #include "search/route/layout.h"
-#include "search/route/stop_loads.h"
 
 namespace tandem {
 
-// The legs to a customer and from there, and how much further that is than from stop to stop.
+// The legs to a customer and from there, and how much further that is than the direct way.
 struct Detour {
     Leg out;
     Leg on;
     Int distance;
 };
 
+// What is looked up once for all places that a customer is tried at.
 struct Newcomer {
+    Int node;
     Windows place;
     LegRow inward;  // legs to the customer
     LegRow onward;  // and from there
-    Room room;
 
-    Detour behind(View<const Stop, 1> stops, Int p) const {
-        const Leg out = leg_from(inward, stops[p].node), on = leg_to(onward, stops[p + 1].node);
-        return {out, on, out.distance + on.distance - stops[p].leg};
+    // How much further it is by the customer than from one place to another, so far apart.
+    Int further(Int before, Int behind, Int apart) const {
+        return distance_from(inward, before) + distance_to(onward, behind) - apart;
     }
 
-    // How much further it is by the customer than from stop `p` to the next.
-    Int further_behind(View<const Stop, 1> stops, Int p) const {
-        return distance_from(inward, stops[p].node) + distance_to(onward, stops[p + 1].node) -
-               stops[p].leg;
+    Detour detour(Int before, Int behind, Int apart) const {
+        const Leg out = leg_from(inward, before), on = leg_to(onward, behind);
+        return {out, on, out.distance + on.distance - apart};
     }
 
-    // Tells whether a truck that leaves stop `p` at `leave` may come next, and then reach the
-    // following stop. Most are passed over by distance, so that durations are looked up here alone.
-    bool comes_in_time(View<const Stop, 1> stops, Int p, Int leave) const {
-        const Int arrival = leave + leg_from(inward, stops[p].node).duration;
-        if (place.too_late(arrival)) return false;
-        const Stop& behind = stops[p + 1];
-        return place.end_of_service(arrival) + leg_to(onward, behind.node).duration <=
-               behind.latest;
+    // Tells whether a vehicle that comes at `arrival` is served, and at the next place by `due`,
+    // which takes as long as `on` tells once that matters.
+    template <class Duration>
+    bool is_in_time(Int arrival, Int due, const Duration& on) const {
+        return !place.too_late(arrival) && place.end_of_service(arrival) + on() <= due;
+    }
+
+    // Tells whether a vehicle that leaves one place at `leave` may come next, and be at another by
+    // `due`. Most places are passed over by distance, so that durations are looked up here alone.
+    bool comes_between(Int before, Int leave, Int behind, Int due) const {
+        return is_in_time(leave + leg_from(inward, before).duration, due,
+                          [&] { return leg_to(onward, behind).duration; });
     }
 };
 
-// Returns a customer as trucks of type `k` meet it on a route, for one of type `by` to be served.
-inline Newcomer newcomer_on(const ProblemData& data, const Fleet& fleet, Int slot, Int by,
-                            Int node) {
-    const VehicleType& type = data.type[fleet.route[slot].type];
-    return {data.place.by_truck(type)[node], legs_to(data.back, type.travel, node),
-            legs_from(data.leg, type.travel, node), room_on(data, fleet, slot, by, node)};
-}
-
-// Tells whether a truck that leaves at `leave` may serve a customer next, and then reach a stop.
-inline bool is_in_time(Windows place, const Detour& detour, Int leave, const Stop& behind) {
-    const Int arrival = leave + detour.out.duration;
-    return !place.too_late(arrival) &&
-           place.end_of_service(arrival) + detour.on.duration <= behind.latest;
+// Returns a customer as vehicles of a type meet him.
+inline Newcomer newcomer_for(const ProblemData& data, const VehicleType& type, Int node) {
+    return {node, data.place.by_truck(type)[node], legs_to(data.back, type.travel, node),
+            legs_from(data.leg, type.travel, node)};
 }
 
 }  // namespace tandem

@@ -19,42 +19,47 @@
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
+#include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 #include "search/scratch.h"
 
 namespace tandem {
 namespace {
 
-// What a change of a route costs less, or lasts without costing anything.
-struct Slack {
+// What a customer more among the stops of a route costs at least.
+struct LeastCost {
+    const ProblemData& data;
+    const Newcomer& newcomer;
+    Int k;
     Int spare;     // how long the route could work longer at no cost
     double early;  // what its waiting costs, which may become less
-};
 
-// Returns what a customer behind stop `p` costs at least, or `best` if that is no less, or not
-// allowed.
-double stop_costs(const ProblemData& data, Int k, const Newcomer& newcomer, const Detour& detour,
-                  View<const Stop, 1> stops, Int p, Int node, const Slack& slack, double best) {
-    const Rate& rate = data.rate[k];
-    double cost = drive_cost(rate, detour.distance) - slack.early;
-    cost += rate.stop;
-    const Evaluation& evaluation = data.evaluation[k];
-    const Stop &here = stops[p], &behind = stops[p + 1];
-    if (evaluation.timed) {
-        // While drones fly, the truck may have time before they are back.
-        const Int longer =
-            detour.out.duration + detour.on.duration + newcomer.place.service_duration() - here.gap;
-        cost += usual_work_cost(rate, std::max(Int{0}, longer - slack.spare - here.idle));
-    }
-    if (cost >= best || !is_in_time(newcomer.place, detour, here.leave, behind)) return best;
-    if (evaluation.priced) {
+    // Returns that between two stops; `best` if it is no less, or not allowed.
+    double between(const Stop& here, const Stop& behind, const Detour& detour, double best) const {
+        const Rate& rate = data.rate[k];
+        double cost = drive_cost(rate, detour.distance) - early;
+        cost += rate.stop;
+        const Evaluation& evaluation = data.evaluation[k];
+        if (evaluation.timed) {
+            // While drones fly, the truck may have time before they are back.
+            const Int longer = detour.out.duration + detour.on.duration +
+                               newcomer.place.service_duration() - here.gap;
+            cost += usual_work_cost(rate, std::max(Int{0}, longer - spare - here.idle));
+        }
         const Int arrival = here.leave + detour.out.duration;
-        const Int following = newcomer.place.end_of_service(arrival) + detour.on.duration;
-        cost += lateness_cost(data, node, arrival) + lateness_cost(data, behind.node, following) -
-                lateness_cost(data, behind.node, behind.arrival);
+        if (cost >= best ||
+            !newcomer.is_in_time(arrival, behind.latest, [&] { return detour.on.duration; })) {
+            return best;
+        }
+        if (evaluation.priced) {
+            const Int following = newcomer.place.end_of_service(arrival) + detour.on.duration;
+            cost += lateness_cost(data, newcomer.node, arrival) +
+                    lateness_cost(data, behind.node, following) -
+                    lateness_cost(data, behind.node, behind.arrival);
+        }
+        return cost;
     }
-    return cost;
-}
+};
 
 // Returns a drone of a row that is aboard from stop `launch` to `recovery`; `nowhere`: there is
 // none.
@@ -104,7 +109,10 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
         move.drone = free_drone(data, now, slot, p, move.last, move.type);
         if (move.drone < 0) return infeasible;
     } else if (kind == at_stop) {
-        if (stands_alone(data, now, slot, p, node)) return price_stop(data, now, slot, p, node);
+        if (stands_alone(data, now, slot, p, node)) {
+            const VehicleType& type = data.type[now.route[slot].type];
+            return price_stop(data, now, slot, p, newcomer_for(data, type, node));
+        }
     } else if ((kind == new_trip || kind == trip_from || kind == trip_until) &&
                is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
         return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
@@ -114,34 +122,35 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
 
 }  // namespace
 
-void offer_stops(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
-                 Int node) {
+void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
-    const double best = searcher.scratch->bound.best;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
-    const Newcomer newcomer = newcomer_on(data, now, slot, k, node);
-    const Slack slack{idle_time(now.route[slot]), now.early[slot]};
+    const Newcomer newcomer = newcomer_for(data, data.type[k], node);
+    const Room room = room_on(data, now, slot, k, node);
+    const LeastCost least{data, newcomer, k, idle_time(now.route[slot]), now.early[slot]};
     const Int most = data.type[k].max_trip_distance - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
-        const Detour detour = newcomer.behind(stops, p);
-        double cost = stop_costs(data, k, newcomer, detour, stops, p, node, slack, best);
-        if (cost < best && loads_cost(data, k)) {
+        const Stop &here = stops[p], &behind = stops[p + 1];
+        const Detour detour = newcomer.detour(here.node, behind.node, here.leg);
+        double cost = least.between(here, behind, detour, best.cost);
+        if (cost < best.cost && loads_cost(data, k)) {
             cost +=
                 load_more_behind(data, now, slot, p, node, detour.out.distance, detour.on.distance);
         }
-        if (cost < best && detour.distance <= most && room_behind(newcomer.room, p)) {
+        if (cost < best.cost && detour.distance <= most && room_behind(room, p)) {
             add_offer(searcher, cost, at_stop, slot, p);
         }
     }
 }
 
-void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
+void offer_joining(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
     const View<const Sortie, 1> sorties = now.sortie[slot];
-    const double best = searcher.scratch->bound.best;
     for (Int s = 0; s < now.route[slot].sorties; ++s) {
         const Sortie& sortie = sorties[s];
         const Int row = row_of_drone(data.type, k, sortie.drone);
@@ -164,7 +173,7 @@ void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, 
                                 leg(flights, here, there).distance;
             const double cost = flown_cost(data.rate[row], further) - now.early[slot];
             here = there;
-            if (cost >= best) continue;
+            if (cost >= best.cost) continue;
             if (place > 0 && tiers_of(data) > 0) {
                 may_carry = can_carry(data, row, sortie, place, node);
             }
@@ -173,7 +182,8 @@ void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, 
     }
 }
 
-void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
+void offer_flight_trips(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     if (!data.strategy.loops) return;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
@@ -184,9 +194,8 @@ void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int s
         const Leg out = leg(flights, depot, node), home = leg(flights, node, depot);
         double cost = flown_cost(data.rate[row], out.distance + home.distance);
         cost -= now.early[slot];
-        if (unreachable(std::max(out.duration, home.duration)) ||
-            cost >= searcher.scratch->bound.best || !data.can(row, 1, node) ||
-            !may_begin(data, k, node)) {
+        if (unreachable(std::max(out.duration, home.duration)) || cost >= best.cost ||
+            !data.can(row, 1, node) || !may_begin(data, k, node)) {
             continue;
         }
         for (Int p = -1; p < route.length; ++p) {
@@ -198,11 +207,11 @@ void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int s
     }
 }
 
-void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
+void offer_trips(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
-    const double best = searcher.scratch->bound.best;
     const Int k = route.type, m = data.type[k].travel, depot = data.type[k].depot;
     const double rate = data.rate[k].distance;
     const TravelLegs legs = legs_of(data.leg, m);
@@ -228,23 +237,24 @@ void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, In
                 kind = trip_until;
                 cost = until;
             }
-            if (cost < best && !part_fits(data, now, slot, p, node, kind == trip_until)) continue;
+            if (cost < best.cost && !part_fits(data, now, slot, p, node, kind == trip_until))
+                continue;
         }
         cost += data.rate[k].stop - now.early[slot];
         // Each of two trips carries less, at best next to nothing.
         if (kind != new_trip && loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;
-        if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
+        if (cost < best.cost && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
             add_offer(searcher, cost, kind, slot, p);
         }
     }
 }
 
-void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int slot, Int node) {
+void offer_trips_apart(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
-    const double best = searcher.scratch->bound.best;
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {
@@ -279,24 +289,21 @@ void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int sl
         // Whoever was served may be carried less far, at best next to nowhere.
         if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;
-        if (cost < best) add_offer(searcher, cost, kind, slot, p);
+        if (cost < best.cost) add_offer(searcher, cost, kind, slot, p);
     }
 }
 
-void take_cheapest(const ProblemData& data, const Searcher& searcher, Int node) {
-    Bound& bound = searcher.scratch->bound;
+void take_cheapest(const Insertion& insertion) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const View<Move, 1> offer = searcher.scratch->offer;
     const View<double, 1> least = searcher.scratch->least;
     Int left = searcher.scratch->offers;
     Least cheapest(least, left);
     while (left > 0 && !data.deadline.passed()) {
         const Int first = cheapest.first();
-        if (least[first] >= bound.best) break;
+        if (least[first] >= best.cost) break;
         const double cost = price_offer(data, searcher, offer[first], node, least[first]);
-        if (cost < bound.best && uniform(searcher.rng) >= bound.blink) {
-            bound.best = cost;
-            searcher.scratch->move = offer[first];
-        }
+        if (best.takes(cost)) best.move = offer[first];
         cheapest.take_out(first);
         offer[first] = offer[--left];
     }

@@ -3,7 +3,7 @@
 // Each lists, in `Scratch::offer`, the insertions that may cost less than the best so far.
 #pragma once
 
-#include "search/route/layout.h"
+#include "search/insertion/best.h"
 
 namespace tandem {
 
@@ -15,30 +15,28 @@ constexpr Int at_one_stop = max_span + 2;
 // Lists a customer behind each stop of a trip from `first` to `last`, if that may be cheaper.
 //
 // For where more than distance counts.
-void offer_stops(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
-                 Int node);
+void offer_stops(const Insertion& insertion, Int slot, Int first, Int last);
 
 // Lists sorties to a customer from each stop of a trip from `first` to `last`, by each type of
 // drones.
-void offer_sorties(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
-                   Int node);
+void offer_sorties(const Insertion& insertion, Int slot, Int first, Int last);
 
 // Lists a customer on each sortie of a route.
-void offer_joining(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
+void offer_joining(const Insertion& insertion, Int slot);
 
 // Lists trips that a drone flies alone to a customer.
-void offer_flight_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
+void offer_flight_trips(const Insertion& insertion, Int slot);
 
 // Lists a customer where a trip more begins or ends.
-void offer_trips(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
+void offer_trips(const Insertion& insertion, Int slot);
 
 // As `offer_trips`, where trips don't all begin and end at one place.
-void offer_trips_apart(const ProblemData& data, const Searcher& searcher, Int slot, Int node);
+void offer_trips_apart(const Insertion& insertion, Int slot);
 
-// Lets the move be the cheapest of the insertions listed, if it is the best, but for blinks.
+// Takes the cheapest of the insertions listed, if it is the best and isn't overlooked.
 //
 // Those that may be cheapest are priced first, so that most need not be; none is once the search
 // must end.
-void take_cheapest(const ProblemData& data, const Searcher& searcher, Int node);
+void take_cheapest(const Insertion& insertion);
 
 }  // namespace tandem

@@ -5,17 +5,16 @@
 // on some such legs as well, of routes that are drawn.
 #pragma once
 
-#include "search/route/layout.h"
+#include "search/insertion/best.h"
 
 namespace tandem {
 
 constexpr Int each_drawn = 4;   // of how many routes one is drawn
 constexpr Int most_drawn = 16;  // and how many are at most
 
-// Finds the cheapest stop first or last on routes drawn, where all are lean. As `scan_lean`.
+// Tries the customer first and last on routes drawn, where all are lean.
 //
 // Most routes are full, so they are asked for room before their legs.
-double scan_passing_lean(const ProblemData& data, const Searcher& searcher, Int node, double best,
-                         bool enlarge);
+void scan_passing(const Insertion& insertion);
 
 }  // namespace tandem

@@ -7,7 +7,6 @@
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/cheapest_stop.h"
-#include "search/insertion/evaluate.h"
 #include "search/insertion/offers.h"
 #include "search/insertion/passing.h"
 #include "search/route/edit.h"
@@ -16,23 +15,20 @@
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/vehicles.h"
-#include "search/scratch.h"
 
 namespace tandem {
 namespace {
 
 // Tries a customer on the trips and sorties of a route.
-//
-// In place: the move, and the cost of the best so far.
-void try_route(const ProblemData& data, const Searcher& searcher, Int slot, Int node,
-               bool enlarge) {
+void try_route(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Int k = route.type;
     const VehicleType& type = data.type[k];
     const bool drives = data.can(k, 0, node), flies = data.can(k, 1, node);
     const bool simple = is_simple(data, now, slot);
-    if (simple && drives) scan_simple(data, searcher, slot, node, enlarge);
+    if (simple && drives) scan_simple(insertion, slot);
     if (simple && !flies) return;
     for (Int index = 0; index < route.trips; ++index) {
         const Trip& trip = now.trip(slot, index);
@@ -42,52 +38,44 @@ void try_route(const ProblemData& data, const Searcher& searcher, Int slot, Int 
         }
         const Int first = trip.first, last = trip.last;
         if (drives && !simple && allows_stops(type, stops_on(trip) + 1)) {
-            offer_stops(data, searcher, slot, first, last - 1, node);
+            offer_stops(insertion, slot, first, last - 1);
         }
         if (!flies || !may_launch(type, route, now.sortie[slot], trip)) continue;
-        offer_sorties(data, searcher, slot, first, last - 1, node);
+        offer_sorties(insertion, slot, first, last - 1);
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
         const Int soonest = held_until(data.place[0][node].opening(leave), endurance_of(type));
-        if (leave < soonest) offer_sorties(data, searcher, slot, last, last, node);
+        if (leave < soonest) offer_sorties(insertion, slot, last, last);
     }
-    if (data.visits[k] > 1 && flies) offer_joining(data, searcher, slot, node);
-    take_cheapest(data, searcher, node);
+    if (data.visits[k] > 1 && flies) offer_joining(insertion, slot);
+    take_cheapest(insertion);
 }
 
 // Tells whether the best place kept for a customer on a route is still that, or none is.
-bool is_kept(const Searcher& searcher, Int slot, Int node) {
+bool is_kept(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     return searcher.kept(node, slot).stamp == searcher.now.route[slot].stamp &&
            (searcher.kept_move(node, slot).kind >= 0 ||
-            searcher.kept_cost(node, slot) >= searcher.scratch->bound.best);
-}
-
-// Lets the move be the place kept for a customer on a route if it is the best.
-void take_kept(const Searcher& searcher, Int slot, Int node) {
-    const double cost = searcher.kept_cost(node, slot);
-    if (cost < searcher.scratch->bound.best &&
-        uniform(searcher.rng) >= searcher.scratch->bound.blink) {
-        searcher.scratch->bound.best = cost;
-        searcher.scratch->move = searcher.kept_move(node, slot);
-    }
+            searcher.kept_cost(node, slot) >= best.cost);
 }
 
 // Keeps what was found for a customer on a route, which cost less than `before`, or nothing.
-void keep(const Searcher& searcher, Int slot, Int node, double before) {
+void keep(const Insertion& insertion, Int slot, double before) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     searcher.kept(node, slot).stamp = searcher.now.route[slot].stamp;
-    searcher.kept_cost(node, slot) = searcher.scratch->bound.best;
+    searcher.kept_cost(node, slot) = best.cost;
     Move& kept = searcher.kept_move(node, slot);
-    kept = searcher.scratch->move;
-    if (searcher.scratch->bound.best >= before) kept.kind = nowhere;
+    kept = best.move;
+    if (best.cost >= before) kept.kind = nowhere;
 }
 
 // Tries a customer on all routes, those first where that takes little. As `try_route`.
 //
 // Most turns are undone, so that most routes are as when the customer was inserted before. If the
 // best place there is overlooked, so is the route.
-void try_routes(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
+void try_routes(const Insertion& insertion) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
-    Bound& bound = searcher.scratch->bound;
     for (const bool costly : {false, true}) {
         for (const Int slot : searcher.active.first(searcher.count->active)) {
             const Route& route = now.route[slot];
@@ -95,22 +83,25 @@ void try_routes(const ProblemData& data, const Searcher& searcher, Int node, boo
             if (!flies && !data.can(route.type, 0, node)) continue;
             if (data.deadline.passed()) return;
             const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
-            if (known && is_kept(searcher, slot, node)) {
-                if (!costly) take_kept(searcher, slot, node);
+            if (known && is_kept(insertion, slot)) {
+                if (!costly && best.takes(searcher.kept_cost(node, slot))) {
+                    best.move = searcher.kept_move(node, slot);
+                }
                 continue;
             }
             if (costly != (flies || !is_simple(data, now, slot))) continue;
-            const double before = bound.best;
-            bound.blink = known ? 0.0 : data.strategy.blink;
-            try_route(data, searcher, slot, node, enlarge);
-            bound.blink = data.strategy.blink;
-            if (known) keep(searcher, slot, node, before);
+            const double before = best.cost;
+            best.blink = known ? 0.0 : data.strategy.blink;
+            try_route(insertion, slot);
+            best.blink = data.strategy.blink;
+            if (known) keep(insertion, slot, before);
         }
     }
 }
 
 // Lists a customer behind, and on flights from, the stops beside another, on its trip.
-void offer_beside(const ProblemData& data, const Searcher& searcher, Int other, Int node) {
+void offer_beside(const Insertion& insertion, Int other) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Int slot = now.where[other].slot, k = now.route[slot].type;
     const VehicleType& type = data.type[k];
@@ -126,56 +117,53 @@ void offer_beside(const ProblemData& data, const Searcher& searcher, Int other, 
     }
     const Int first = std::max(p - 1, trip.first);
     // Nobody is served behind the depot.
-    if (drives) offer_stops(data, searcher, slot, first, std::min(p, trip.last - 1), node);
+    if (drives) offer_stops(insertion, slot, first, std::min(p, trip.last - 1));
     if (!flies) return;
-    offer_sorties(data, searcher, slot, first, p, node);
+    offer_sorties(insertion, slot, first, p);
 }
 
 }  // namespace
 
-double try_new_route(const ProblemData& data, const Searcher& searcher, Int node) {
-    double best = infeasible;
+void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, Best& best) {
     for (Int k = 0; k < data.num_types; ++k) {
         if (!is_left(data, searcher.now, k)) continue;
         for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
-            const double cost = searcher.alone(k, way, node);
-            if (cost < best && uniform(searcher.rng) >= data.strategy.blink) {
-                best = cost;
-                searcher.scratch->move.kind = way == 0 ? new_route : new_flight;
-                searcher.scratch->move.type = k;
-            }
+            if (!best.takes(searcher.alone(k, way, node))) continue;
+            best.move.kind = way == 0 ? new_route : new_flight;
+            best.move.type = k;
         }
     }
-    return best;
 }
 
-double find_place(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
-    const double best = try_new_route(data, searcher, node);
-    if (!data.general) return scan_lean(data, searcher, node, best, enlarge);
-    searcher.scratch->bound = {best, data.strategy.blink};
-    try_routes(data, searcher, node, enlarge);
-    return searcher.scratch->bound.best;
-}
-
-double find_beside(const ProblemData& data, const Searcher& searcher, Int node, bool enlarge) {
-    double best = try_new_route(data, searcher, node);
-    if (!data.general) {
-        best = scan_beside_lean(data, searcher, node, best, enlarge);
-        return scan_passing_lean(data, searcher, node, best, enlarge);
+void find_place(const Insertion& insertion) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    try_new_route(data, searcher, node, best);
+    if (data.general) {
+        try_routes(insertion);
+    } else {
+        scan_lean(insertion);
     }
-    best = scan_beside(data, searcher, node, best, enlarge);
-    searcher.scratch->bound = {best, data.strategy.blink};
+}
+
+void find_beside(const Insertion& insertion) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    try_new_route(data, searcher, node, best);
+    scan_beside(insertion);
+    if (!data.general) {
+        scan_passing(insertion);
+        return;
+    }
     for (const Int other : data.fit[node]) {
         if (other < 0) break;
-        if (searcher.now.where[other].slot >= 0) offer_beside(data, searcher, other, node);
+        if (searcher.now.where[other].slot >= 0) offer_beside(insertion, other);
     }
-    take_cheapest(data, searcher, node);
-    return searcher.scratch->bound.best;
+    take_cheapest(insertion);
 }
 
 bool opens_route(const Move& move) { return move.kind == new_route || move.kind == new_flight; }
 
-double try_trips(const ProblemData& data, const Searcher& searcher, Int node, Int number) {
+void try_trips(const Insertion& insertion, Int number) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Int active = searcher.count->active;
     const Int first = number < active ? below(searcher.rng, active) : 0;
@@ -188,15 +176,14 @@ double try_trips(const ProblemData& data, const Searcher& searcher, Int node, In
         }
         if (data.can(k, 0, node)) {
             if (is_apart(data, k)) {
-                offer_trips_apart(data, searcher, slot, node);
+                offer_trips_apart(insertion, slot);
             } else {
-                offer_trips(data, searcher, slot, node);
+                offer_trips(insertion, slot);
             }
         }
-        if (data.can(k, 1, node)) offer_flight_trips(data, searcher, slot, node);
+        if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
     }
-    take_cheapest(data, searcher, node);
-    return searcher.scratch->bound.best;
+    take_cheapest(insertion);
 }
 
 }  // namespace tandem

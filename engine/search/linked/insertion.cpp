@@ -9,7 +9,8 @@
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/window.h"
-#include "search/insertion/evaluate.h"
+#include "search/insertion/best.h"
+#include "search/insertion/newcomer.h"
 #include "search/insertion/passing.h"
 #include "search/insertion/places.h"
 #include "search/linked/aboard.h"
@@ -18,7 +19,6 @@
 #include "search/moves/recreate.h"
 #include "search/route/edit.h"
 #include "search/route/state.h"
-#include "search/scratch.h"
 
 namespace tandem {
 
@@ -26,30 +26,6 @@ namespace {
 
 // From which distance on `Linked::near` doesn't tell.
 constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
-
-// The legs of a travel to a customer, and from there.
-struct Ways {
-    LegRow inward;
-    LegRow onward;
-};
-
-Ways ways_beside(const ProblemData& data, Int m, Int node) {
-    return {legs_to(data.back, m, node), legs_from(data.leg, m, node)};
-}
-
-// A customer to be inserted, how all vehicles, or those of the first type, drive there and on, and
-// whether a route may be given a larger type for him.
-struct Newcomer {
-    Int node;
-    Ways ways;
-    bool enlarge;
-    bool same_back;  // `Linked::near` tells legs there and back
-};
-
-Newcomer newcomer_at(const ProblemData& data, const Linked& linked, Int node, bool enlarge) {
-    const Ways ways = ways_beside(data, data.type[0].travel, node);
-    return {node, ways, enlarge, linked.one_travel && are_same(ways.inward, ways.onward)};
-}
 
 // What routes may carry at most, by type, so that they may serve a customer more; less than nothing
 // if none of the type may.
@@ -95,14 +71,9 @@ private:
     std::array<Amount, most_known + 1> most_;
 };
 
-// Which route a customer joins, by which type and which legs, what driving costs that, and what all
-// costs but for the detour.
-struct Joining {
-    Int slot;
-    Int type;
-    const Ways* ways;
-    double rate;
-    double cost;
+// Which route a customer joins, and how who would serve there meets him.
+struct LinkedJoining : Joining {
+    const Newcomer* newcomer;
 };
 
 // Two between whom a customer may come, or a depot, and how much longer that is.
@@ -112,21 +83,21 @@ struct Gap {
     Int detour;
 };
 
-// Looks for the cheapest place for one customer, and writes it to `searcher.scratch->move`.
+// Looks for the cheapest place for one customer.
 class Places {
 public:
-    Places(const ProblemData& data, Searcher& searcher, const Linked& linked,
-           const Newcomer& newcomer, double best)
-        : data_(data),
-          searcher_(searcher),
+    Places(const Insertion& insertion, const Linked& linked)
+        : data_(insertion.data),
+          searcher_(insertion.searcher),
           linked_(linked),
-          newcomer_(newcomer),
-          room_(data, newcomer.node, newcomer.enlarge),
-          best_(best) {
+          newcomer_(newcomer_for(data_, data_.type[0], insertion.node)),
+          enlarge_(insertion.enlarge),
+          is_near_known_(linked.one_travel && are_same(newcomer_.inward, newcomer_.onward)),
+          room_(data_, insertion.node, enlarge_),
+          best_(insertion.best),
+          other_(newcomer_) {
         set_longest_detour();
     }
-
-    double best() const { return best_; }
 
     // Tries a customer beside neighbours.
     //
@@ -142,8 +113,8 @@ public:
             const std::size_t count = choose(first, behind, neighbours);
             for (std::size_t index = 0; index < count; ++index) {
                 const Link& at = linked_.link[neighbours[index].node];
-                prefetch(newcomer_.ways.onward, at.behind);
-                prefetch(newcomer_.ways.inward, at.before);
+                prefetch(newcomer_.onward, at.behind);
+                prefetch(newcomer_.inward, at.before);
             }
             for (std::size_t index = 0; index < count; ++index) try_neighbour(neighbours[index]);
             first = behind;
@@ -164,7 +135,7 @@ public:
             count += room_.may_be_on(linked_.run[slot]);
         }
         for (std::size_t index = 0; index < count; ++index) {
-            Joining joins;
+            LinkedJoining joins;
             if (may_join(slots[index], joins)) try_ends(joins);
         }
     }
@@ -173,13 +144,13 @@ public:
     void try_everywhere() {
         for (const Int slot : searcher_.active.first(searcher_.count->active)) {
             if (data_.deadline.passed()) break;
-            Joining joins;
+            LinkedJoining joins;
             if (!may_join(slot, joins)) continue;
             try_ends(joins);
             const Run& run = linked_.run[slot];
             for (Int before = run.first; before != run.last;) {
                 const Link& at = linked_.link[before];
-                try_between(joins, between(*joins.ways, before, at.behind, at.onward));
+                try_between(joins, between(joins, before, at.behind, at.onward));
                 before = at.behind;
             }
         }
@@ -237,45 +208,44 @@ private:
         const Int node = neighbour.node;
         const Int nearest = neighbour.nearest;
         const Link& at = linked_.link[node];
-        Joining joins;
+        LinkedJoining joins;
         if (!may_be_beside(node, nearest) || !may_join(at.slot, joins)) return;
         Int inward = nearest;
         Int onward = nearest;
-        if (!newcomer_.same_back || nearest == farthest) {
-            inward = distance_from(joins.ways->inward, node);
-            onward = distance_to(joins.ways->onward, node);
+        if (!is_near_known_ || nearest == farthest) {
+            inward = distance_from(joins.newcomer->inward, node);
+            onward = distance_to(joins.newcomer->onward, node);
         }
-        const Int on = distance_to(joins.ways->onward, at.behind);
+        const Int on = distance_to(joins.newcomer->onward, at.behind);
         try_between(joins, {node, at.behind, inward + on - at.onward});
-        const Int there = distance_from(joins.ways->inward, at.before);
+        const Int there = distance_from(joins.newcomer->inward, at.before);
         try_between(joins, {at.before, node, there + onward - at.inward});
     }
 
     // Two who are so far apart.
-    static Gap between(const Ways& ways, Int before, Int behind, Int distance) {
-        return {before, behind,
-                distance_from(ways.inward, before) + distance_to(ways.onward, behind) - distance};
+    static Gap between(const LinkedJoining& joins, Int before, Int behind, Int distance) {
+        return {before, behind, joins.newcomer->further(before, behind, distance)};
     }
 
     // Writes a detour that, as all longer ones, costs no less than the best, whoever drives it.
     void set_longest_detour() {
         const Least& cheapest = *linked_.cheapest;
-        const double most = best_ - cheapest.stop;
+        const double most = best_.cost - cheapest.stop;
         const bool is_any = cheapest.distance == 0.0 || most >= double(far) * cheapest.distance;
         longest_detour_ = is_any ? far : Int(std::ceil(most / cheapest.distance));
     }
 
     // Whether somebody may serve a customer more on a route, and who that is: a larger type if that
     // may be.
-    bool may_join(Int slot, Joining& joins) {
+    bool may_join(Int slot, LinkedJoining& joins) {
         const Run& run = linked_.run[slot];
         if (room_.is_on(run) && has_stop_left(run) &&
             (!looks_aboard(linked_) || may_hold(slot, run.type))) {
             const Rate& rate = data_.rate[run.type];
-            joins = {slot, run.type, ways_by(run.type), rate.distance, rate.stop};
+            joins = {{slot, run.type, rate.distance, rate.stop}, newcomer_by(run.type)};
             return true;
         }
-        return newcomer_.enlarge && may_join_enlarged(slot, joins);
+        return enlarge_ && may_join_enlarged(slot, joins);
     }
 
     bool has_stop_left(const Run& run) const {
@@ -286,14 +256,14 @@ private:
         return may_hold_more(data_, linked_, slot, data_.type[k], newcomer_.node);
     }
 
-    // How vehicles of a type drive to the customer and on; until that is asked again.
-    const Ways* ways_by(Int k) {
-        if (linked_.one_travel) return &newcomer_.ways;
-        ways_ = ways_beside(data_, data_.type[k].travel, newcomer_.node);
-        return &ways_;
+    // The customer as vehicles of a type meet him; until that is asked again.
+    const Newcomer* newcomer_by(Int k) {
+        if (linked_.one_travel && data_.place.variants() == 1) return &newcomer_;
+        other_ = newcomer_for(data_, data_.type[k], newcomer_.node);
+        return &other_;
     }
 
-    [[gnu::noinline]] bool may_join_enlarged(Int slot, Joining& joins) {
+    [[gnu::noinline]] bool may_join_enlarged(Int slot, LinkedJoining& joins) {
         const Run& run = linked_.run[slot];
         const Haul haul = haul_of(run);
         const auto fits = [&](Int k) { return !looks_aboard(linked_) || may_hold(slot, k); };
@@ -301,68 +271,54 @@ private:
         if (by < 0) return false;
         const Rate& rate = data_.rate[by];
         const double more = route_cost(data_, by, haul) - route_cost(data_, run.type, haul);
-        joins = {slot, by, ways_by(by), rate.distance, more + rate.stop};
+        joins = {{slot, by, rate.distance, more + rate.stop}, newcomer_by(by)};
         return true;
     }
 
     // Whether a customer may come between two by what windows, and the shift, allow.
-    bool keeps_windows(const Joining& joins, const Gap& gap) const {
+    bool keeps_windows(const LinkedJoining& joins, const Gap& gap) const {
         const VehicleType& type = data_.type[joins.type];
-        const Int arrival = leaves_at(data_, linked_, type, gap.before) +
-                            leg_from(joins.ways->inward, gap.before).duration;
-        const Windows place = data_.place.by_truck(type)[newcomer_.node];
-        if (place.too_late(arrival)) return false;
-        return place.end_of_service(arrival) + leg_to(joins.ways->onward, gap.behind).duration <=
-               due_at(data_, linked_, type, gap.behind);
+        return joins.newcomer->comes_between(gap.before,
+                                             leaves_at(data_, linked_, type, gap.before),
+                                             gap.behind, due_at(data_, linked_, type, gap.behind));
     }
 
     // Tries a customer between two.
-    void try_between(const Joining& joins, const Gap& gap) {
-        const double cost = double(gap.detour) * joins.rate + joins.cost;
-        if (cost < best_) take(joins, gap, cost);
-    }
-
-    // Takes a place between two for the best if it may be there and isn't overlooked.
-    void take(const Joining& joins, const Gap& gap, double cost) {
-        if (linked_.timed && !keeps_windows(joins, gap)) return;
-        if (looks_aboard(linked_) &&
-            !has_room_between(data_, linked_, joins.slot, data_.type[joins.type], gap.before,
-                              gap.behind, newcomer_.node)) {
-            return;
-        }
-        if (uniform(searcher_.rng) < data_.strategy.blink) return;
-        Move& move = searcher_.scratch->move;
-        move.kind = at_stop;
-        move.slot = joins.slot;
-        move.first = gap.before;
-        move.type = joins.type;
-        best_ = cost;
-        set_longest_detour();
+    void try_between(const LinkedJoining& joins, const Gap& gap) {
+        const auto may_come = [&] {
+            return (!linked_.timed || keeps_windows(joins, gap)) &&
+                   (!looks_aboard(linked_) ||
+                    has_room_between(data_, linked_, joins.slot, data_.type[joins.type], gap.before,
+                                     gap.behind, newcomer_.node));
+        };
+        if (best_.try_behind(joins, gap.before, gap.detour, may_come)) set_longest_detour();
     }
 
     // Tries a customer first and last on a route.
-    void try_ends(const Joining& joins) {
+    void try_ends(const LinkedJoining& joins) {
         const Run& run = linked_.run[joins.slot];
         const VehicleType& type = data_.type[run.type];
         const Link& first = linked_.link[run.first];
         const Link& last = linked_.link[run.last];
-        try_between(joins, between(*joins.ways, type.begins_at, run.first, first.inward));
-        try_between(joins, between(*joins.ways, run.last, type.ends_at, last.onward));
+        try_between(joins, between(joins, type.begins_at, run.first, first.inward));
+        try_between(joins, between(joins, run.last, type.ends_at, last.onward));
     }
 
     const ProblemData& data_;
-    Searcher& searcher_;
+    const Searcher& searcher_;
     const Linked& linked_;
-    const Newcomer& newcomer_;
+    const Newcomer newcomer_;  // as all vehicles, or those of the first type, meet him
+    const bool enlarge_;
+    const bool is_near_known_;  // `Linked::near` tells legs there and back
     const Room room_;
-    double best_;
+    Best& best_;
     Int longest_detour_ = far;
-    Ways ways_;  // of whom `ways_by` was asked last, where they differ
+    Newcomer other_;  // as whom `newcomer_by` was asked for last meets him, where they differ
 };
 
-// Inserts a customer where `searcher.scratch->move` says. False if no slot is free.
-bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int node) {
-    const Move& move = searcher.scratch->move;
+// Inserts a customer as a move says. False if no slot is free.
+bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int node,
+                   const Move& move) {
     Int slot = move.slot;
     Int before = move.first;
     if (opens_route(move)) {
@@ -381,19 +337,6 @@ bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, 
     return true;
 }
 
-// Finds the cheapest place for a customer, a route of his own alone if he has to open one; returns
-// what it costs.
-double find_linked(const ProblemData& data, Searcher& searcher, const Linked& linked,
-                   const Newcomer& newcomer, bool opens) {
-    Places places(data, searcher, linked, newcomer, try_new_route(data, searcher, newcomer.node));
-    if (!opens) {
-        places.try_beside();
-        places.try_passing();
-    }
-    if (places.best() == infeasible) places.try_everywhere();
-    return places.best();
-}
-
 }  // namespace
 
 Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
@@ -406,17 +349,24 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
         if (data.deadline.passed()) return {false, total};
-        const Newcomer newcomer = newcomer_at(data, linked, node, enlarge);
         const bool opens = opening && index == first;
-        const double cost = find_linked(data, searcher, linked, newcomer, opens);
+        Best best{data.strategy.blink, searcher.rng};
+        try_new_route(data, searcher, node, best);
+        Places places({data, searcher, node, enlarge, best}, linked);
+        if (!opens) {
+            places.try_beside();
+            places.try_passing();
+        }
+        if (best.cost == infeasible) places.try_everywhere();
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
-        const bool wanted = cost < left_out || opens;
-        if (cost != infeasible && wanted && insert_linked(data, searcher, linked, node)) {
-            total += cost;
+        const bool wanted = best.cost < left_out || opens;
+        if (best.cost != infeasible && wanted &&
+            insert_linked(data, searcher, linked, node, best.move)) {
+            total += best.cost;
         } else {
             absent[left++] = node;
         }
-        spare -= std::min(cost, left_out);
+        spare -= std::min(best.cost, left_out);
         if (spare < 0.0) return {false, total};
     }
     searcher.count->absent = left;

@@ -75,9 +75,8 @@ bool open_route(const ProblemData& data, const Searcher& searcher, Int node, Int
     return true;
 }
 
-// Inserts a customer where the move says. False if that breaks a rule.
-bool insert(const ProblemData& data, const Searcher& searcher, Int node) {
-    const Move& move = searcher.scratch->move;
+// Inserts a customer as a move says. False if that breaks a rule.
+bool insert(const ProblemData& data, const Searcher& searcher, Int node, const Move& move) {
     const Fleet& now = searcher.now;
     if (opens_route(move)) {
         return open_route(data, searcher, node, move.type, move.kind == new_flight);
@@ -148,30 +147,31 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
             continue;
         }
         const bool opens = opens_first && index == first;
-        double cost = infeasible;
+        Best best{data.strategy.blink, searcher.rng};
+        const Insertion insertion{data, searcher, node, enlarge, best};
         Int tried = 0;
         if (opens) {
-            cost = try_new_route(data, searcher, node);
+            try_new_route(data, searcher, node, best);
         } else if (!scan_all) {
-            cost = find_beside(data, searcher, node, enlarge);
+            find_beside(insertion);
             if (several_trips(searcher) &&
-                (opens_route(searcher.scratch->move) || uniform(searcher.rng) < more_trips)) {
+                (opens_route(best.move) || uniform(searcher.rng) < more_trips)) {
                 tried = drawn_for_trips;
             }
         }
-        if (cost == infeasible) {
-            cost = find_place(data, searcher, node, enlarge);
-            if (data.general && (cost == infeasible || uniform(searcher.rng) < more_trips)) {
+        if (best.cost == infeasible) {
+            find_place(insertion);
+            if (data.general && (best.cost == infeasible || uniform(searcher.rng) < more_trips)) {
                 tried = count.active;
             }
         }
-        if (tried > 0) cost = try_trips(data, searcher, node, tried);
+        if (tried > 0) try_trips(insertion, tried);
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
-        const bool wanted = cost < left_out || opens;
-        if (cost == infeasible || !wanted || !insert(data, searcher, node)) {
+        const bool wanted = best.cost < left_out || opens;
+        if (best.cost == infeasible || !wanted || !insert(data, searcher, node, best.move)) {
             absent[left++] = node;
         }
-        spare -= std::min(cost, left_out);
+        spare -= std::min(best.cost, left_out);
         if (spare < 0.0) return false;
     }
     count.absent = left;

@@ -10,7 +10,7 @@ from model.kernel.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.route.engine import ANY, BY_FAR, anneal
+from model.search.route.engine import ANY, BY_FAR, INFEASIBLE, anneal
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
@@ -117,7 +117,7 @@ def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float
         if demand[nodes].sum() + demand[node] <= kind.capacity[0]:
             for a, b in ((nodes[p - 1], other), (other, nodes[p + 1])):
                 least = min(least, float(legs[a, node] + legs[node, b] - legs[a, b]))
-    return least * rate.distance + rate.stop
+    return min(INFEASIBLE, least * rate.distance + rate.stop)
 
 
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
@@ -129,9 +129,9 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
         left_out = now.stop[slot, 1: now.route[slot].length - 1]["node"].tolist()
         now.where["slot"][left_out] = NOWHERE
         for node in left_out:
-            cost = call("tandem_scan_beside_lean", data, searcher, node, np.inf, False)
+            cost = call("tandem_cost_beside", data, searcher, node)
             assert cost == pytest.approx(beside_neighbours(data, searcher, node))
-            found += cost < np.inf
+            found += cost < INFEASIBLE
         now.where["slot"][left_out] = slot
     assert found > SOME / 20
 

@@ -1,0 +1,56 @@
+// The cheapest place for a customer, as far as places were tried.
+#pragma once
+
+#include "randomness.h"
+#include "search/insertion/evaluate.h"
+#include "search/route/edit.h"
+
+namespace tandem {
+
+// Which route a customer joins, by which type, what driving costs that, and what all costs but for
+// the detour.
+struct Joining {
+    Int slot;
+    Int type;
+    double rate;
+    double cost;
+};
+
+struct Best {
+    double blink;  // how often a place is overlooked that costs less than the best
+    View<std::uint64_t, 1> rng;
+    double cost = infeasible;
+    Move move{};
+
+    // Takes a place for the best, for the caller to say which, if it costs less and isn't
+    // overlooked. Of those that cost the same, the first is the best.
+    bool takes(double other) {
+        if (other >= cost || uniform(rng) < blink) return false;
+        cost = other;
+        return true;
+    }
+
+    // Takes the place behind `before` if that is the best and the customer may come there, which is
+    // asked last.
+    template <class MayCome>
+    bool try_behind(const Joining& joins, Int before, Int further, const MayCome& may_come) {
+        const double other = double(further) * joins.rate + joins.cost;
+        if (other >= cost || !may_come() || !takes(other)) return false;
+        move.kind = at_stop;
+        move.slot = joins.slot;
+        move.first = before;
+        move.type = joins.type;
+        return true;
+    }
+};
+
+// Who is to be inserted into routes, and the best place so far.
+struct Insertion {
+    const ProblemData& data;
+    const Searcher& searcher;
+    Int node;
+    bool enlarge;  // a route may be given a larger type
+    Best& best;
+};
+
+}  // namespace tandem
