@@ -12,7 +12,7 @@ from model.problem import UNLIMITED
 def evaluate(instance: Instance) -> Records:
     """Return how routes are evaluated, (row,) as `tandem_evaluation` says, of a packed problem.
 
-    `docs/develop/route-times.md` has a table of what each rule does.
+    `docs/develop/by-problem.md` has a table of what each rule does.
     """
     place, types, rates = instance.node[0], instance.type[0], instance.rate[0]
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))

@@ -1,6 +1,6 @@
 """How a problem is searched: which moves there are, and where insertion looks.
 
-`docs/develop/search.md` has a table of what kinds of problems let the search do.
+`docs/develop/by-problem.md` has a table of what kinds of problems let the search do.
 """
 
 from dataclasses import dataclass

@@ -10,7 +10,7 @@ from tests.model.search.stated_rules import plain, stating
 ASPECTS = ("timed", "priced", "held back", "retimed", "by detour")
 
 
-@pytest.mark.parametrize(("stated", "told"), table("route-times.md", "timed").items())
+@pytest.mark.parametrize(("stated", "told"), table("by-problem.md", "timed").items())
 def test_routes_are_evaluated_as_the_page_says(stated: str, told: dict[str, str]) -> None:
     problem = stating([] if stated == "nothing" else stated.split(", "), plain())
     evaluation = make_data(problem, pack([problem])).evaluation[0]

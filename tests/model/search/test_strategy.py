@@ -32,7 +32,7 @@ def searched(kind: str, moves: Moves = ALL_MOVES) -> ProblemData:
     return make_data(problem, pack([problem], legs=False), moves)
 
 
-@pytest.mark.parametrize(("kind", "told"), table("search.md", LINKED).items())
+@pytest.mark.parametrize(("kind", "told"), table("by-problem.md", LINKED).items())
 def test_the_search_does_what_the_page_says(kind: str, told: dict[str, str]) -> None:
     data = searched(kind)
     done = {name: bool(getattr(data.strategy, name.replace(" ", "_"))) for name in CHOSEN}
@@ -41,7 +41,7 @@ def test_the_search_does_what_the_page_says(kind: str, told: dict[str, str]) -> 
 
 
 def test_the_pages_tell_of_each_rule() -> None:
-    told = {rule for page in (("search.md", LINKED), ("route-times.md", "timed"))
+    told = {rule for page in (("by-problem.md", LINKED), ("by-problem.md", "timed"))
             for kind in table(*page) for rule in kind.split(", ")}
     assert set(RULES) <= told
 
