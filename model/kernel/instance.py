@@ -40,6 +40,9 @@ FAR, NONE = 2**58, -2**58
 
 ANY, LAST, BEGUN = range(3)
 
+WORK_RATES = "time", "overtime"
+"""The rates per hour of what a vehicle's work costs."""
+
 NO_PROFILE = -1
 NO_DRONES = (0,) * 8
 
@@ -164,7 +167,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem,
         worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
         instance.rate[row, index] = (
             kind.fixed_cost + worked, kind.cost_per_km, kind.cost_per_stop, kind.cost_per_hour,
-            kind.overtime.cost_per_hour if kind.overtime else 0.0,
+            _overtime_rate(kind),
             drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0,
             kind.cost_per_load_km / 10**problem.amount_decimals[0])
         if kind.speed_profile is not None:
@@ -254,6 +257,12 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         *battery_row(energy), _pickup_order(kind), load[0], _padded(free, room),
         _padded(() if drones is None else drones.capacity, room), *powers_row(energy),
         full_row(energy, MOST_DRONES))
+
+
+def _overtime_rate(kind: VehicleType) -> float:
+    """Return what an hour of overtime costs; nothing where there can't be any."""
+    has_limit = kind.latest < UNLIMITED or kind.max_working_duration is not None
+    return kind.overtime.cost_per_hour if kind.overtime and has_limit else 0.0
 
 
 def _pickup_order(kind: VehicleType) -> int:

@@ -189,6 +189,11 @@ class VehicleType:
         return self.drone_types[self.drone_index(number)] if self.more_drones else self.drones
 
     @property
+    def dearest_hour(self) -> float:
+        """What an hour of work costs at most."""
+        return self.cost_per_hour + (self.overtime.cost_per_hour if self.overtime else 0.0)
+
+    @property
     def type_id(self) -> str:
         """The id of the type of which these are some vehicles, or all."""
         return self.id if self.part_of is None else self.part_of

@@ -4,7 +4,7 @@ import numpy as np
 
 from model.engine.library import dtype_of
 from model.kernel.drone_types import any_aboard
-from model.kernel.instance import FAR, NO_PROFILE, Instance
+from model.kernel.instance import FAR, NO_PROFILE, WORK_RATES, Instance
 from model.kernel.records import Records
 from model.problem import UNLIMITED
 
@@ -17,8 +17,7 @@ def evaluate(instance: Instance) -> Records:
     place, types, rates = instance.node[0], instance.type[0], instance.rate[0]
     late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
     soft = bool((place["arrival_limit"] == FAR).any()) and late
-    over = np.minimum(types["usual_end"], types["usual_working"]) < UNLIMITED
-    costly = (rates["time"] > 0) | ((rates["overtime"] > 0) & over)
+    costly = np.any([rates[name] > 0 for name in WORK_RATES], axis=0)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
     retimed = retimed | any_aboard(types, (types["charge"] > 0) & (types["drones"] > 0))

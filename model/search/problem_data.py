@@ -5,7 +5,7 @@ from collections.abc import Hashable
 import numpy as np
 
 from model.kernel.alarm import Alarm
-from model.kernel.instance import Instance
+from model.kernel.instance import WORK_RATES, Instance
 from model.kernel.leg import are_the_same_back
 from model.kernel.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
@@ -50,7 +50,8 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),
         evaluation=evaluation, reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),
-        swap=swap, splice=_splices(problem, swap), leg=neighbourhood.leg, back=neighbourhood.back,
+        swap=swap, splice=_splices(problem, instance.rate[0], swap),
+        leg=neighbourhood.leg, back=neighbourhood.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=neighbourhood.near, fit=neighbourhood.fit,
         deadline=Alarm().setting if deadline is None else deadline,
@@ -60,11 +61,10 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
 def _per_unit(rates: Records) -> Records:
     """Return rates per mm and per ms."""
     rate = rates.copy()
-    for name, unit in (("distance", MM_PER_KM), ("time", MS_PER_HOUR)):
-        for field in (name, f"drone_{name}"):
-            rate[field] = rates[field] / unit
-    rate["overtime"] = rates["overtime"] / MS_PER_HOUR
-    rate["load"] = rates["load"] / MM_PER_KM
+    for name in ("distance", "drone_distance", "load"):
+        rate[name] = rates[name] / MM_PER_KM
+    for name in (*WORK_RATES, "drone_time"):
+        rate[name] = rates[name] / MS_PER_HOUR
     return rate
 
 
@@ -138,9 +138,9 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
 def _swaps(problem: Problem, types: Records, evaluation: Records) -> BoolArray:
     """Mark the pairs of types whose vehicles may drive each other's routes."""
     table = problem.may_serve
-    group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest, kind.latest,
-                        kind.overtime, kind.skills, kind.pickups, kind.has_delivered,
-                        int(types["variant"][index]),
+    group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest,
+                        int(types["shift_latest"][index]), kind.skills, kind.pickups,
+                        kind.has_delivered, int(types["variant"][index]),
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
     lean = evaluation["lean"][:len(group)]
@@ -155,15 +155,17 @@ def _numbered(keys: list[Hashable]) -> IntArray:
     return np.array([numbers.setdefault(key, len(numbers)) for key in keys])
 
 
-def _splices(problem: Problem, swap: BoolArray) -> BoolArray:
+def _splices(problem: Problem, rates: Records, swap: BoolArray) -> BoolArray:
     """Mark the pairs of types whose vehicles may end each other's routes.
 
     They hold and cost the same, so that distance tells what that saves.
     """
     kinds = problem.vehicle_types
-    group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.cost_per_km,
-                        kind.cost_per_hour, kind.cost_per_stop, kind.cost_per_load_km,
-                        kind.pickups, kind.overtime) for kind in kinds])
+    # What a vehicle has worked before it may begin costs as if it were fixed.
+    names = [name for name in rates.dtype.names or () if name != "fixed"]
+    group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.pickups,
+                        tuple(rates[names][index].tolist()))
+                       for index, kind in enumerate(kinds)])
     plain = np.array([kind.drones is None and kind.max_trips == 1 for kind in kinds])
     splices: BoolArray = (group[:, None] == group) & plain & plain[:, None]
     return splices | swap

@@ -53,9 +53,8 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
     """
     slowest = min(kind.speed_profile.factors) / FULL_SPEED if kind.speed_profile else 1.0
     kilometres, hours = longest[kind.travel]
-    per_hour = kind.cost_per_hour + (kind.overtime.cost_per_hour if kind.overtime else 0.0)
     cost = (kind.fixed_cost + kind.cost_per_stop + 2 * kilometres * kind.cost_per_km
-            + (2 * hours / slowest + other_hours) * per_hour)
+            + (2 * hours / slowest + other_hours) * kind.dearest_hour)
     for drones in kind.drone_types:
         kilometres, hours = longest[drones.travel]
         cost += (2 * kilometres * drones.cost_per_km

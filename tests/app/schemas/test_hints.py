@@ -5,6 +5,8 @@ from typing import Any
 import httpx
 import pytest
 
+from app.schemas.vehicle import CostsInput
+
 Request = dict[str, Any]
 
 WRONG: dict[str, tuple[tuple[Any, ...], Any, str, str]] = {
@@ -16,7 +18,7 @@ WRONG: dict[str, tuple[tuple[Any, ...], Any, str, str]] = {
     "in a list": (("customers", 0, "time_windows"), [{"erliest": 0}], "[0].erliest",
                   "Did you mean earliest?"),
     "few fields": (("fleet", 0, "costs"), {"petrol": 1}, ".petrol",
-                   "The fields here are fixed, per_hour, per_km, per_load_km, per_stop."),
+                   f"The fields here are {', '.join(sorted(CostsInput.model_fields))}."),
     "a word": (("coordinate_system",), "Geographic", "", "Did you mean 'geographic'?"),
     "no list": (("customers", 0, "demand"), 10, "", "write [10]."),
     "no list of words": (("customers", 0, "skills"), "cooled", "", 'write ["cooled"].'),

@@ -67,8 +67,8 @@ def _cheapest_route(problem: Problem, kind: int, nodes: Nodes) -> float:
         broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
         cost = evaluation.cost
         # A later start saves nothing but time and waiting.
-        if (broken <= {"WORKING_DURATION"}
-                and cost.total - cost.time - cost.overtime - cost.earliness < best):
+        driven = cost.fixed + cost.distance + cost.stops
+        if broken <= {"WORKING_DURATION"} and driven + cost.lateness < best:
             best = min(best, _cost_begun_late(problem, decision, soon))
     return best
 
