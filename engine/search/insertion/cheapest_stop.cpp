@@ -137,14 +137,16 @@ void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int 
         } else if (leave > here.latest) {
             return;
         }
-        if (newcomer.place.too_late(leave)) return;
         if (p < first) continue;
         const Int further = newcomer.further(here.node, behind.node, here.leg);
+        bool over = false;  // as soon as whoever leaves here comes too late
         best.try_behind(joins, p, further, [&] {
-            return further <= spare && p != skipped && room_behind(room, p) &&
+            over = newcomer.place.too_late(leave);
+            return !over && further <= spare && p != skipped && room_behind(room, p) &&
                    newcomer.comes_between(here.node, leave, behind.node, behind.latest) &&
                    (!timed || price_stop(data, fleet, slot, p, newcomer) < infeasible);
         });
+        if (over) return;
     }
 }
 

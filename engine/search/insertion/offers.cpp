@@ -123,7 +123,8 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
 }  // namespace
 
 void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const double best = found.cost;
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
@@ -134,19 +135,20 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     for (Int p = first; p <= last; ++p) {
         const Stop &here = stops[p], &behind = stops[p + 1];
         const Detour detour = newcomer.detour(here.node, behind.node, here.leg);
-        double cost = least.between(here, behind, detour, best.cost);
-        if (cost < best.cost && loads_cost(data, k)) {
+        double cost = least.between(here, behind, detour, best);
+        if (cost < best && loads_cost(data, k)) {
             cost +=
                 load_more_behind(data, now, slot, p, node, detour.out.distance, detour.on.distance);
         }
-        if (cost < best.cost && detour.distance <= most && room_behind(room, p)) {
+        if (cost < best && detour.distance <= most && room_behind(room, p)) {
             add_offer(searcher, cost, at_stop, slot, p);
         }
     }
 }
 
 void offer_joining(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const double best = found.cost;
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
     const View<const Stop, 1> stops = now.stop[slot];
@@ -173,7 +175,7 @@ void offer_joining(const Insertion& insertion, Int slot) {
                                 leg(flights, here, there).distance;
             const double cost = flown_cost(data.rate[row], further) - now.early[slot];
             here = there;
-            if (cost >= best.cost) continue;
+            if (cost >= best) continue;
             if (place > 0 && tiers_of(data) > 0) {
                 may_carry = can_carry(data, row, sortie, place, node);
             }
@@ -208,7 +210,8 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
 }
 
 void offer_trips(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const double best = found.cost;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
@@ -237,21 +240,21 @@ void offer_trips(const Insertion& insertion, Int slot) {
                 kind = trip_until;
                 cost = until;
             }
-            if (cost < best.cost && !part_fits(data, now, slot, p, node, kind == trip_until))
-                continue;
+            if (cost < best && !part_fits(data, now, slot, p, node, kind == trip_until)) continue;
         }
         cost += data.rate[k].stop - now.early[slot];
         // Each of two trips carries less, at best next to nothing.
         if (kind != new_trip && loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;
-        if (cost < best.cost && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
+        if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
             add_offer(searcher, cost, kind, slot, p);
         }
     }
 }
 
 void offer_trips_apart(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const double best = found.cost;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const View<const Stop, 1> stops = now.stop[slot];
@@ -289,7 +292,7 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
         // Whoever was served may be carried less far, at best next to nowhere.
         if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;
-        if (cost < best.cost) add_offer(searcher, cost, kind, slot, p);
+        if (cost < best) add_offer(searcher, cost, kind, slot, p);
     }
 }
 

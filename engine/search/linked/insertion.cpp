@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "randomness.h"
 #include "rules/leg.h"
@@ -94,8 +95,7 @@ public:
           enlarge_(insertion.enlarge),
           is_near_known_(linked.one_travel && are_same(newcomer_.inward, newcomer_.onward)),
           room_(data_, insertion.node, enlarge_),
-          best_(insertion.best),
-          other_(newcomer_) {
+          best_(insertion.best) {
         set_longest_detour();
     }
 
@@ -259,8 +259,7 @@ private:
     // The customer as vehicles of a type meet him; until that is asked again.
     const Newcomer* newcomer_by(Int k) {
         if (linked_.one_travel && data_.place.variants() == 1) return &newcomer_;
-        other_ = newcomer_for(data_, data_.type[k], newcomer_.node);
-        return &other_;
+        return &other_.emplace(newcomer_for(data_, data_.type[k], newcomer_.node));
     }
 
     [[gnu::noinline]] bool may_join_enlarged(Int slot, LinkedJoining& joins) {
@@ -313,7 +312,8 @@ private:
     const Room room_;
     Best& best_;
     Int longest_detour_ = far;
-    Newcomer other_;  // as whom `newcomer_by` was asked for last meets him, where they differ
+    // As vehicles of the type meet him that `newcomer_by` was asked for last, where they differ.
+    std::optional<Newcomer> other_;
 };
 
 // Inserts a customer as a move says. False if no slot is free.
