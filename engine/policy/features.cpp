@@ -149,7 +149,7 @@ void describe_drive(const Situation& now, Int node, ActionFeatures& feature) {
     const Int way = setting.drive(here, node), way_home = setting.drive(node, home);
     const Int used = vehicle.distance + distance(here, node) + distance(node, home);
     feature.distance_slack =
-        to_float(slack(type.max_trip_distance, used, static_cast<double>(distance(home, node))));
+        to_float(slack(longest_trip(type), used, static_cast<double>(distance(home, node))));
     const double detour =
         static_cast<double>(way + way_home - setting.drive(here, home)) / unit.time;
     feature.detour = to_float(std::max(std::min(detour, furthest), -furthest));

@@ -59,11 +59,26 @@ inline bool is_dearer(const Rate& rate, const PaidWork& work) {
     return rate.overtime > 0.0 && work.overtime > 0;
 }
 
+// The last end of a vehicle's work, with overtime.
+inline Int last_end(const VehicleType& type) { return type.shift_latest; }
+
+// The longest working duration, with overtime.
+inline Int longest_work(const VehicleType& type) { return type.max_working_duration; }
+
+// Whether a vehicle's work may end at `end`.
+inline bool may_end(const VehicleType& type, Int end) { return end <= last_end(type); }
+
+// Whether a vehicle may work so long.
+inline bool may_work(const VehicleType& type, Int working) { return working <= longest_work(type); }
+
 // When the shift ends without overtime.
 inline Int usual_end(const VehicleType& type) { return type.usual_end; }
 
 // The longest working duration without overtime.
 inline Int usual_working(const VehicleType& type) { return type.usual_working; }
+
+// How far the truck may drive on a trip.
+inline Int longest_trip(const VehicleType& type) { return type.max_trip_distance; }
 
 // How many customers the truck may serve itself on a trip, `unlimited` if any number.
 inline Int most_stops(const VehicleType& type) { return type.max_stops; }

@@ -207,7 +207,7 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
 
 bool order_is_open(const Setting& setting, const Vehicle& vehicle) {
     return are_several(setting.type) && vehicle.flying > 0 &&
-           setting.type.max_working_duration < unlimited;
+           longest_work(setting.type) < unlimited;
 }
 
 Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,

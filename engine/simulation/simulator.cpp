@@ -24,9 +24,9 @@ enum class Verdict { no, yes, unsure };
 //
 // `rigid` tells that the vehicle could not leave later than `departure` without ending later.
 Verdict judge_end(const Setting& setting, Int end, Int departure, bool rigid) {
-    if (end > setting.type.shift_latest) return Verdict::no;
+    if (!may_end(setting.type, end)) return Verdict::no;
     const Int working = end - counted_from(setting.type, departure);
-    if (working <= setting.type.max_working_duration) return Verdict::yes;
+    if (may_work(setting.type, working)) return Verdict::yes;
     return rigid || has_begun(setting.type) ? Verdict::no : Verdict::unsure;
 }
 
@@ -129,7 +129,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
     const Int here = vehicle.node;
     const Int home = setting.type.ends_at;
-    const Int reach = setting.type.max_trip_distance - vehicle.distance;
+    const Int reach = longest_trip(setting.type) - vehicle.distance;
     const Int began = is_idle ? 0 : log.trip[trips - 1].start;
     const Room room = room_of(open);
     std::optional<Int> earliest;

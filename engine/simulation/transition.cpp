@@ -6,6 +6,7 @@
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
 #include "simulation/cost.h"
@@ -176,7 +177,7 @@ OpenVehicle open_vehicle_of(const Instance& instance, Int b, const State& state,
 
 void improve_departure(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
-    if (setting.type.max_working_duration < unlimited) {
+    if (longest_work(setting.type) < unlimited) {
         vehicle.start_best = latest_start(setting, log, 0, vehicle.start_best);
     }
     vehicle.departure_best = first_departure(setting, log, vehicle.start_best);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "simulation/transition.h"
 #include "simulation/vehicle_log.h"
 
@@ -32,7 +33,7 @@ void copy_vehicle(State& state, Int r, Int to) {
 bool works_within(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
     const Int start = start_within_work(setting, log, vehicle.start_best);
-    return vehicle.free - first_departure(setting, log, start) <= setting.type.max_working_duration;
+    return may_work(setting.type, vehicle.free - first_departure(setting, log, start));
 }
 
 }  // namespace
@@ -53,7 +54,7 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     } else {
         outlook = {log.stop[here].arrival, log.stop[here].start, vehicle.free};
     }
-    return vehicle.free <= setting.type.shift_latest && works_within(open);
+    return may_end(setting.type, vehicle.free) && works_within(open);
 }
 
 bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
@@ -64,7 +65,7 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     const VehicleType& type = instance.type(b, k);
     const View<const Int, 2> legs = instance.distance[b][type.travel];
     const Int home = type.ends_at;
-    const Int reach = type.max_trip_distance;
+    const Int reach = longest_trip(type);
     if (vehicle.distance + legs(vehicle.node, place) > reach) return false;
     const Size& size = instance.size[b];
     const View<const Goods, 1> goods = instance.goods[b];

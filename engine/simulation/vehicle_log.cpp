@@ -7,6 +7,7 @@
 #include "rules/energy.h"
 #include "rules/flight.h"
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 
 namespace tandem {
@@ -279,7 +280,7 @@ Int start_to_depart(const Setting& setting, const VehicleLog& log, Int departure
 
 Int start_within_work(const Setting& setting, VehicleLog& log, Int known) {
     if (has_begun(setting.type)) return known;
-    const Int needed = log.stop[log.count.stops - 1].leave - setting.type.max_working_duration;
+    const Int needed = log.stop[log.count.stops - 1].leave - longest_work(setting.type);
     if (first_departure(setting, log, known) >= needed) return known;
     const Int later = start_to_depart(setting, log, needed);
     return costs_nothing(setting, log, 0, later) ? later : known;

@@ -58,7 +58,7 @@ void begun_at(const tandem_vehicle_type* type, int64_t time, int64_t* found) {
 void worked_until(const tandem_vehicle_type* type, int64_t departure, int64_t end, int64_t stops,
                   int64_t* found) {
     const Int working = end - counted_from(*type, departure);
-    const bool allowed = end <= type->shift_latest && working <= type->max_working_duration;
+    const bool allowed = may_end(*type, end) && may_work(*type, working);
     write(found, {paid_work(*type, end, working).overtime, allowed, allows_stops(*type, stops)});
 }
 

@@ -66,7 +66,7 @@ void set_up_chain(const Chains& chains, Int node) {
     const auto& [type, legs, places, chain] = chains;
     const Windows place = places[node];
     const Int ready = std::max(leaves_first(type, type.shift_earliest), release_of(place));
-    const Int leave = type.shift_latest - leg(legs, node, type.ends_at).duration;
+    const Int leave = last_end(type) - leg(legs, node, type.ends_at).duration;
     chain[node] = {
         .before = nowhere,
         .behind = nowhere,
@@ -236,7 +236,7 @@ void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, Vi
         const Int length = head.length + chain[b].length;
         if (joint.head == b || !allows_stops(type, length) ||
             !may_join(type, cargo[joint.head], cargo[b]) ||
-            working(chains, joint) > type.max_working_duration) {
+            !may_work(type, working(chains, joint))) {
             continue;
         }
         head.busy += way + chain[b].busy;

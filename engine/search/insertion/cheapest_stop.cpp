@@ -5,6 +5,7 @@
 
 #include "guard.h"
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "search/insertion/newcomer.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
@@ -120,7 +121,7 @@ void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int 
     const Trip& trip = fleet.trip(slot, stops[first].trip);
     const Newcomer newcomer = newcomer_for(data, type, node);
     const Room room = room_on(data, fleet, slot, joins.type, node);
-    const Int spare = type.max_trip_distance - trip.distance;
+    const Int spare = longest_trip(type) - trip.distance;
     const bool timed = data.evaluation[k].timed;
     // If the trip has to wait for the parcel, it leaves all its stops later.
     const Int release = release_of(newcomer.place);

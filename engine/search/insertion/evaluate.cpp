@@ -7,6 +7,7 @@
 #include "rules/drone_types.h"
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/block.h"
@@ -171,7 +172,7 @@ double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part pa
         finish = std::max(arrival + behind.rest, behind.end);
     }
     const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
-    if (working > type.max_working_duration) return infeasible;
+    if (!may_work(type, working)) return infeasible;
     for (Int p = part.first; p < part.last; ++p) driven -= old[p].leg;
     double cost = double(driven) * data.rate[k].distance +
                   longer_cost(type, data.rate[k], route, finish, working);
@@ -342,7 +343,7 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
         cum += behind.rest;
     }
     const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
-    if (working > type.max_working_duration) return infeasible;
+    if (!may_work(type, working)) return infeasible;
     return cost + data.rate[k].stop + longer_cost(type, data.rate[k], route, finish, working);
 }
 

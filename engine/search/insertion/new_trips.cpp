@@ -108,7 +108,7 @@ bool split_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
     const Leg home = leg(legs, here, type.depot);
     time += home.duration;
     front_length += home.distance;
-    if (time > type.shift_latest) return false;
+    if (!may_end(type, time)) return false;
     time = std::max(time + type.reload_duration, rear);
     here = type.depot;
     if (!until) {
@@ -120,7 +120,7 @@ bool split_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
     const Leg on = leg(legs, here, there);
     rear_length += on.distance;
     return time + on.duration <= stops[p + 1].latest &&
-           std::max(front_length, rear_length) <= type.max_trip_distance;
+           std::max(front_length, rear_length) <= longest_trip(type);
 }
 
 // Tells whether a customer can be served by a trip of its own behind stop `p`, or -1.
@@ -135,7 +135,7 @@ bool trip_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int
     const Leg out = leg(legs, type.depot, node), home = leg(legs, node, type.depot);
     time = serve_at(places, node, time + out.duration) + home.duration;
     if (p + 1 < route.length && time + type.reload_duration > stops[p + 1].latest) return false;
-    return time <= type.shift_latest && out.distance + home.distance <= type.max_trip_distance;
+    return may_end(type, time) && out.distance + home.distance <= longest_trip(type);
 }
 
 }  // namespace

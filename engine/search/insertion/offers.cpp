@@ -131,7 +131,7 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const Newcomer newcomer = newcomer_for(data, data.type[k], node);
     const Room room = room_on(data, now, slot, k, node);
     const LeastCost least{data, newcomer, k, idle_time(now.route[slot]), now.early[slot]};
-    const Int most = data.type[k].max_trip_distance - now.trip(slot, stops[first].trip).distance;
+    const Int most = longest_trip(data.type[k]) - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
         const Stop &here = stops[p], &behind = stops[p + 1];
         const Detour detour = newcomer.detour(here.node, behind.node, here.leg);

@@ -1,6 +1,7 @@
 // Stops that come into routes and go out of them, and back again.
 #pragma once
 
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "search/linked/layout.h"
 
@@ -33,7 +34,7 @@ inline Int leaves_at(const ProblemData& data, const Linked& linked, const Vehicl
 // When a vehicle of a type has to come to a customer, or home, at the latest.
 inline Int due_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
                   Int node) {
-    return node >= data.num_depots ? linked.link[node].latest : type.shift_latest;
+    return node >= data.num_depots ? linked.link[node].latest : last_end(type);
 }
 
 // Brings departures from a customer on up to date, of so many even if none changes.

@@ -4,6 +4,7 @@
 
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "rules/window.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
@@ -53,7 +54,7 @@ bool drives_in_time(const ProblemData& data, const Linked& linked, Int k, Int be
         before = node;
         node = linked.link[node].behind;
     }
-    return time + leg(legs, before, type.ends_at).duration <= type.shift_latest;
+    return may_end(type, time + leg(legs, before, type.ends_at).duration);
 }
 
 // How much longer a route's last leg is to where routes of type `k` end.

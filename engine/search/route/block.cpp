@@ -4,6 +4,7 @@
 
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/shift.h"
 #include "search/route/batteries.h"
 
 namespace tandem {
@@ -273,8 +274,8 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
         stop.latest = far;
         stop.early = none;
         if (stop.kind == end_stop) {
-            if (c > type.shift_latest) return -1;
-            sums.hi = std::min(sums.hi, type.shift_latest - d);
+            if (!may_end(type, c)) return -1;
+            sums.hi = std::min(sums.hi, last_end(type) - d);
         }
         if (sums.flying == 0) break;
         if (stop.kind == end_stop || p + 1 >= length) return -1;

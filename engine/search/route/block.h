@@ -7,6 +7,7 @@
 
 #include "rules/clock.h"
 #include "rules/leg.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/drone_data.h"
@@ -95,7 +96,7 @@ struct Truck {
             stop.hi = place.latest_allowed();
             stop.dep = place.in_same_window(time);
         } else if (stop.kind == end_stop) {
-            stop.hi = type.shift_latest;
+            stop.hi = last_end(type);
         }
     }
 };

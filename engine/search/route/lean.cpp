@@ -2,6 +2,7 @@
 
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/rarer.h"
@@ -73,7 +74,7 @@ bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
     }
     stops[last].leg = stops[last].gap = 0;
     if (!may_make(type, trip)) return false;
-    Int latest = type.shift_latest;
+    Int latest = last_end(type);
     stops[last].latest = latest;
     for (Int p = last - 1; p > 0; --p) {
         latest = places[stops[p].node].latest_arrival(latest - stops[p].gap);
@@ -82,7 +83,7 @@ bool refresh_lean(const ProblemData& data, const Fleet& fleet, Int slot) {
     stops[0].latest = latest - stops[0].gap;
     fleet.cost[slot] = route_cost(data, k, haul_of(trip));
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
-    return time <= type.shift_latest;
+    return may_end(type, time);
 }
 
 void insert_lean(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {

@@ -4,6 +4,7 @@
 
 #include "randomness.h"
 #include "rules/clock.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/ends.h"
@@ -94,7 +95,7 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
                  View<const Sortie, 1> sorties) {
     if (route.sorties == 0) return false;
     const Int soonest = settled_departure(data, route, stops, sorties);
-    return route.end - soonest > data.type[route.type].max_working_duration;
+    return !may_work(data.type[route.type], route.end - soonest);
 }
 
 // Write times and cost of a route that isn't lean, with trips that end where they do. In place;
@@ -123,7 +124,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
         departure = settled_departure(data, route, stops, sorties);
     }
     route.working = route.end - departure;
-    if (route.working > type.max_working_duration) return false;
+    if (!may_work(type, route.working)) return false;
     const auto [cost, early] = price_route(data, route, stops, trips, sorties);
     fleet.cost[slot] = cost;
     if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);

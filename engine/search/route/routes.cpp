@@ -5,6 +5,7 @@
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/leg.h"
+#include "rules/shift.h"
 #include "rules/start.h"
 #include "search/route/block.h"
 #include "search/route/ends.h"
@@ -38,7 +39,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         if (stop.kind == end_stop) {
             trip.last = p;
             stops[trip.first].release = trip.release;
-            if (trip.distance > type.max_trip_distance || !may_make(type, trip) ||
+            if (trip.distance > longest_trip(type) || !may_make(type, trip) ||
                 !allows_sorties(type, s - flown) ||
                 !have_batteries(data.type, k, sorties, flown, s)) {
                 return false;
