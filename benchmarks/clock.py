@@ -2,7 +2,7 @@
 
 import time
 
-from model.kernel.alarm import Alarm
+from model.engine.alarm import Alarm
 
 
 def count_processor_time() -> None:

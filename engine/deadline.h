@@ -13,7 +13,7 @@ namespace tandem {
 // is looked at each time, and the clock, which takes as long as some of these parts, now and then.
 class Deadline {
 public:
-    // What Python writes (`model.kernel.alarm`): not 0 once nobody wants more, at any time and from
+    // What Python writes (`model.engine.alarm`): not 0 once nobody wants more, at any time and from
     // any thread; the last instant in nanoseconds; and the clock that tells it, `CLOCK_MONOTONIC`
     // but where measurements are by the processor time of the process.
     explicit Deadline(View<const std::int64_t, 1> alarm) : alarm_(alarm.data()) {}

@@ -12,9 +12,9 @@ from typing import Literal, NamedTuple
 
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
-from model.kernel.alarm import Alarm
-from model.kernel.instance import Instance, pack
-from model.kernel.pausing import EndedError, Pause, never, pausing
+from model.engine.alarm import Alarm
+from model.engine.instance import Instance, pack
+from model.engine.pausing import EndedError, Pause, never, pausing
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rolling import NOTHING
 from model.problem import Problem

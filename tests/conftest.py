@@ -21,7 +21,7 @@ import pytest
 from filelock import FileLock
 
 from app.serving.load.memory import collect_seldom
-from model.kernel.cores import num_cores
+from model.engine.cores import num_cores
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 
 MINUTE = 60_000

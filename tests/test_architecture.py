@@ -20,13 +20,11 @@ APP = (("schemas", "database"), ("serving",), ("maps",), ("requests", "console")
 """Floors of `app`, each of which imports only those before it."""
 
 MODEL = {
-    "problem": "", "solution": "", "engine": "",
-    "judge": "problem solution", "kernel": "problem engine",
-    "travel": "problem engine kernel", "simulation": "problem solution engine kernel",
-    "policy": "problem engine kernel simulation",
-    "search": "problem solution engine kernel",
-    "together": "problem solution judge kernel search",
-    "planner": "problem solution judge kernel simulation policy search together",
+    "problem": "", "solution": "", "engine": "problem", "judge": "problem solution",
+    "travel": "problem engine", "simulation": "problem solution engine",
+    "policy": "problem engine simulation", "search": "problem solution engine",
+    "together": "problem solution judge engine search",
+    "planner": "problem solution judge engine simulation policy search together",
     "replanning": "problem solution judge planner", "dialects": "problem solution judge planner",
 }
 """What each folder and file of `model` imports of the others."""

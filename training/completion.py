@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from model.kernel.instance import Instance, pack
+from model.engine.instance import Instance, pack
 from model.problem import Customer, IntArray, Problem, Travel, VehicleType
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher

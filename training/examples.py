@@ -8,7 +8,7 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from model.kernel.instance import Instance
+from model.engine.instance import Instance
 from model.policy.decision_features import Observation, Rollouts
 from model.problem import FloatArray, IntArray, Problem
 from model.simulation.actions import LAUNCH, NUM_KINDS, OPEN

@@ -8,8 +8,8 @@ import numpy as np
 import torch
 from torch import Tensor
 
-from model.kernel.instance import Instance, pack
-from model.kernel.records import Records
+from model.engine.instance import Instance, pack
+from model.engine.records import Records
 from model.policy.decision_features import Rollouts, Scene
 from model.policy.network import PolicyNetwork
 from model.policy.problem_features import Scales, Tokens, scales, tokens

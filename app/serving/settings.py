@@ -12,7 +12,7 @@ from app.database.settings import DatabaseSettings
 from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_LEGS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT,
 )
-from model.kernel.cores import num_cores
+from model.engine.cores import num_cores
 
 WEIGHTS_DIR = Path(__file__).resolve().parents[2] / "model" / "weights"
 

@@ -7,7 +7,7 @@ from app.serving.settings import Settings
 from benchmarks.peers.answers import PeerAnswer
 from benchmarks.peers.published import Published
 from benchmarks.peers.tandem import plan_to_answer, problem_of
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.planner import decoding_seconds
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.simulation.extract import extract

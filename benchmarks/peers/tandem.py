@@ -6,7 +6,7 @@ from importlib.metadata import version
 
 from benchmarks.peers.answers import PeerAnswer
 from benchmarks.peers.published import Published, to_problem
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Route, Solution

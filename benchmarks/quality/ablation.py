@@ -19,7 +19,7 @@ from app.schemas.limits import DEFAULT_POLICY
 from app.serving.settings import Settings
 from benchmarks.rows import append_rows, read_rows
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.planner import PlanCheckError, Start
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.problem import Problem

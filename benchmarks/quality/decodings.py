@@ -16,7 +16,7 @@ import typer
 from app.serving.settings import Settings
 from benchmarks.quality.policies import cheapest_insertion
 from benchmarks.quality.weights import CLASSES, Case, costs_by_class, judged_costs, print_table
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract

@@ -22,7 +22,7 @@ from benchmarks.quality.truck_drone_rules import TruckDroneInstance, broken_rule
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows, read_rows
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.strategy import Moves

@@ -29,7 +29,7 @@ from benchmarks.peers.versus import machine
 from benchmarks.results import gap_percent
 from benchmarks.rows import appended, read_rows
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import (
     MS_PER_HOUR, Customer, Depot, DroneType, Energy, FloatArray, Problem, Travel, VehicleType,
 )

@@ -31,7 +31,7 @@ from benchmarks.peers.answers import cost_of_all, timed_plan
 from benchmarks.peers.published import MODEL_UNITS, best_known_beside
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows, read_rows
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import (
     MM_PER_KM, Customer, Depot, FloatArray, IntArray, Points, Problem, StraightLegs, Travel,
     VehicleType,

@@ -17,7 +17,7 @@ import typer
 from app.serving.settings import Settings
 from benchmarks.rows import append_rows, read_rows
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve

@@ -22,7 +22,7 @@ import typer
 
 from benchmarks.quality.policies import cheapest_insertion
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract

@@ -22,7 +22,7 @@ from benchmarks.many import mixed_customers
 from benchmarks.peers.answers import cost_of_all
 from benchmarks.results import gap_percent
 from benchmarks.rows import append_rows
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution

@@ -31,7 +31,7 @@ from app.requests.reading import read_request
 from app.schemas.limits import DEFAULT_POLICY
 from app.serving.settings import Settings
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.planner import Elapsed, PlanResult
 from model.policy.decode import DecodeConfig, decode, load_policy, prepare
 from model.simulation.extract import extract

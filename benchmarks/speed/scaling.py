@@ -88,7 +88,7 @@ def _steps(body: bytes, found: Data, is_planned: bool, turns: int) -> None:
 
 def _search(problem: Any, step: "_Stopwatch", turns: int) -> None:
     """Plan a problem, and note as `_steps` does. In place."""
-    from model.kernel.instance import pack
+    from model.engine.instance import pack
     from model.search.improve import SearchConfig, improve
     from model.solution import Solution
 

@@ -1010,7 +1010,7 @@ typedef struct tandem_problem_data {
     tandem_i64_2d profile_factor; /* (type, change + 1) */
     tandem_i32_2d near;           /* (node, rank) customers, nearest first, -1 behind the last */
     tandem_i32_2d fit;      /* (node, rank) customers whom a truck would visit before or after */
-    tandem_i64_1d deadline; /* (2,) when the search must end, as `model.kernel.alarm` says */
+    tandem_i64_1d deadline; /* (2,) when the search must end, as `model.engine.alarm` says */
 } tandem_problem_data;
 
 typedef struct tandem_fleet {

@@ -1,1 +1,1 @@
-"""The engine: its library, and how what Python has becomes what it takes."""
+"""The engine: its library, problems as the arrays that it takes, and what rings while it works."""

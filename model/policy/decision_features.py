@@ -8,9 +8,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.instance import Instance
 from model.engine.library import call, dtype_of, packed
-from model.kernel.instance import Instance
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.policy.problem_features import Float32Array, Scales
 from model.problem import IntArray
 from model.simulation.actions import reset

@@ -13,9 +13,9 @@ import numpy as np
 import onnxruntime as ort
 from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 
-from model.kernel.alarm import Alarm, has_rung
-from model.kernel.cores import num_cores
-from model.kernel.instance import Instance
+from model.engine.alarm import Alarm, has_rung
+from model.engine.cores import num_cores
+from model.engine.instance import Instance
 from model.policy.decision_features import Observation, Rollouts, Scene
 from model.policy.problem_features import Float32Array, Tokens, scales, tokens
 from model.policy.rolling import (

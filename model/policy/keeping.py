@@ -6,7 +6,7 @@ so the actions of any of them are legal in any order.
 
 import numpy as np
 
-from model.kernel.instance import Instance
+from model.engine.instance import Instance
 from model.problem import BoolArray, IntArray
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from model.kernel.alarm import has_rung
+from model.engine.alarm import has_rung
 from model.problem import BoolArray, FloatArray, IntArray
 
 if TYPE_CHECKING:

@@ -9,9 +9,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from model.engine.instance import ANY, DIMENSIONS_PER_TIER, FAR, Instance
 from model.engine.library import dtype_of
-from model.kernel.instance import ANY, DIMENSIONS_PER_TIER, FAR, Instance
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
 Float32Array = NDArray[np.float32]

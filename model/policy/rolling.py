@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from model.engine.alarm import Alarm
 from model.engine.library import call, packed
-from model.kernel.alarm import Alarm
 from model.policy.decision_features import (
     NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, Scene,
 )

@@ -14,9 +14,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.alarm import Alarm, has_rung
+from model.engine.instance import Instance
 from model.engine.library import packed
-from model.kernel.alarm import Alarm, has_rung
-from model.kernel.instance import Instance
 from model.policy.partition import cheapest_partition
 from model.policy.keeping import serves, vehicles_nearby
 from model.policy.rolling import NOTHING, Rollout

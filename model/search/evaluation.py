@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from model.engine.drone_types import any_aboard
+from model.engine.instance import FAR, NO_PROFILE, WORK_RATES, Instance
 from model.engine.library import dtype_of
-from model.kernel.drone_types import any_aboard
-from model.kernel.instance import FAR, NO_PROFILE, WORK_RATES, Instance
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import UNLIMITED
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from model.kernel.alarm import Alarm
-from model.kernel.instance import Instance
-from model.kernel.pausing import EndedError, never, pausing
+from model.engine.alarm import Alarm
+from model.engine.instance import Instance
+from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes

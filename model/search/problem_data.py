@@ -4,10 +4,10 @@ from collections.abc import Hashable
 
 import numpy as np
 
-from model.kernel.alarm import Alarm
-from model.kernel.instance import WORK_RATES, Instance
-from model.kernel.leg import are_the_same_back
-from model.kernel.records import Records
+from model.engine.alarm import Alarm
+from model.engine.instance import WORK_RATES, Instance
+from model.engine.leg import are_the_same_back
+from model.engine.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.evaluation import evaluate
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood

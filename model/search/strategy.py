@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from model.kernel.drone_types import all_kinds
-from model.kernel.instance import Instance
-from model.kernel.records import Records
+from model.engine.drone_types import all_kinds
+from model.engine.instance import Instance
+from model.engine.records import Records
 from model.problem import BoolArray, IntArray, Problem
 from model.search.route.layout import MOST_VISITS, Strategy
 

@@ -6,7 +6,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 
 from model.engine.packing import Packed, packed
-from model.kernel.pausing import EndedError
+from model.engine.pausing import EndedError
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked

@@ -4,10 +4,10 @@ One action per step, vehicle after vehicle: drive to a customer, launch a drone 
 return to a depot, open a vehicle of a type. `engine/simulation/simulator.h` says when one is legal.
 """
 
+from model.engine.instance import Instance
 from model.engine.library import call
 from model.engine.packing import Packed
-from model.kernel.instance import Instance
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import IntArray
 from model.simulation.state import State, empty_state
 

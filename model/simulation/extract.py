@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
+from model.engine.instance import Instance
 from model.engine.library import packed
 from model.engine.packing import Packed
-from model.kernel.instance import Instance
-from model.kernel.records import read_rows
+from model.engine.records import read_rows
 from model.problem import IntArray, Problem
 from model.simulation.actions import apply_route, close_vehicle, reset
 from model.simulation.state import NO_VEHICLE, State, VehicleLogs

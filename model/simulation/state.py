@@ -4,9 +4,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.instance import Instance
 from model.engine.library import dtype_of
-from model.kernel.instance import Instance
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import BoolArray, FloatArray, IntArray
 
 NO_VEHICLE = -1

@@ -8,8 +8,8 @@ from itertools import islice
 import numpy as np
 
 from model.judge.check import check, judge_route
-from model.kernel.instance import pack
-from model.kernel.pausing import EndedError, pausing
+from model.engine.instance import pack
+from model.engine.pausing import EndedError, pausing
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.search.regions.part import Part, part_of

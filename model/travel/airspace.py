@@ -13,7 +13,7 @@ import numpy as np
 import shapely
 from shapely import Polygon
 
-from model.kernel.pausing import Pause, go_on, matrix_blocks
+from model.engine.pausing import Pause, go_on, matrix_blocks
 from model.problem import FloatArray
 from model.travel.matrices import planar_distances
 from model.travel.obstacles import Obstacles, obstacles_of

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from pyproj import Proj
 
-from model.kernel.pausing import Pause, go_on, matrix_blocks
+from model.engine.pausing import Pause, go_on, matrix_blocks
 from model.problem import (
     FULL_SPEED, MAX_QUANTITY, UNREACHABLE, FloatArray, IntArray, Points, SpeedProfile, Travel,
 )

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.engine.library import call
-from model.kernel.pausing import Pause, matrix_blocks, row_blocks
+from model.engine.pausing import Pause, matrix_blocks, row_blocks
 from model.problem import BoolArray, FloatArray, IntArray
 from model.travel.obstacles import TOUCH_M, Corners, Obstacles
 from model.travel.wind import Wind

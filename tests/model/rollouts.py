@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from model.kernel.instance import Instance, pack
+from model.engine.instance import Instance, pack
 from model.policy import problem_features
 from model.policy.decision_features import Rollouts, Scene
 from model.problem import (

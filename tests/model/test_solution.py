@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution, renumbered
 from training.instances import generate

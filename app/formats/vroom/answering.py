@@ -27,7 +27,7 @@ from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import TimedRoute
 from model.dialects.vroom.work import LegLimit
-from model.kernel.cores import num_cores
+from model.engine.cores import num_cores
 from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress
 from model.problem import Problem
 from model.solution import Solution

@@ -2,8 +2,8 @@
 
 import math
 
+from model.engine.alarm import has_rung
 from model.engine.library import call
-from model.kernel.alarm import has_rung
 from model.search.route.engine import BY_FAR, BY_WIDTH, anneal, go_back, missing_cost
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher

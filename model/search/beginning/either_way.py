@@ -8,7 +8,7 @@ pieces than joining ends to beginnings, elsewhere it is a little worse: so both 
 import numpy as np
 
 from model.engine.library import call
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.search.beginning.savings import (
     cargo_of, chains_of, cost_of, joined, ranked_pairs, routes_of,
 )

@@ -11,7 +11,7 @@ import math
 import numpy as np
 
 from model.engine.library import call, dtype_of
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import BoolArray, IntArray
 from model.search.route.layout import NOWHERE, ProblemData
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from model.engine.instance import DIMENSIONS_PER_TIER, NONE
 from model.engine.library import call, dtype_of, packed
-from model.kernel.instance import DIMENSIONS_PER_TIER, NONE
-from model.kernel.records import Record, Records, one, read_rows
+from model.engine.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
 from model.search.route.engine import INFEASIBLE
 from model.search.route.layout import (

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.engine.library import dtype_of
-from model.kernel.records import Record, Records, one
+from model.engine.records import Record, Records, one
 from model.problem import BoolArray, Int32Array, IntArray
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher

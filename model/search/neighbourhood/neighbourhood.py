@@ -6,13 +6,13 @@ from typing import NamedTuple, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from model.engine.instance import Instance
+from model.engine.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
 from model.engine.library import call, dtype_of
-from model.kernel.instance import Instance
-from model.kernel.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
-from model.kernel.nearest import least_columns, write_nearest_points
-from model.kernel.pausing import Pause, go_on, matrix_blocks, row_blocks
-from model.kernel.records import Records
-from model.kernel.variants import Way, are_stated, ways_of
+from model.engine.nearest import least_columns, write_nearest_points
+from model.engine.pausing import Pause, go_on, matrix_blocks, row_blocks
+from model.engine.records import Records
+from model.engine.variants import Way, are_stated, ways_of
 from model.problem import UNLIMITED, Int32Array, IntArray, Problem, StraightLegs, Travel
 from model.problem.quantities import NO_LEG
 from model.search.neighbourhood.numbering import Numbering, along_neighbours, as_stated

@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.instance import Instance
 from model.engine.library import call
-from model.kernel.instance import Instance
 from model.problem import Int32Array, IntArray
 
 

@@ -16,10 +16,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from model.engine.leg import AllLegs
 from model.engine.library import dtype_of
-from model.kernel.leg import AllLegs
-from model.kernel.records import Records
-from model.kernel.sparse import sparse_rows
+from model.engine.records import Records
+from model.engine.sparse import sparse_rows
 from model.problem import BoolArray, FloatArray, Int32Array, IntArray
 
 MOST_VISITS = 8
@@ -83,7 +83,7 @@ class ProblemData(NamedTuple):
     profile_factor: IntArray  # (type, change + 1)
     near: Int32Array  # (node, rank) customers, nearest first, -1 behind the last
     fit: Int32Array  # (node, rank) customers whom a truck would visit before or after
-    deadline: IntArray  # (2,) when the search must end, as `model.kernel.alarm` says
+    deadline: IntArray  # (2,) when the search must end, as `model.engine.alarm` says
 
 
 class Fleet(NamedTuple):

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from model.kernel.records import Record, Records
+from model.engine.records import Record, Records
 from model.problem import BoolArray, FloatArray, IntArray, UIntArray
 from model.search.route.layout import Fleet
 

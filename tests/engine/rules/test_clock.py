@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from model.judge import clock
-from model.kernel.instance import pack
-from model.kernel.records import Record
+from model.engine.instance import pack
+from model.engine.records import Record
 from model.problem import FULL_SPEED, IntArray, SpeedProfile
 from tests.engine.rules.asking import asked
 from tests.model.tiny import MINUTE, RUSH_HOUR

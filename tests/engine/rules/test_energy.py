@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from model.judge.energy import hover_energy, leg_energy
-from model.kernel.instance import FAR, pack
-from model.kernel.records import Record
+from model.engine.instance import FAR, pack
+from model.engine.records import Record
 from model.problem import UNREACHABLE, Energy
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_energy

@@ -8,8 +8,8 @@ import pytest
 from model.judge.check import check
 from model.judge.launches import launch_duration
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.kernel.instance import pack
-from model.kernel.records import Record, Records
+from model.engine.instance import pack
+from model.engine.records import Record, Records
 from model.problem import UNREACHABLE, DroneType, Problem
 from model.solution import Solution
 from tests.engine.rules.asking import asked

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from model.engine.header import dtype_of
-from model.kernel.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
+from model.engine.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
 from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from tests.engine.rules.asking import legs_of, write

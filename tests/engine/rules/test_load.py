@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from model.engine.header import dtype_of
-from model.kernel.instance import DIMENSIONS_PER_TIER, pack
-from model.kernel.records import Record, Records
+from model.engine.instance import DIMENSIONS_PER_TIER, pack
+from model.engine.records import Record, Records
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import IntArray, Problem

@@ -7,8 +7,8 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.instance import pack
-from model.kernel.records import Record
+from model.engine.instance import pack
+from model.engine.records import Record
 from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings, with_duty

@@ -7,8 +7,8 @@ import pytest
 
 from model.judge.metrics import measure_route, measure_trip
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.instance import pack
-from model.kernel.records import Record
+from model.engine.instance import pack
+from model.engine.records import Record
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings
 

@@ -5,8 +5,8 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.instance import pack
-from model.kernel.records import Records
+from model.engine.instance import pack
+from model.engine.records import Records
 from model.problem import MS_PER_HOUR, UNLIMITED, Problem
 from model.solution import Route, Solution
 from tests.engine.rules.asking import asked

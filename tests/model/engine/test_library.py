@@ -10,7 +10,7 @@ import pytest
 from model.engine import library
 from model.engine.header import header
 from model.engine.library import call, packed
-from model.kernel.nearest import cells_of
+from model.engine.nearest import cells_of
 
 POINTS = np.array([[0.0, 0.0], [3.0, 0.0], [1.0, 0.0]])
 

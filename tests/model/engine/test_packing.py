@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from model.engine.header import dtype_of, interface
+from model.engine.leg import ComputedLegs
+from model.engine.nearest import cells_of
 from model.engine.packing import Packed, packed, struct_name
-from model.kernel.leg import ComputedLegs
-from model.kernel.nearest import cells_of
 from model.travel.ways import Sights
 
 CELLS = cells_of(np.random.default_rng(0).random((100, 2)))

@@ -8,7 +8,7 @@ import pytest
 from model.judge import memory
 from model.judge.check import check
 from model.judge.memory import Memory
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.simulation.extract import extract
 from model.solution import Route
 from tests.model.rollouts import random_problems, roll

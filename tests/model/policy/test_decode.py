@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.alarm import Alarm
-from model.kernel.instance import pack
+from model.engine.alarm import Alarm
+from model.engine.instance import pack
 from model.policy import rolling
 from model.policy.decode import (
     BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,

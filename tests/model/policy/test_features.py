@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.policy.decision_features import (
     ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, Rollouts, Scene,
 )

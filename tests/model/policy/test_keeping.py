@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.policy.keeping import LEAST_ANEW, MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep
 from model.problem import IntArray
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, apply, reset

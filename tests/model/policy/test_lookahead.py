@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.policy.decision_features import Rollouts, Scene
 from model.policy.problem_features import scales, tokens
 from model.problem import Problem

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from model.kernel.alarm import Alarm
+from model.engine.alarm import Alarm
 from model.policy.partition import cheapest_partition
 from model.problem import FloatArray, IntArray
 

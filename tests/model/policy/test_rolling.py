@@ -5,8 +5,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from model.kernel.alarm import Alarm
-from model.kernel.instance import pack
+from model.engine.alarm import Alarm
+from model.engine.instance import pack
 from model.policy.decode import Policy, View, encode, load_policy, prepare
 from model.policy.rolling import roll_out, roll_out_views
 from training.instances import generate

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.alarm import Alarm
-from model.kernel.instance import pack
+from model.engine.alarm import Alarm
+from model.engine.instance import pack
 from model.policy import route_pool
 from model.policy.route_pool import RoutePool
 from model.policy.rolling import NOTHING, Rollout

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
-from model.kernel.variants import are_stated, ways_of
+from model.engine.instance import pack
+from model.engine.variants import are_stated, ways_of
 from model.problem import Points, Problem, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW
 from model.search.neighbourhood import neighbourhood

@@ -2,7 +2,7 @@
 
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.search.problem_data import make_data
 from tests.model.search.pages import table
 from tests.model.search.stated_rules import plain, stating

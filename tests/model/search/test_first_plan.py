@@ -6,7 +6,7 @@ from itertools import chain
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import UNLIMITED, Points, Problem, StraightLegs, Travel
 from model.search import problem_data
 from model.search.beginning.either_way import shortest_routes

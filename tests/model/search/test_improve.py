@@ -10,7 +10,7 @@ import pytest
 
 from model.judge.check import Evaluation, check
 from model.judge.timing import RouteDecision, read_decision, schedule
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search import improve as searching
 from model.search.improve import Improved, Progress, SearchConfig, improve

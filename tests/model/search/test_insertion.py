@@ -9,7 +9,7 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher

@@ -10,7 +10,7 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.improve import Improved, Progress, SearchConfig, improve

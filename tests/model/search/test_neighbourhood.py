@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
-from model.kernel.leg import ComputedLegs
-from model.kernel.variants import index_of, ways_of
+from model.engine.instance import pack
+from model.engine.leg import ComputedLegs
+from model.engine.variants import index_of, ways_of
 from model.problem import UNREACHABLE, IntArray, Problem, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from model.search.neighbourhood.neighbourhood import NEAR_INSERTION, make_neighbourhood

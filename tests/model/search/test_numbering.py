@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.search.improve import SearchConfig, improve
 from model.search.neighbourhood.neighbourhood import make_neighbourhood
 from model.search.neighbourhood.numbering import along_neighbours

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import (
     FULL_SPEED, MM_PER_KM, Customer, Depot, DroneType, Overtime, Problem, SpeedProfile, Travel,
     VehicleType,

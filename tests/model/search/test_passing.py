@@ -3,7 +3,7 @@
 import numpy as np
 
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.translate import make_searcher
 from model.search.neighbourhood.neighbourhood import NEAR_INSERTION

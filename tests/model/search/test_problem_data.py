@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search.neighbourhood.neighbourhood import make_neighbourhood
 from model.search.problem_data import make_data

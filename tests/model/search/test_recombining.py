@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.search import worker
 from model.search.beginning.construct import begin_anew

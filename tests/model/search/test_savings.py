@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning.savings import savings_routes
 from model.search.first_plan import first_plan

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve

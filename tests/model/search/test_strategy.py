@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.search.problem_data import can_be_linked, make_data
 from model.search.route.layout import ProblemData
 from model.search.strategy import ALL_MOVES, Moves

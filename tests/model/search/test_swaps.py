@@ -6,9 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.engine.instance import pack
 from model.engine.library import call, dtype_of
-from model.kernel.instance import pack
-from model.kernel.records import one
+from model.engine.records import one
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher

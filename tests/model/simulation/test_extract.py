@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.simulation.actions import (
     DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, finish, reset,
 )

@@ -10,7 +10,7 @@ from model.judge.check import check
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.judge.trial import small_problem
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem, SpeedProfile
 from model.search.improve import SearchConfig, improve
 from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, apply, encode_action, reset

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.simulation.actions import reset
 from model.simulation.state import IN_FLIGHT, NO_VEHICLE, by_term, empty_costs
 from model.solution import COST_TERMS

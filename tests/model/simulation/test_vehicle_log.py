@@ -8,7 +8,7 @@ import pytest
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, read_decision, schedule
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import Problem
 from model.simulation.actions import DRIVE, LAUNCH, OPEN, RETURN, encode_action
 from model.simulation.extract import extract

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from model.kernel import pausing
+from model.engine import pausing
 from model.problem import FULL_SPEED, MAX_QUANTITY, UNREACHABLE, SpeedProfile
 from model.problem.distances import EARTH_RADIUS_M
 from model.travel.matrices import (

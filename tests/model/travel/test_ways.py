@@ -9,7 +9,7 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from model.kernel.pausing import Pause
+from model.engine.pausing import Pause
 from model.problem import FloatArray
 from model.travel import airspace as module
 from model.travel.airspace import Airspace, Flights, Ring, flight_legs, invalid_polygon_reason

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
+from model.engine.instance import pack
 from model.problem import UNLIMITED, Depot, Points, Problem, StraightLegs, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher

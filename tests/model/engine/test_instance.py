@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.kernel.instance import FAR, NO_PROFILE, pack
+from model.engine.instance import FAR, NO_PROFILE, pack
 from model.problem import UNLIMITED, Problem
 from tests.model.rollouts import random_problems
 

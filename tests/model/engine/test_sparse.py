@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from model.kernel.sparse import HUGE, sparse_rows
+from model.engine.sparse import HUGE, sparse_rows
 
 ROW = np.dtype((np.record, np.dtype([("number", np.int64), ("others", np.int64, 511)])))
 """As long as a page."""

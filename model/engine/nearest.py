@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from model.engine.library import call
-from model.kernel.pausing import Pause, matrix_blocks, row_blocks
+from model.engine.pausing import Pause, matrix_blocks, row_blocks
 from model.problem import FloatArray, Int32Array, IntArray, Problem
 
 CELL = 64

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from model.judge.check import check
-from model.kernel.instance import pack
-from model.kernel.pausing import EndedError, pausing
+from model.engine.instance import pack
+from model.engine.pausing import EndedError, pausing
 from model.planner import Listener, Planner, PlanOptions
 from model.problem import Problem, Travel
 from model.search.improve import SearchConfig, improve

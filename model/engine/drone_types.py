@@ -7,7 +7,7 @@ said of drones holds for the most that any of them can, and all are counted.
 
 from dataclasses import replace
 
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import BoolArray, Problem, VehicleType
 
 NO_ROW = -1

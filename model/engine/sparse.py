@@ -8,7 +8,7 @@ from contextlib import suppress
 import numpy as np
 from numpy.typing import DTypeLike
 
-from model.kernel.records import Records
+from model.engine.records import Records
 
 HUGE = 2**22
 """Bytes from which on numpy asks for huge pages, of which the first number written to takes two

@@ -5,8 +5,8 @@ import time
 import numpy as np
 import pytest
 
-from model.kernel.nearest import CELL, write_nearest_points
-from model.kernel.pausing import EndedError, go_on
+from model.engine.nearest import CELL, write_nearest_points
+from model.engine.pausing import EndedError, go_on
 from model.problem import FloatArray, Int32Array
 
 NUMBER, RANKS = 10 * CELL, 40

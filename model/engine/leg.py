@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 
-from model.kernel.records import Records
+from model.engine.records import Records
 from model.problem import Int32Array, IntArray
 
 LEG_DURATION, LEG_DISTANCE = range(2)

@@ -9,14 +9,14 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from model.engine.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
+from model.engine.battery_rows import battery_row, full_row, powers_row
+from model.engine.drone_types import NO_ROW, all_kinds
 from model.engine.library import dtype_of
-from model.kernel.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
-from model.kernel.battery_rows import battery_row, full_row, powers_row
-from model.kernel.drone_types import NO_ROW, all_kinds
-from model.kernel.nearest import write_nearest
-from model.kernel.pausing import Pause, go_on
-from model.kernel.records import Records
-from model.kernel.variants import (
+from model.engine.nearest import write_nearest
+from model.engine.pausing import Pause, go_on
+from model.engine.records import Records
+from model.engine.variants import (
     Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
 )
 from model.problem import (

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from model.kernel.nearest import least_columns
+from model.engine.nearest import least_columns
 
 Weights = NDArray[np.float32]
 

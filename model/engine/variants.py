@@ -7,9 +7,9 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.kernel.asked import has_setups
-from model.kernel.pausing import Pause, matrix_blocks
-from model.kernel.records import Records
+from model.engine.asked import has_setups
+from model.engine.pausing import Pause, matrix_blocks
+from model.engine.records import Records
 from model.problem import DroneType, IntArray, Problem, VehicleType
 from model.problem.quantities import LONGEST_NARROW
 

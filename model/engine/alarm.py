@@ -8,7 +8,7 @@ from types import TracebackType
 
 import numpy as np
 
-from model.kernel.pausing import never
+from model.engine.pausing import never
 from model.problem import IntArray
 
 LOOKS = 0.005

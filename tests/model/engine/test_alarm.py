@@ -11,9 +11,9 @@ import pytest
 
 from model.engine.library import call
 from model.judge.check import check
-from model.kernel.alarm import CANCELLED, Alarm
-from model.kernel.instance import pack
-from model.kernel.pausing import EndedError
+from model.engine.alarm import CANCELLED, Alarm
+from model.engine.instance import pack
+from model.engine.pausing import EndedError
 from model.problem import FULL_SPEED, IntArray, Problem, SpeedProfile
 from model.search.beginning.construct import begin_anew, insert_missing
 from model.search.beginning.translate import make_searcher
