@@ -1,8 +1,6 @@
 """The rules that the tree's layout follows: who may import whom, and how long things may be."""
 
 import ast
-import subprocess
-import sys
 from collections.abc import Callable
 from functools import cache
 from graphlib import TopologicalSorter
@@ -85,8 +83,6 @@ def test_packages_import_along_the_arrows() -> None:
 def test_only_policies_and_training_use_torch() -> None:
     assert [name for name in sources() if name.startswith(("app.", "model.")) and name not in TORCH
             and any(module.startswith(TORCH) for module in imports(name))] == []
-    script = "import sys, app.cli.planning, app.cli.serving; assert 'torch' not in sys.modules"
-    subprocess.run([sys.executable, "-c", script], cwd=ROOT, check=True)
 
 
 def test_parts_of_model_import_along_the_arrows() -> None:

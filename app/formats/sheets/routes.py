@@ -8,8 +8,6 @@ from pydantic import ValidationError
 from python_multipart import create_form_parser
 from python_multipart.exceptions import FormParserError
 
-from app.formats.sheets.addresses import Finder
-from app.formats.sheets.importing import import_file
 from app.formats.sheets.schemas import ImportReply, ImportSettings
 from app.plans.routes import Service
 from app.requests.refusal import require_readable
@@ -75,6 +73,10 @@ async def import_sheet(request: Request, principal: Plan, reading: Reading, body
     content_type = request.headers.get("content-type", "")
 
     def answer() -> bytes:
+        # Not before somebody imports: what reads spreadsheets takes 9 MB.
+        from app.formats.sheets.addresses import Finder
+        from app.formats.sheets.importing import import_file
+
         file, stated = _parts(body.content, content_type)
         finder = Finder(request.app.state.addresses, LOOKING_UP)
         reply = import_file(file, read_settings(stated if stated is not None else settings), finder,

@@ -1,7 +1,5 @@
 """The way of the database's tables from version to version, on both databases."""
 
-import subprocess
-import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -82,21 +80,6 @@ def test_empty_database_gets_the_tables_of_this_version_at_once(engine: Engine) 
     assert differences(engine) == []
     stated = inspect(engine)
     assert stated.get_pk_constraint(VERSION_TABLE)["name"] == f"{VERSION_TABLE}_pkc"
-
-
-def test_alembic_is_loaded_only_where_tables_change(settings: Settings) -> None:
-    script = f"""import sys
-from pathlib import Path
-from app.database.connections import Purpose, alone, make_engine
-from app.database.migrations.running import upgrade
-from app.database.settings import DatabaseSettings
-engine = make_engine(DatabaseSettings(None, Path({str(settings.data_dir)!r})))
-for _ in range(2):
-    upgrade(engine)
-print('alembic' in sys.modules)"""
-    done = subprocess.run([sys.executable, "-c", script], text=True, capture_output=True,
-                          check=True)
-    assert done.stdout == "False\n"
 
 
 def test_way_back_and_up_again_keeps_keys_and_jobs(engine: Engine) -> None:
