@@ -110,9 +110,11 @@ app/console/built_guide: zensical.toml $(shell find docs)
 	@$(PIP) install --quiet --no-build-isolation --editable .
 	@touch $@
 
+# Modules are compiled on all cores; pip has one. What is no Python for this version stays as it is.
 .venv/testing: pyproject.toml .venv/tools
 	@echo "Installing Tandem and all that its tests need into .venv; PyTorch is large."
-	@$(PIP) install --quiet --no-build-isolation --editable '.[test,train]'
+	@$(PIP) install --quiet --no-compile --no-build-isolation --editable '.[test,train]'
+	@$(BIN)/python -m compileall -qq -j 0 .venv/lib || true
 	@$(BIN)/python -m tests.app.maps.roads.wheels
 	@touch $@ .venv/serving
 
