@@ -1,115 +1,26 @@
-// Arithmetic on several floats at once, the same to the last bit on every processor.
+// Arithmetic of the policy on several floats at once.
 //
-// Each lane is computed alone; where lanes are summed, it is in one order that is written here.
-// Nothing calls the mathematics of a C library, which differs from one to another.
+// Where lanes are summed, it is in one order that is written here. Nothing calls the mathematics of
+// a C library, which differs from one to another.
 #pragma once
 
 #include <cstdint>
 #include <cstring>
 
-// Before a function whose loops are compiled for several families of processors, the best of which
-// is taken as the library is loaded. Results are the same: nothing is fused.
-#ifdef TANDEM_CLONES
-#define TANDEM_FOR_PROCESSORS [[gnu::flatten, gnu::target_clones("avx512f", "avx2", "default")]]
-#else
-#define TANDEM_FOR_PROCESSORS
-#endif
+#include "vectors.h"
 
 namespace tandem {
 
-#if defined(__AVX512F__)
-constexpr int register_bytes = 64;
-#elif defined(__AVX__)
-constexpr int register_bytes = 32;
-#else
-constexpr int register_bytes = 16;
-#endif
+using Quad = Register<float, 16>::Type;
 
-// So many bytes of floats in one register.
-template <int bytes>
-struct Register;
-
-template <>
-struct Register<16> {
-    using Floats = float __attribute__((vector_size(16)));
-    using Integers = std::int32_t __attribute__((vector_size(16)));
-};
-
-template <>
-struct Register<32> {
-    using Floats = float __attribute__((vector_size(32)));
-    using Integers = std::int32_t __attribute__((vector_size(32)));
-};
-
-template <>
-struct Register<64> {
-    using Floats = float __attribute__((vector_size(64)));
-    using Integers = std::int32_t __attribute__((vector_size(64)));
-};
-
-using Quad = Register<16>::Floats;
-
-// So many floats, register by register.
 template <int length>
-struct Floats {
-    static constexpr int bytes = length * int{sizeof(float)};
-    static constexpr int piece_bytes = bytes < register_bytes ? bytes : register_bytes;
-    static constexpr int num_pieces = bytes / piece_bytes;
-    using Piece = Register<piece_bytes>::Floats;
-    Piece piece[num_pieces];
-
-    // What a function makes of each register, and of those of others.
-    template <class Function, class... Other>
-    static Floats each(Function make, const Other&... other) {
-        Floats made;
-        for (int k = 0; k < num_pieces; ++k) made.piece[k] = make(other.piece[k]...);
-        return made;
-    }
-
-    static Floats all(float value) {
-        return each([value] { return Piece{} + value; });
-    }
-
-    friend Floats operator+(const Floats& a, const Floats& b) {
-        return each([](const Piece& x, const Piece& y) { return x + y; }, a, b);
-    }
-    friend Floats operator-(const Floats& a, const Floats& b) {
-        return each([](const Piece& x, const Piece& y) { return x - y; }, a, b);
-    }
-    friend Floats operator*(const Floats& a, const Floats& b) {
-        return each([](const Piece& x, const Piece& y) { return x * y; }, a, b);
-    }
-    friend Floats operator/(const Floats& a, const Floats& b) {
-        return each([](const Piece& x, const Piece& y) { return x / y; }, a, b);
-    }
-    friend Floats operator*(float a, const Floats& b) {
-        return each([a](const Piece& y) { return a * y; }, b);
-    }
-    Floats& operator+=(const Floats& other) { return *this = *this + other; }
-};
+using Floats = Vector<float, length>;
 
 using Lanes = Floats<16>;
 using HalfLanes = Floats<8>;
 
 constexpr std::int64_t num_lanes = 16;
 constexpr std::int64_t num_half_lanes = 8;
-
-// The larger of each two, the second where they are equal.
-inline Lanes larger(const Lanes& a, const Lanes& b) {
-    return Lanes::each([](const auto& x, const auto& y) { return x > y ? x : y; }, a, b);
-}
-
-// Read lanes from where floats lie in a row.
-template <class Vector>
-void load(const float* from, Vector& lanes) {
-    std::memcpy(&lanes, from, sizeof lanes);
-}
-
-// Write lanes to where floats lie in a row.
-template <class Vector>
-void store(const Vector& lanes, float* to) {
-    std::memcpy(to, &lanes, sizeof lanes);
-}
 
 // Sum the lanes of each of four.
 inline Quad sums_of(const Quad& a, const Quad& b, const Quad& c, const Quad& d) {
@@ -135,8 +46,8 @@ inline Quad folded(const Lanes& x) {
     return (part[0] + part[2]) + (part[1] + part[3]);
 }
 
-template <class Vector>
-Quad sums_of(const Vector (&x)[4]) {
+template <class Lanes>
+Quad sums_of(const Lanes (&x)[4]) {
     return sums_of(folded(x[0]), folded(x[1]), folded(x[2]), folded(x[3]));
 }
 
@@ -145,7 +56,7 @@ Quad sums_of(const Vector (&x)[4]) {
 // Cephes' `expf`: a power of two, times a polynomial within half a power of it.
 inline void exponentiate(Lanes& lanes) {
     using Piece = Lanes::Piece;
-    using Integers = Register<Lanes::piece_bytes>::Integers;
+    using Integers = Register<float, Lanes::piece_bytes>::Integers;
     constexpr float least = -87.0F, most = 88.0F;
     constexpr float to_integer = 12582912.0F;  // 1.5 * 2^23, whose last digit is worth one
     constexpr float per_log2 = 1.44269504088896341F;

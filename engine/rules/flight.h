@@ -142,8 +142,10 @@ struct Flight {
     }
 };
 
-// Until when the endurance counts: as a drone is back, or as its recovery begins.
-inline Int counted_until(const VehicleType& type, Int back, Int recovery_start) {
+// Until when the endurance counts: as a drone is back, or as its recovery begins. Of one sortie, or
+// of several at once.
+template <class Instant>
+Instant counted_until(const VehicleType& type, const Instant& back, const Instant& recovery_start) {
     return type.waiting_counts != 0 ? recovery_start : back;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rules/window.h"
+#include "vectors.h"
 
 namespace tandem {
 
@@ -53,6 +54,27 @@ inline double lateness_cost(const Price& price, Windows place, Int arrival,
 inline double waiting_cost(const Price& price, Windows place, Int arrival,
                            Units units = ms_and_mm) {
     return static_cast<double>(place.waiting(arrival)) / units.duration * price.waiting;
+}
+
+// The same of several at once, whole numbers of ms and mm.
+template <int length>
+Vector<double, length> drive_cost(const Rate& rate, const Vector<double, length>& distance) {
+    return distance * rate.distance;
+}
+
+template <int length>
+Vector<double, length> stops_cost(const Rate& rate, const Vector<double, length>& stops) {
+    return stops * rate.stop;
+}
+
+template <int length>
+Vector<double, length> flown_cost(const Rate& rate, const Vector<double, length>& distance) {
+    return distance * rate.drone_distance;
+}
+
+template <int length>
+Vector<double, length> airborne_cost(const Rate& rate, const Vector<double, length>& duration) {
+    return duration * rate.drone_time;
 }
 
 }  // namespace tandem

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "rules/rates.h"
+#include "vectors.h"
 
 namespace tandem {
 
@@ -33,6 +34,12 @@ inline PaidWork operator-(const PaidWork& one, const PaidWork& other) {
 // What work costs that is within what is usual.
 inline double usual_work_cost(const Rate& rate, Int duration, Units units = ms_and_mm) {
     return static_cast<double>(duration) / units.duration * rate.time;
+}
+
+// The same of several at once, in whole ms.
+template <int length>
+Vector<double, length> usual_work_cost(const Rate& rate, const Vector<double, length>& duration) {
+    return duration * rate.time;
 }
 
 // What work costs.

@@ -1,6 +1,7 @@
 #include "search/scratch.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "rules/drone_types.h"
 #include "search/insertion/offers.h"
@@ -22,12 +23,22 @@ Int most_offers(const ProblemData& data, const Fleet& fleet) {
 
 }  // namespace
 
+SplitScratch::SplitScratch(Int longest)
+    : cost(longest + at_once),
+      loops(longest + at_once),
+      looped_until(longest + at_once),
+      drive(longest + at_once),
+      distance(longest + at_once),
+      out{} {
+    for (WaysOut& ways : out) ways.duration.fill(std::numeric_limits<double>::infinity());
+}
+
 Scratch::Scratch(const ProblemData& data, Searcher& searcher)
     : Scratch(data, searcher, most_offers(data, searcher.now)) {}
 
 Scratch::Scratch(const ProblemData& data, Searcher& searcher, Int most_offers)
     : line(data.num_nodes + 3),
-      line_cost(data.num_nodes + 3),
+      split(data.num_nodes + 3),
       key(data.num_nodes),
       moved(std::max(searcher.now.route.size(), searcher.now.stop.shape(1)) + 2),
       offer(most_offers),

@@ -1,6 +1,7 @@
 // What a search writes down while it looks, and forgets.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "search/route/layout.h"
@@ -37,17 +38,45 @@ private:
     View<T, 1> view_;
 };
 
+constexpr Int longest_operation = 12;  // stops from where truck and drone part, at most
+
+// How many operations are compared at once that begin one after another.
+constexpr int at_once = 8;
+
+// What a line is split by. Durations and distances are whole numbers, held so that processors
+// reckon with several at once.
+struct SplitScratch {
+    // For lines of so many places at most.
+    explicit SplitScratch(Int longest);
+
+    Row<double> cost;  // (place,) of the operations up to there
+
+    // (place,) what the flights from there cost for which the truck waits, up to a place.
+    Row<double> loops;
+    Row<Int> looped_until;
+
+    // (place,) how long and how far a truck has driven which launches its drone there.
+    Row<double> drive, distance;
+
+    // Legs of the drone to a place from those before, the last from that right before it; behind
+    // it, none takes a finite time.
+    struct WaysOut {
+        std::array<double, longest_operation + at_once> duration, distance;
+    };
+    std::array<WaysOut, longest_operation> out;  // to the last places that it may serve
+};
+
 struct Scratch {
     // Makes room for a search, and lends it that.
     Scratch(const ProblemData& data, Searcher& searcher);
 
-    Row<Line> line;         // (node + 3,) places of a trip or two in order
-    Row<double> line_cost;  // (node + 3,)
-    Row<double> key;        // (node,) order of insertion
-    Row<Int> moved;         // slots that a ruin touches, or where stops move to
-    Row<Move> offer;        // insertions that may be best
-    Row<double> least;      // what each costs at least
-    Int offers = 0;         // how many are listed
+    Row<Line> line;  // (node + 3,) places of a trip or two in order
+    SplitScratch split;
+    Row<double> key;    // (node,) order of insertion
+    Row<Int> moved;     // slots that a ruin touches, or where stops move to
+    Row<Move> offer;    // insertions that may be best
+    Row<double> least;  // what each costs at least
+    Int offers = 0;     // how many are listed
 
 private:
     Scratch(const ProblemData& data, Searcher& searcher, Int most_offers);

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "randomness.h"
 #include "rules/load.h"
 #include "rules/shift.h"
+#include "search/moves/operations.h"
 #include "search/moves/split.h"
+#include "search/moves/splitter.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
@@ -17,8 +18,6 @@
 
 namespace tandem {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 constexpr Int reach = 12;  // how many stops before, and behind, a random one are planned anew
 
@@ -209,13 +208,11 @@ bool overloads(const ProblemData& data, Int k, View<const Line, 1> line, Int beg
 // infinite.
 double split_between(const ProblemData& data, Searcher& searcher, Int k, Int begin, Int end) {
     if (end <= begin + 1) return 0.0;
-    if (overloads(data, k, searcher.scratch->line, begin, end)) return infinite;
+    if (overloads(data, k, searcher.scratch->line, begin, end)) return infinite_cost;
     const View<Line, 1> line = behind(searcher.scratch->line.view(), begin);
     const Int count = end - begin + 1;
     measure(data, k, line, count);
-    if (!split(data, k, line, behind(searcher.scratch->line_cost.view(), begin), count))
-        return infinite;
-    return searcher.scratch->line_cost[end] + beside(data.rate[k]);
+    return split(data, k, line, count, searcher.scratch->split) + beside(data.rate[k]);
 }
 
 // Cut the line, or both routes in it, at least cost; return that. In place; maybe infinite.
@@ -223,7 +220,7 @@ double split_between(const ProblemData& data, Searcher& searcher, Int k, Int beg
 // `cut` is as `depot_between` says.
 double split_all(const ProblemData& data, Searcher& searcher, Int k, Int cut, Int length) {
     const double cost = split_between(data, searcher, k, 0, cut);
-    if (cost == infinite) return infinite;
+    if (cost == infinite_cost) return infinite_cost;
     return cost + split_between(data, searcher, k, cut, length - 1);
 }
 
@@ -328,7 +325,7 @@ bool resplit(const ProblemData& data, Searcher& searcher, double limit) {
     }
     const Int cut = depot_between(data, searcher.scratch->line, lines.length);
     const double after = split_all(data, searcher, k, cut, lines.length);
-    if (after == infinite || (lines.exact && !is_worth(data, k, lines, after, limit))) {
+    if (after == infinite_cost || (lines.exact && !is_worth(data, k, lines, after, limit))) {
         return false;
     }
     return write_all(data, searcher, slot, other, part, cut, lines.length);

@@ -1,10 +1,4 @@
-// An order of customers, cut at best into what a truck and its drone do together.
-//
-// The order is cut into operations that begin and end with truck and drone together, by dynamic
-// programming. Waiting for windows is left to the exact timing that follows.
-//
-// References: Agatz, Bouman and Schmidt (2018), optimization approaches for the traveling salesman
-// problem with drone, Transportation Science 52:965-981.
+// An order of customers, each at a place in a line: a trip's with one drone, or two routes'.
 #pragma once
 
 #include "search/scratch.h"
@@ -22,9 +16,6 @@ void shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::
 
 // Write what a truck that served the whole line would drive. In place.
 void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length);
-
-// Cut the line into operations at least cost. In place; false if it can't be cut.
-bool split(const ProblemData& data, Int k, View<Line, 1> line, View<double, 1> cost, Int length);
 
 // Return what the operations that are noted in the line cost.
 double present_cost(const ProblemData& data, Int k, View<const Line, 1> line, Int length);

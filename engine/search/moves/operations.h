@@ -1,0 +1,67 @@
+// What it costs to serve a stretch of a line by one operation of a truck and its drone.
+//
+// Either the truck drives to the next place, after its drone has served those between on flights
+// that it waits for, or it serves them itself but for one, whom the drone serves meanwhile.
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "rules/flight.h"
+#include "rules/leg.h"
+#include "rules/rates.h"
+#include "rules/shift.h"
+#include "search/route/layout.h"
+
+namespace tandem {
+
+constexpr double infinite_cost = std::numeric_limits<double>::infinity();
+
+// A flight to a customer and back to the truck, and how far that is.
+struct WayByAir {
+    Flight flight;
+    Int distance;
+};
+
+inline WayByAir way_by_air(const ProblemData& data, const VehicleType& type, Windows place,
+                           Int from, Int customer, Int to) {
+    const Leg out = leg(legs_of(data.leg, type.drone_travel), from, customer);
+    const Leg home = leg(legs_of(data.leg, type.home_travel), customer, to);
+    return {{type, place, out.duration, home.duration}, out.distance + home.distance};
+}
+
+// Return what it costs to come so far, be served and drive to the next stop.
+inline double driven_on(const Rate& rate, double before, const Leg& way, Int service) {
+    return before + usual_work_cost(rate, way.duration + service) + drive_cost(rate, way.distance) +
+           rate.stop;
+}
+
+// Return what a flight costs for which the truck waits at a stop.
+inline double loop_cost(const ProblemData& data, Int k, Int node, Int customer) {
+    const VehicleType& type = data.type[k];
+    const Rate& rate = data.rate[k];
+    const auto [flight, distance] =
+        way_by_air(data, type, data.place.by_air(type)[customer], node, customer, node);
+    if (!data.strategy.loops || !flight.can_serve()) return infinite_cost;
+    const Int duration = flight.duration();
+    return usual_work_cost(rate, duration + handling_duration(type)) +
+           airborne_cost(rate, duration) + flown_cost(rate, distance);
+}
+
+// Return how much longer a truck is at a stop where it launches its drone than that takes, less the
+// `service` there, which counts as driving.
+inline Int stay_beside_launch(const VehicleType& type, Int service) {
+    return std::max(Int{0}, service - launch_duration(type, 1)) - service;
+}
+
+// Return what an operation costs on which the drone flies so far, and is `airborne`, while the
+// truck drives, of one or of several at once. `working` is how long all takes, with launch and
+// recovery, `alone` what the truck costs by distance and stops.
+template <class Amounts, class Costs>
+Costs crossing_cost(const Rate& rate, const Amounts& working, const Amounts& airborne,
+                    const Amounts& flown, const Costs& alone) {
+    return usual_work_cost(rate, working) + alone + airborne_cost(rate, airborne) +
+           flown_cost(rate, flown);
+}
+
+}  // namespace tandem

@@ -1,0 +1,219 @@
+#include "search/moves/splitter.h"
+
+#include <algorithm>
+#include <array>
+
+#include "rules/flight.h"
+#include "rules/leg.h"
+#include "rules/rates.h"
+#include "rules/window.h"
+#include "search/moves/operations.h"
+#include "search/moves/split.h"
+#include "vectors.h"
+
+namespace tandem {
+namespace {
+
+using Some = Vector<double, at_once>;
+
+constexpr std::array<double, at_once> ascending{0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
+
+// Return the numbers of a row from a place on.
+Some some(const double* row, Int place) {
+    Some numbers;
+    load(row + place, numbers);
+    return numbers;
+}
+
+// An operation that ends at a place, and what all up to there costs.
+struct Operation {
+    double cost;
+    Int before;
+    Int flight;
+
+    // Of those that cost the same, that which begins first is taken, then that which flies least
+    // far along the line.
+    bool is_better(const Operation& other) const {
+        if (cost != other.cost) return cost < other.cost;
+        return before != other.before ? before < other.before : flight < other.flight;
+    }
+};
+
+// Finds the best operation up to each place of a line, one place after another.
+class Splitting {
+public:
+    Splitting(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch)
+        : data_(data),
+          k_(k),
+          type_(data.type[k]),
+          rate_(data.rate[k]),
+          drives_(data.can[k][0]),
+          flies_(data.can[k][1]),
+          places_(data.place.by_truck(type_)),
+          places_by_air_(data.place.by_air(type_)),
+          line_(line),
+          length_(length),
+          scratch_(scratch) {
+        begin_at(0, 0.0);
+    }
+
+    void end_at(Int j) {
+        Operation best{infinite_cost, 0, no_flight};
+        if (j == length_ - 1 || drives_[line_[j].node]) {
+            drive_to(j, best);
+            if (data_.strategy.crossings) cross_to(j, best);
+        }
+        line_[j].before = best.before;
+        line_[j].flight = best.flight;
+        begin_at(j, best.cost);
+    }
+
+private:
+    static std::size_t at(Int place) { return static_cast<std::size_t>(place); }
+
+    SplitScratch::WaysOut& out_to(Int place) { return scratch_.out[at(place % longest_operation)]; }
+
+    // Let operations begin at a place, up to where all costs so much, and fly there.
+    void begin_at(Int place, double cost) {
+        const Line& here = line_[place];
+        const Int stays = stay_beside_launch(type_, places_[here.node].service_duration());
+        scratch_.cost[place] = cost;
+        scratch_.loops[place] = 0.0;
+        scratch_.looped_until[place] = place + 1;
+        scratch_.drive[place] = static_cast<double>(here.drive - stays);
+        scratch_.distance[place] = static_cast<double>(here.distance);
+        if (!data_.strategy.crossings || place == 0 || place == length_ - 1 || !flies_[here.node])
+            return;
+        const LegRow inward = legs_to(data_.back, type_.drone_travel, here.node);
+        SplitScratch::WaysOut& out = out_to(place);
+        for (Int back = 1; back < std::min(longest_operation, place + 1); ++back) {
+            const Leg way = leg_from(inward, line_[place - back].node);
+            out.duration[at(longest_operation - 1 - back)] = static_cast<double>(way.duration);
+            out.distance[at(longest_operation - 1 - back)] = static_cast<double>(way.distance);
+        }
+    }
+
+    // Try all operations on which the truck drives to place `j` itself. In place.
+    //
+    // Those that begin nearest are tried first, which mostly rules out the others.
+    void drive_to(Int j, Operation& best) {
+        const TravelLegs legs = legs_of(data_.leg, type_.travel);
+        for (Int i = j - 1; i >= std::max(Int{0}, j - longest_operation); --i) {
+            const double before = loop(i, j, best.cost);
+            if (!(before <= best.cost)) continue;
+            const Int here = line_[i].node;
+            const double cost = driven_on(rate_, before, leg(legs, here, line_[j].node),
+                                          places_[here].service_duration());
+            if (cost <= best.cost) best = {cost, i, no_flight};
+        }
+    }
+
+    // Return what all costs up to place `i`, with flights to those up to `j` for which the truck
+    // waits there; not all of them once it is more than `most`.
+    double loop(Int i, Int j, double most) {
+        double& loops = scratch_.loops[i];
+        Int& until = scratch_.looped_until[i];
+        for (; until < j && scratch_.cost[i] + loops <= most; ++until) {
+            const Int customer = line_[until].node;
+            loops +=
+                flies_[customer] ? loop_cost(data_, k_, line_[i].node, customer) : infinite_cost;
+        }
+        return scratch_.cost[i] + loops;
+    }
+
+    // Try all operations on which the drone flies across to place `j`. In place.
+    void cross_to(Int j, Operation& best) {
+        // From where on all between are served by the truck, and all but one.
+        Int all = j, all_but_one = j;
+        for (Int i = j - 2; i >= std::max(Int{0}, j - longest_operation); --i) {
+            const Int grounded = line_[j - 1].grounded - line_[i].grounded;
+            if (grounded > 1) break;
+            all_but_one = i;
+            if (grounded == 0) all = i;
+        }
+        for (Int flown = j - 1; flown > all_but_one; --flown) {
+            const Int node = line_[flown].node;
+            if (flies_[node]) fly_over(flown, drives_[node] ? all : all_but_one, j, best);
+        }
+    }
+
+    // Try all operations from place `first` or behind on which the drone serves place `flown`,
+    // and then flies to `j`. In place.
+    void fly_over(Int flown, Int first, Int j, Operation& best) {
+        const Line &spared = line_[flown], &to = line_[j];
+        const Leg home = leg_to(legs_from(data_.leg, type_.home_travel, spared.node), to.node);
+        const Int back = places_by_air_[spared.node].service_duration() + home.duration;
+        if (!can_last(type_, back)) return;
+        const auto drive_until = static_cast<double>(to.drive - spared.spared_drive);
+        const auto distance_until = static_cast<double>(to.distance - spared.spared_distance);
+        const auto handled = static_cast<double>(handling_duration(type_));
+        const SplitScratch::WaysOut& out = out_to(flown);
+        for (Int i = first; i < flown; i += at_once) {
+            const Int way = i + longest_operation - 1 - flown;
+            const Some flight = some(out.duration.data(), way) + static_cast<double>(back);
+            const Some distance =
+                some(out.distance.data(), way) + static_cast<double>(home.distance);
+            const Some airborne = larger(flight, drive_until - some(&scratch_.drive[0], i));
+            const Some stops = static_cast<double>(j - i - 1) - some(ascending.data(), 0);
+            const Some alone = drive_cost(rate_, distance_until - some(&scratch_.distance[0], i)) +
+                               stops_cost(rate_, stops);
+            const Some cost = some(&scratch_.cost[0], i) +
+                              crossing_cost(rate_, airborne + handled, airborne, distance, alone);
+            const Some allowed =
+                where_at_most(counted_until(type_, flight, airborne),
+                              static_cast<double>(endurance_of(type_)), cost, infinite_cost);
+            if (least_of(allowed) <= best.cost) take_best(allowed, i, flown, j, best);
+        }
+    }
+
+    // Take the best of operations that begin at place `first` and behind. In place.
+    void take_best(const Some& allowed, Int first, Int flown, Int j, Operation& best) const {
+        std::array<double, at_once> cost;
+        store(allowed, cost.data());
+        while (true) {
+            const auto least = std::min_element(cost.begin(), cost.end());
+            const Operation found{*least, first + (least - cost.begin()), flown};
+            if (found.cost == infinite_cost || !found.is_better(best)) return;
+            if (has_energy(found.before, flown, j)) {
+                best = found;
+                return;
+            }
+            *least = infinite_cost;
+        }
+    }
+
+    // Tell whether the drone's battery lasts until the truck is there.
+    bool has_energy(Int i, Int flown, Int j) const {
+        if (!is_limited(type_)) return true;
+        const Int customer = line_[flown].node;
+        const Flight flight = way_by_air(data_, type_, places_by_air_[customer], line_[i].node,
+                                         customer, line_[j].node)
+                                  .flight;
+        const Int drive =
+            line_[j].drive - line_[flown].spared_drive - static_cast<Int>(scratch_.drive[i]);
+        return flight.can_wait(std::max(Int{0}, drive - flight.duration()));
+    }
+
+    const ProblemData& data_;
+    Int k_;
+    const VehicleType& type_;
+    Rate rate_;
+    View<const bool, 1> drives_;
+    View<const bool, 1> flies_;
+    NodeTable places_;
+    NodeTable places_by_air_;
+    View<Line, 1> line_;
+    Int length_;
+    SplitScratch& scratch_;
+};
+
+}  // namespace
+
+double split(const ProblemData& data, Int k, View<Line, 1> line, Int length,
+             SplitScratch& scratch) {
+    Splitting splitting(data, k, line, length, scratch);
+    for (Int j = 1; j < length; ++j) splitting.end_at(j);
+    return scratch.cost[length - 1];
+}
+
+}  // namespace tandem

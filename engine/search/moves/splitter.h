@@ -1,0 +1,17 @@
+// An order of customers, cut at best into what a truck and its drone do together.
+//
+// The order is cut into operations that begin and end with truck and drone together, by dynamic
+// programming. Waiting for windows is left to the exact timing that follows.
+//
+// References: Agatz, Bouman and Schmidt (2018), optimization approaches for the traveling salesman
+// problem with drone, Transportation Science 52:965-981.
+#pragma once
+
+#include "search/scratch.h"
+
+namespace tandem {
+
+// Cut the line into operations at least cost; return that. In place; infinite if it can't be cut.
+double split(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch);
+
+}  // namespace tandem
