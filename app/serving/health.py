@@ -23,10 +23,11 @@ async def ready(request: Request) -> JSONResponse:
     """Answer 200 while plans can be computed and jobs taken, 503 before and after."""
     if request.app.state.shutdown.has_begun:
         return JSONResponse({"status": "stopping", "detail": "this process is about to end"}, 503)
-    if request.app.state.jobs.is_preparing:
+    database = request.app.state.jobs.database
+    if database.is_preparing:
         detail = "the database is being prepared"
         return JSONResponse({"status": "starting", "detail": detail}, 503)
-    trouble = await request.app.state.jobs.misfit() or await request.app.state.guard.trouble()
+    trouble = await database.misfit() or await request.app.state.guard.trouble()
     if trouble is not None:
         return JSONResponse({"status": "unavailable", "detail": trouble}, 503)
     return JSONResponse({"status": "ready", "detail": "ready"})

@@ -15,7 +15,7 @@ from app.records.dispatches.errors import UnknownLinkError
 from app.records.dispatches.links import DRIVER_TOKENS
 from app.records.dispatches.schemas import DriverDay, EventsReply, EventsRequest
 from app.records.dispatches.store import DispatchStore
-from app.records.jobs.routes import Desk
+from app.records.prepared import Database
 from app.requests.reading import read_model
 from app.schemas.openapi import json_body, problems
 from app.serving.access.guard import Guard
@@ -68,10 +68,10 @@ Token = Annotated[str, Security(link_token)]
 
 @router.get("/drive/day", summary="Read a vehicle's day", response_model=DriverDay,
             responses=REFUSED)
-async def driver_day(request: Request, token: Token, desk: Desk) -> Response:
+async def driver_day(request: Request, token: Token, database: Database) -> Response:
     """Return the day of the vehicle that the link is for, and nothing of any other."""
     try:
-        day = await desk.reach(lambda engine: read_day(DispatchStore(engine), token))
+        day = await database.reach(lambda engine: read_day(DispatchStore(engine), token))
     except UnknownLinkError:
         raise _unknown(request) from None
     return Response(day.model_dump_json(), media_type="application/json")
@@ -79,10 +79,10 @@ async def driver_day(request: Request, token: Token, desk: Desk) -> Response:
 
 @router.post("/drive/events", summary="Tell of a vehicle's day", response_model=EventsReply,
              responses=TOLD, openapi_extra=json_body(EventsRequest))
-async def driver_events(request: Request, token: Token, desk: Desk, body: Body) -> Response:
+async def driver_events(request: Request, token: Token, database: Database, body: Body) -> Response:
     """Keep what a driver tells; what was told before counts once."""
     try:
-        reply = await desk.reach(lambda engine: tell(
+        reply = await database.reach(lambda engine: tell(
             DispatchStore(engine), token, read_model(body.content, EventsRequest)))
     except UnknownLinkError:
         raise _unknown(request) from None

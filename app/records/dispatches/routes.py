@@ -14,6 +14,7 @@ from app.records.dispatches.schemas import (
 from app.records.dispatches.service import DispatchService, Followed
 from app.records.dispatches.store import DispatchStore
 from app.records.jobs.routes import Desk, JobId
+from app.records.prepared import Database
 from app.requests.bounds import Bounds
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_model
@@ -43,10 +44,11 @@ LinkId = Annotated[str, Path(max_length=12, description="Id of the link.")]
 @router.post("/dispatches", summary="Send a plan to its drivers", status_code=201,
              response_model=DispatchReply, responses=SENT,
              openapi_extra=json_body(DispatchRequest))
-async def dispatch_plan(request: Request, principal: Jobs, desk: Desk, body: Body) -> Response:
+async def dispatch_plan(request: Request, principal: Jobs, database: Database,
+                        body: Body) -> Response:
     """Keep a plan and make a link for each of its vehicles, which is told this once."""
     bounds = Bounds.of_plans(request.app.state.settings)
-    followed = await desk.reach(lambda engine: _service(request, engine).create(
+    followed = await database.reach(lambda engine: _service(request, engine).create(
         read_about_plan(body.content, bounds, DispatchRequest), principal.key_id,
         principal.client))
     return _told(request, followed, 201)
@@ -56,14 +58,14 @@ async def dispatch_plan(request: Request, principal: Jobs, desk: Desk, body: Bod
              status_code=201, response_model=DispatchReply, responses=SENT_FROM_JOB,
              openapi_extra=json_body(DispatchOptions))
 async def dispatch_job(request: Request, job_id: JobId, principal: Jobs, desk: Desk,
-                       body: Body) -> Response:
+                       database: Database, body: Body) -> Response:
     """Do the same as `POST /dispatches` with a job's best plan so far."""
     options, (problem, plan) = await desk.ask(lambda jobs: (
         read_model(body.content, DispatchOptions), jobs.plan(job_id, principal.key_id)))
     wanted = DispatchRequest.model_construct(
         problem=problem, plan=parse_plan(plan), plan_start=options.plan_start,
         time_zone=options.time_zone)
-    followed = await desk.reach(lambda engine: _service(request, engine).create(
+    followed = await database.reach(lambda engine: _service(request, engine).create(
         wanted, principal.key_id, principal.client))
     return _told(request, followed, 201)
 
@@ -71,11 +73,11 @@ async def dispatch_job(request: Request, job_id: JobId, principal: Jobs, desk: D
 @router.get("/dispatches", summary="List plans on the road", response_model=DispatchListReply,
             responses=problems(_422="A parameter is not valid.", _503=UNAVAILABLE))
 async def list_dispatches(
-    request: Request, principal: Jobs, desk: Desk,
+    request: Request, principal: Jobs, database: Database,
     limit: Annotated[int, Query(ge=1, le=MAX_LISTED, description="Most that are listed.")] = 50,
 ) -> Response:
     """Return the caller's dispatches without their links, the youngest first."""
-    rows = await desk.reach(lambda engine: _service(request, engine).page(
+    rows = await database.reach(lambda engine: _service(request, engine).page(
         principal.key_id, limit))
     return _json(DispatchListReply(dispatches=[summary(row) for row in rows]))
 
@@ -83,33 +85,33 @@ async def list_dispatches(
 @router.get("/dispatches/{dispatch_id}", summary="Follow a plan on the road",
             response_model=DispatchReply, responses=FOUND)
 async def follow_dispatch(request: Request, dispatch_id: DispatchId, principal: Jobs,
-                          desk: Desk) -> Response:
+                          database: Database) -> Response:
     """Return how far each vehicle is, by what its driver told."""
-    return _told(request, await desk.reach(lambda engine: _service(request, engine).follow(
+    return _told(request, await database.reach(lambda engine: _service(request, engine).follow(
         dispatch_id, principal.key_id)))
 
 
 @router.post("/dispatches/{dispatch_id}/plan", summary="Change a plan on the road",
              response_model=DispatchReply, openapi_extra=json_body(PlannedProblem),
              responses=SENT | problems(_404=UNKNOWN, _409="The dispatch has ended."))
-async def change_dispatch(request: Request, dispatch_id: DispatchId, principal: Jobs, desk: Desk,
-                          body: Body) -> Response:
+async def change_dispatch(request: Request, dispatch_id: DispatchId, principal: Jobs,
+                          database: Database, body: Body) -> Response:
     """Put another plan of the day in its place: vehicles keep their links and what was told."""
     bounds = Bounds.of_plans(request.app.state.settings)
-    return _told(request, await desk.reach(lambda engine: _service(request, engine).change(
+    return _told(request, await database.reach(lambda engine: _service(request, engine).change(
         dispatch_id, read_about_plan(body.content, bounds, PlannedProblem), principal.key_id)))
 
 
 @router.get("/dispatches/{dispatch_id}/replan", summary="Plan on from what drivers told",
             response_model=GoingOnReply, responses=FOUND)
 async def go_on(
-    request: Request, dispatch_id: DispatchId, principal: Jobs, desk: Desk,
+    request: Request, dispatch_id: DispatchId, principal: Jobs, database: Database,
     now: Annotated[float | None, Query(
         ge=0, le=MAX_INSTANT, description="From when on, in seconds since plan start. Left out: "
         "now.")] = None,
 ) -> Response:
     """Return `replan` for a request of `POST /plan`: what was served, by whom and when."""
-    return _json(await desk.reach(lambda engine: _service(request, engine).going_on(
+    return _json(await database.reach(lambda engine: _service(request, engine).going_on(
         dispatch_id, principal.key_id, now)))
 
 
@@ -117,27 +119,27 @@ async def go_on(
              status_code=201, response_model=DispatchReply,
              responses=FOUND | problems(_409="The dispatch has ended."))
 async def renew_link(request: Request, dispatch_id: DispatchId, link_id: LinkId, principal: Jobs,
-                     desk: Desk) -> Response:
+                     database: Database) -> Response:
     """Put another link in place of one, such as one that was lost; the former is revoked."""
-    return _told(request, await desk.reach(lambda engine: _service(request, engine).renew(
+    return _told(request, await database.reach(lambda engine: _service(request, engine).renew(
         dispatch_id, link_id, principal.key_id)), 201)
 
 
 @router.delete("/dispatches/{dispatch_id}/links/{link_id}", summary="Revoke a link",
                response_model=DispatchReply, responses=FOUND)
 async def revoke_link(request: Request, dispatch_id: DispatchId, link_id: LinkId,
-                      principal: Jobs, desk: Desk) -> Response:
+                      principal: Jobs, database: Database) -> Response:
     """Let a link open nothing any more, from now on."""
-    return _told(request, await desk.reach(lambda engine: _service(request, engine).revoke(
+    return _told(request, await database.reach(lambda engine: _service(request, engine).revoke(
         dispatch_id, link_id, principal.key_id)))
 
 
 @router.delete("/dispatches/{dispatch_id}", summary="End a plan's day",
                response_model=DispatchReply, responses=FOUND)
 async def end_dispatch(request: Request, dispatch_id: DispatchId, principal: Jobs,
-                       desk: Desk) -> Response:
+                       database: Database) -> Response:
     """Let all its links open nothing any more; what drivers told is kept until it expires."""
-    return _told(request, await desk.reach(lambda engine: _service(request, engine).end(
+    return _told(request, await database.reach(lambda engine: _service(request, engine).end(
         dispatch_id, principal.key_id)))
 
 

@@ -107,7 +107,7 @@ def running_jobs(settings: Settings, planner: Planner, metrics: Metrics,
 
 def _start(desk: JobDesk, worker: Worker | None, stopping: threading.Event) -> None:
     """Prepare the database, then work on jobs. In place."""
-    while not stopping.is_set() and not desk.prepare():
+    while not stopping.is_set() and not desk.database.prepare():
         stopping.wait(RETRY)
     if worker is None:
         return

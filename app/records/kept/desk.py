@@ -1,28 +1,24 @@
 """Where endpoints turn to about kept plans: the database is waited for in threads of their own."""
 
-import logging
 import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from functools import partial
 from typing import TypeVar
 
-from anyio import CapacityLimiter, to_thread
-from sqlalchemy.exc import SQLAlchemyError
-
-from app.database.connections import close_for_good, is_misfit, is_outage
+from app.database.connections import close_for_good
 from app.database.durable import connect
-from app.database.files import why_unreachable
-from app.database.migrations.running import SchemaError
 from app.records.kept.errors import KeptUnavailableError
 from app.records.kept.rows import Room
 from app.records.kept.store import KeptStore
+from app.records.threads import DatabaseThreads
 from app.serving.settings import Settings
-
-logger = logging.getLogger(__name__)
 
 Result = TypeVar("Result")
 
 THREADS = 4
+
+MISFIT = "The database's tables don't fit: see 'tandem database show'."
 
 DAY_MS = 86_400_000
 
@@ -32,7 +28,7 @@ class KeptDesk:
 
     def __init__(self, store: KeptStore) -> None:
         self._store = store
-        self._threads = CapacityLimiter(THREADS)
+        self._threads = DatabaseThreads(store.engine, THREADS, KeptUnavailableError)
         self._preparing = threading.Lock()
         self._is_prepared = False
 
@@ -46,19 +42,7 @@ class KeptDesk:
         RequestError
             If the question has no answer.
         """
-        try:
-            return await to_thread.run_sync(self._answer, question, limiter=self._threads)
-        except SchemaError as error:
-            raise KeptUnavailableError(str(error)) from error
-        except SQLAlchemyError as error:
-            if is_misfit(error):
-                raise KeptUnavailableError("The database's tables don't fit: see 'tandem database "
-                                           "show'.") from error
-            if not is_outage(error):
-                raise
-            # The class alone: messages may repeat the URL, and so its password.
-            logger.warning("the database can't be reached: %s", type(error).__name__)
-            raise KeptUnavailableError(why_unreachable(self._store.engine)) from error
+        return await self._threads.run(partial(self._answer, question), lambda: MISFIT)
 
     def _answer(self, question: Callable[[KeptStore], Result]) -> Result:
         with self._preparing:
