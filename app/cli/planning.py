@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Annotated
 
 import typer
+from pydantic_core import to_json
 
 from app.cli.file_errors import refuse
 from app.cli.opening import roads_of
@@ -53,8 +54,9 @@ def plan(problem_file: ProblemFile, output: Output = None) -> None:
             _print_warnings(task)
             planner = load_planner(settings.weights_dir, settings.policies)
             # What loading takes is no part of the time limit.
-            reply = reply_of(planner, task, plan_options(request.options, settings.search_threads),
-                             time.perf_counter() - prepared, waited=hurried.waited)
+            options = plan_options(request.options, settings.search_threads)
+            reply = to_json(reply_of(planner, task, options, time.perf_counter() - prepared,
+                                     waited=hurried.waited))
     except RequestError as error:
         refuse(problem_file, error)
     if output is None:

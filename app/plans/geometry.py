@@ -1,7 +1,7 @@
 """The ways of a plan's legs as encoded polylines: what a map draws."""
 
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
@@ -10,7 +10,7 @@ from app.plans.road_lines import Line, RoadLines, encoded
 from app.requests.conversion.ground import Detours, Ground
 from app.requests.conversion.launches import drones_named
 from app.requests.conversion.leg_origins import LegOrigin
-from app.requests.conversion.places import depots_of
+from app.requests.conversion.places import PlacedRequest
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
 from app.schemas.request import PlanRequest
 from model.problem import FloatArray
@@ -33,11 +33,12 @@ class Geometry:
         What the request's legs are made of.
     """
 
-    def __init__(self, request: PlanRequest, ground: Ground, roads: Roads = NO_ROADS,
+    def __init__(self, placed: PlacedRequest, ground: Ground, roads: Roads = NO_ROADS,
                  legs: Sequence[LegOrigin] = ()) -> None:
+        request = placed.request
         self._types = {kind.id: kind for kind in request.fleet}
         self._matrices = frozenset(request.matrices or {})
-        self._nodes = _nodes(request)
+        self._nodes = {name: node for node, name in enumerate(placed.names)}
         self._locations: list[tuple[float, float]] | None = (
             [(float(x), float(y)) for x, y in ground.locations]
             if all(place.location is not None for place in ground.places) else None)
@@ -114,10 +115,3 @@ class Geometry:
         places = [self._locations[start], *((float(x), float(y)) for x, y in bends),
                   self._locations[end]]
         return encoded(places)
-
-
-def _nodes(request: PlanRequest) -> Mapping[tuple[str, str], int]:
-    """Return the places by kind and id, in the order of all that are somewhere."""
-    depots = [(depot.kind, depot.id) for depot in depots_of(request) if depot.kind != "nowhere"]
-    customers = [("customer", customer.id) for customer in request.customers]
-    return {name: node for node, name in enumerate([*depots, *customers])}

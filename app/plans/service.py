@@ -17,6 +17,7 @@ from app.serving.load.bodies import ReceivedBody
 from model.engine.cores import num_cores
 from model.planner import ALONE, Listener, Planner, PlanOptions
 
+
 class PlanService:
     """Answers planning requests."""
 
@@ -43,8 +44,17 @@ class PlanService:
             If the plan found breaks a rule.
         """
         request = read_request(body.content, self.planner.policies, self._bounds)
-        return reply_to(self.planner, request, body.received_at, self._search_threads,
-                        self._on_plan, Listener(should_stop), self._bounds, self.roads)
+        return self.reply_to(request, body.received_at, Listener(should_stop))
+
+    def reply_to(self, request: PlanRequest, received_at: float,
+                 listener: Listener = ALONE) -> bytes:
+        """Return the reply to a planning request that was read; raises as `plan`."""
+        work = preparing(request.options, self._bounds, listener.should_stop)
+        task = task_of(request, work, roads=self.roads)
+        reply = reply_of(self.planner, task, plan_options(request.options, self._search_threads),
+                         received_at, listener, work.waited)
+        self._on_plan(reply)
+        return to_json(reply)
 
     def warnings(self, body: ReceivedBody) -> bytes:
         """Return the reply to a request of `POST /warnings` as JSON; nothing is planned.
@@ -58,23 +68,9 @@ class PlanService:
         return to_json({"warnings": warning_replies(warnings_of(request, self.roads.profiles))})
 
 
-def reply_to(planner: Planner, request: PlanRequest, received_at: float, search_threads: int = 1,
-             on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
-             bounds: Bounds = UNBOUNDED, roads: Roads = NO_ROADS) -> bytes:
-    """Return the reply to a planning request that was read as JSON; raises as `PlanService.plan`.
-
-    A request that states no number of threads gets `search_threads`; `on_plan` is told the reply.
-    """
-    work = preparing(request.options, bounds, listener.should_stop)
-    task = task_of(request, work, roads=roads)
-    return reply_of(planner, task, plan_options(request.options, search_threads), received_at,
-                    on_plan, listener, work.waited)
-
-
 def reply_of(planner: Planner, task: Task, options: PlanOptions, received_at: float,
-             on_plan: Callable[[Data], None] = lambda _: None, listener: Listener = ALONE,
-             waited: float = 0.0) -> bytes:
-    """Return the reply to a planning request that was converted as JSON, as `reply_to` does.
+             listener: Listener = ALONE, waited: float = 0.0) -> Data:
+    """Return the reply to a planning request that was converted; raises as `PlanService.plan`.
 
     `waited` are seconds since `received_at` that are no part of the time limit.
     """
@@ -84,8 +80,7 @@ def reply_of(planner: Planner, task: Task, options: PlanOptions, received_at: fl
     elapsed = reply["solver"]["elapsed"]
     elapsed["validate"] = validated
     elapsed["total"] = time.perf_counter() - received_at
-    on_plan(reply)
-    return to_json(reply)
+    return reply
 
 
 def preparing(stated: OptionsInput, bounds: Bounds,

@@ -20,6 +20,7 @@ from app.requests.conversion.ground import Ground
 from app.requests.conversion.leg_origins import LegOrigin
 from app.requests.conversion.locating import Located, located
 from app.requests.conversion.names import read_name
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.problem import problem_of
 from app.requests.conversion.travels import Travels
@@ -185,14 +186,14 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     StoppedError
         If it is stopped.
     """
-    places = located(request, roads.addresses, preparing)
-    if places.found:
-        request, ground = places.request, None
-    ground = ground or Ground(request, preparing)
-    travels = Travels(request, preparing, ground, roads)
-    problem = problem_of(request, travels)
+    places = located(PlacedRequest(request), roads.addresses, preparing)
+    placed, request = places.placed, places.placed.request
+    if ground is None or places.found:
+        ground = Ground(placed, preparing)
+    travels = Travels(placed, preparing, ground, roads)
+    problem = problem_of(placed, travels)
     legs = travels.origins()
-    geometry = Geometry(request, ground, roads, legs) if request.options.geometry else None
+    geometry = Geometry(placed, ground, roads, legs) if request.options.geometry else None
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
     replan, permits = request.replan, Permits.of(request)

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from app.requests.conversion.places import nowhere_of, places_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.travels import Travels
 from app.requests.draft import Draft
 from app.schemas.errors import InputError
@@ -72,9 +72,8 @@ def bound_errors(draft: Draft, bounds: Bounds) -> Iterator[InputError]:
 
 def leg_errors(request: PlanRequest, bounds: Bounds) -> Iterator[InputError]:
     """Yield an error if the matrices of a valid request would take too much memory."""
-    travels = Travels(request)
-    kinds = travels.count(bounds.on_roads)
-    places = len(places_of(request)) + (nowhere_of(request) is not None)
+    placed = PlacedRequest(request)
+    kinds, places = Travels(placed).count(bounds.on_roads), placed.num_nodes
     legs = kinds * places**2
     once_more = ""
     if request.replan is not None:

@@ -12,7 +12,7 @@ from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.replies import cost_reply, summary_reply
 from app.plans.task import task_of
 from app.requests.conversion.locating import at_addresses
-from app.requests.conversion.places import depots_of, places_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.plan_reading import read_plan
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day
@@ -66,7 +66,7 @@ class Scene:
         """
         task = task_of(request, roads=roads)
         if task.places is not None:
-            request = task.places.request
+            request = task.places.placed.request
         solution = read_plan(plan, task.problem)
         shapeless = list(_shape_errors(request, plan))
         if shapeless:
@@ -97,7 +97,8 @@ class Scene:
     @cached_property
     def layout(self) -> Layout | None:
         """Where things are; None if some place has no location."""
-        places = places_of(self.request)
+        placed = PlacedRequest(self.request)
+        places = placed.places
         located = [point for place in places
                   if (point := point_of(place.location)) is not None]
         if len(located) < len(places):
@@ -111,12 +112,9 @@ class Scene:
             return (points * scale if projection is None
                     else projection.project(points) / METRES_PER_KM)
 
-        names: list[Place] = [(depot.kind, depot.id) for depot in depots_of(self.request)
-                              if depot.kind != "nowhere"]
-        names += [("customer", customer.id) for customer in self.request.customers]
         points = planar(degrees_or_units)
         return Layout(
-            {name: (float(x), float(y)) for name, (x, y) in zip(names, points, strict=True)},
+            {name: (float(x), float(y)) for name, (x, y) in zip(placed.names, points, strict=True)},
             tuple(planar(np.array(ring, dtype=np.float64))
                   for ring in self.request.airspace.no_fly),
             planar)

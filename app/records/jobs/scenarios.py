@@ -16,6 +16,7 @@ from app.records.jobs.grid import GridPath, Place, places, put, read_path
 from app.records.jobs.schemas import CompareRequest, SweepRequest
 from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.conversion.ground import Ground
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.reading import read_json, read_request, request_errors
 from app.requests.refusal import require_readable
@@ -158,14 +159,15 @@ def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
         If the work is stopped.
     """
     errors: list[InputError] = []
-    ground = Ground(base, preparing)
+    ground = Ground(PlacedRequest(base), preparing)
     for position in range(len(scenarios)):
         preparing.pause()
         scenario = scenarios.scenario(position)
         try:
             request = apply(base, scenario, policies, bounds)
-            if not ground.is_that_of(request):
-                ground = Ground(request, preparing)
+            placed = PlacedRequest(request)
+            if not ground.is_that_of(placed):
+                ground = Ground(placed, preparing)
             check_replan(request, preparing, ground, roads)
         except InvalidRequestError as error:
             errors += [_named(item, scenario) for item in error.errors]

@@ -5,12 +5,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.requests.conversion.places import places_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.rounding import ROUNDINGS
 from app.requests.conversion.work import sights_seconds
 from app.schemas.fields import point_of
-from app.schemas.request import PlanRequest
 from model.problem import FloatArray, Points
 from model.problem.distances import EXACT
 from model.travel.airspace import Airspace, Flights
@@ -40,20 +39,20 @@ class Detours(NamedTuple):
 class Ground:
     """Where a request's places and no-fly areas are, however its fleet travels."""
 
-    def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED) -> None:
-        self._request = request
+    def __init__(self, placed: PlacedRequest, preparing: Preparing = UNHURRIED) -> None:
+        self._request = placed.request
         self._preparing = preparing
-        self.places = places_of(request)
+        self.places = placed.places
 
-    def is_that_of(self, request: PlanRequest) -> bool:
+    def is_that_of(self, placed: PlacedRequest) -> bool:
         """Tell whether a request has its places and areas at the same points."""
-        mine = self._request
+        mine, request = self._request, placed.request
         return (
             (mine.coordinate_system, mine.planar_unit, mine.planar_rounding, mine.airspace)
             == (request.coordinate_system, request.planar_unit, request.planar_rounding,
                 request.airspace)
             and [place.location for place in self.places]
-            == [place.location for place in places_of(request)])
+            == [place.location for place in placed.places])
 
     @cached_property
     def locations(self) -> FloatArray:

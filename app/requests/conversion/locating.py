@@ -10,7 +10,7 @@ from app.maps.addresses.addresses import Addresses
 from app.maps.addresses.far_off import far_places
 from app.maps.addresses.geocoder import Candidate, Candidates, GeocoderStoppedError
 from app.maps.addresses.words import in_words, listed
-from app.requests.conversion.places import paths_of, places_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import Preparing, StoppedError
 from app.schemas.errors import (
     ErrorCode, InputError, InvalidRequestError, NoGeocoderError, json_path,
@@ -38,7 +38,7 @@ class FoundAddress:
 class Located:
     """A request without addresses, and where these are."""
 
-    request: PlanRequest
+    placed: PlacedRequest
     found: tuple[FoundAddress, ...] = ()
 
     def replies(self) -> list[dict[str, Any]]:
@@ -49,7 +49,7 @@ class Located:
         return told
 
 
-def located(request: PlanRequest, addresses: Addresses, preparing: Preparing) -> Located:
+def located(placed: PlacedRequest, addresses: Addresses, preparing: Preparing) -> Located:
     """Return a request with coordinates in place of addresses.
 
     Raises
@@ -62,27 +62,27 @@ def located(request: PlanRequest, addresses: Addresses, preparing: Preparing) ->
         If the work is to end.
     """
     asked = {json_path(path): place.location.address
-             for path, place in zip(paths_of(request), places_of(request), strict=True)
+             for path, place in zip(placed.paths, placed.places, strict=True)
              if isinstance(place.location, AddressInput)}
     if not asked:
-        return Located(request)
+        return Located(placed)
     if not addresses.names:
         raise InvalidRequestError([InputError(
             code="NO_GEOCODER", path=path, message="Addresses are not looked up here: state "
             "[longitude, latitude], or have the service set up with a geocoder (TANDEM_GEOCODER).")
             for path in asked])
     candidates = _candidates(asked, addresses, preparing)
-    accept = request.addresses.accept
+    accept = placed.request.addresses.accept
     errors = [InputError(code=wrong[0], path=path, message=wrong[1])
               for path, address in asked.items()
               if (wrong := _refusal(address, candidates[address], accept))]
     if errors:
         raise InvalidRequestError(errors)
     chosen = {path: candidates[address][0] for path, address in asked.items()}
-    placed = with_locations(request, {path: (best.lon, best.lat)
-                                      for path, best in chosen.items()})
-    far = _far_off(placed)
-    return Located(placed, tuple(
+    points = {path: (best.lon, best.lat) for path, best in chosen.items()}
+    there = PlacedRequest(with_locations(placed.request, points))
+    far = _far_off(there)
+    return Located(there, tuple(
         _found(path, asked[path], candidates[asked[path]], path in far) for path in chosen))
 
 
@@ -160,9 +160,9 @@ def _found(path: str, address: str, candidates: Candidates, is_far: bool) -> Fou
                         None if doubt is None else f"{doubt}.", code if doubt else None)
 
 
-def _far_off(request: PlanRequest) -> set[str]:
+def _far_off(placed: PlacedRequest) -> set[str]:
     """Return the paths of places that are far from most others."""
-    points = [point_of(place.location) for place in places_of(request)]
-    paths = [json_path(path) for path in paths_of(request)]
+    points = [point_of(place.location) for place in placed.places]
+    paths = [json_path(path) for path in placed.paths]
     known = [(path, point) for path, point in zip(paths, points, strict=True) if point]
     return {known[place][0] for place in far_places([point for _, point in known])}

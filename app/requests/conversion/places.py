@@ -1,6 +1,8 @@
 """Where a request's vehicles begin and end, beside its depots: further nodes of the problem."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 from app.schemas.customer import CustomerInput
@@ -33,35 +35,73 @@ def stands_of(kind: VehicleTypeInput) -> Iterator[Stand]:
                     ("end", "location_index"))
 
 
-def places_of(request: PlanRequest) -> list[Place]:
-    """Return all places, in the order of the problem's nodes."""
-    stands = [stand.place for kind in request.fleet for stand in stands_of(kind)]
-    return [*request.depots, *stands, *request.customers]
+@dataclass(frozen=True)
+class PlacedRequest:
+    """A request and its places as nodes of the problem, worked out once and carried along."""
 
+    request: PlanRequest
 
-def paths_of(request: PlanRequest) -> list[Path]:
-    """Return the path of each place's location, in the same order."""
-    depots = [("depots", index, "location") for index in range(len(request.depots))]
-    stands = [("fleet", index, *stand.location) for index, kind in enumerate(request.fleet)
-              for stand in stands_of(kind)]
-    customers = [("customers", index, "location") for index in range(len(request.customers))]
-    return [*depots, *stands, *customers]
+    @cached_property
+    def _stands(self) -> list[tuple[int, Stand]]:
+        """Places of vehicle types that are no depots, by the type's index."""
+        return [(index, stand) for index, kind in enumerate(self.request.fleet)
+                for stand in stands_of(kind)]
 
+    @cached_property
+    def places(self) -> list[Place]:
+        """All places, in the order of the problem's nodes, but for nowhere."""
+        request = self.request
+        return [*request.depots, *(stand.place for _, stand in self._stands), *request.customers]
 
-def nowhere_of(request: PlanRequest) -> int | None:
-    """Return the node where open routes end, behind all places but customers; None: none does."""
-    if all(kind.end != "open" for kind in request.fleet):
-        return None
-    return len(places_of(request)) - len(request.customers)
+    @cached_property
+    def paths(self) -> list[Path]:
+        """The path of each place's location, in the same order."""
+        request = self.request
+        return [*(("depots", index, "location") for index in range(len(request.depots))),
+                *(("fleet", index, *stand.location) for index, stand in self._stands),
+                *(("customers", index, "location") for index in range(len(request.customers)))]
 
+    @cached_property
+    def nowhere(self) -> int | None:
+        """The node where open routes end, behind all places but customers; None: none does."""
+        if all(kind.end != "open" for kind in self.request.fleet):
+            return None
+        return len(self.places) - len(self.request.customers)
 
-def depots_of(request: PlanRequest) -> tuple[Depot, ...]:
-    """Return the nodes where trips may begin or end."""
-    depots = [Depot(depot.id) for depot in request.depots]
-    depots += [stand.depot for kind in request.fleet for stand in stands_of(kind)]
-    if nowhere_of(request) is not None:
-        depots.append(NOWHERE)
-    return tuple(depots)
+    @property
+    def num_nodes(self) -> int:
+        """How many nodes the problem has, nowhere among them."""
+        return len(self.places) + (self.nowhere is not None)
+
+    @cached_property
+    def depots(self) -> tuple[Depot, ...]:
+        """The nodes where trips may begin or end."""
+        depots = [Depot(depot.id) for depot in self.request.depots]
+        depots += [stand.depot for _, stand in self._stands]
+        return tuple(depots if self.nowhere is None else [*depots, NOWHERE])
+
+    @property
+    def names(self) -> list[tuple[str, str]]:
+        """The kind and the id of each place, in their order."""
+        depots = [(depot.kind, depot.id) for depot in self.depots if depot != NOWHERE]
+        return [*depots, *(("customer", customer.id) for customer in self.request.customers)]
+
+    @property
+    def sites(self) -> list[int | None]:
+        """A number for each node, equal at one place, where a vehicle that is there needs no setup.
+
+        None where nobody asks for a setup, and nowhere.
+        """
+        if not any(customer.setup_duration for customer in self.request.customers):
+            return [None] * self.num_nodes
+        numbers: dict[object, int] = {}
+        by_index = bool(self.request.matrices)
+        sites: list[int | None] = [
+            numbers.setdefault(place.location_index if by_index else place.location, len(numbers))
+            for place in self.places]
+        if self.nowhere is not None:
+            sites.insert(self.nowhere, None)
+        return sites
 
 
 class Places(NamedTuple):

@@ -9,10 +9,9 @@ from app.requests.conversion.customer import to_customer
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.groups import groups_of, part_of
 from app.requests.conversion.leaving_out import default_unassigned_cost
-from app.requests.conversion.places import depots_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.service import with_service_durations
-from app.requests.conversion.sites import sites_of
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest
@@ -22,15 +21,15 @@ from model.problem import IncompatibleGoods, Problem
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
                ground: Ground | None = None) -> Problem:
     """Convert a valid request, unless the work on it is to end; `ground` may be known already."""
-    return problem_of(request, Travels(request, preparing, ground))
+    placed = PlacedRequest(request)
+    return problem_of(placed, Travels(placed, preparing, ground))
 
 
-def problem_of(request: PlanRequest, travels: Travels) -> Problem:
+def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     """Convert a valid request, with its legs, unless the work on it is to end."""
     travels.expect_legs()
-    depots = depots_of(request)
+    request, depots, sites = placed.request, placed.depots, placed.sites
     decimals = decimals_of(request.customers, request.fleet)
-    sites = sites_of(request)
     customers = tuple([
         to_customer(customer, decimals, site)
         for customer, site in zip(request.customers, sites[len(depots):], strict=True)])

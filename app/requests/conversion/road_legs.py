@@ -11,10 +11,10 @@ from app.maps.roads.engine import RoadsError, RoadsStoppedError, RoadsUnavailabl
 from app.maps.roads.nearness import Nearness, estimated, nearness
 from app.maps.roads.roads import Roads
 from app.requests.conversion.far_legs import Ask, FarLegs
-from app.requests.conversion.places import paths_of, places_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import Preparing, StoppedError
 from app.schemas.errors import InputError, InvalidRequestError, NoRoadsError, json_path
-from app.schemas.request import PlanRequest, RoadsInput
+from app.schemas.request import RoadsInput
 from model.problem import BoolArray, FloatArray
 
 LONGEST_WALK_M = 2000.0
@@ -57,7 +57,7 @@ class RoadLegs:
     far: FarLegs | None = None  # those that are estimated until a plan drives them
 
 
-def road_legs(roads: Roads, profile: str, request: PlanRequest, ground: Straight,
+def road_legs(roads: Roads, profile: str, placed: PlacedRequest, ground: Straight,
               preparing: Preparing) -> RoadLegs:
     """Return a request's legs by the roads of a profile.
 
@@ -75,12 +75,13 @@ def road_legs(roads: Roads, profile: str, request: PlanRequest, ground: Straight
         If the work is to end.
     """
     with preparing.waiting() as latest:
-        return _legs_by(roads, profile, request, ground, preparing, latest)
+        return _legs_by(roads, profile, placed, ground, preparing, latest)
 
 
-def _legs_by(roads: Roads, profile: str, request: PlanRequest, ground: Straight,
+def _legs_by(roads: Roads, profile: str, placed: PlacedRequest, ground: Straight,
              preparing: Preparing, latest: float) -> RoadLegs:
     """Return the legs that roads tell until an instant; arguments and errors of `road_legs`."""
+    request = placed.request
     stated = request.roads if isinstance(request.roads, RoadsInput) else RoadsInput()
     engine, lon_lat = roads.engine_name(profile), ground.locations
     parts = None
@@ -102,7 +103,7 @@ def _legs_by(roads: Roads, profile: str, request: PlanRequest, ground: Straight,
         nothing = np.where(np.eye(size, dtype=bool), 0.0, np.nan)
         return RoadLegs(nothing, nothing, engine, None, size * (size - 1),
                         f"All legs are estimated: {error}")
-    legs = _Legs(request, profile, engine, stated, table, None if parts is None else parts.asked())
+    legs = _Legs(placed, profile, engine, stated, table, None if parts is None else parts.asked())
     if parts is None:
         return legs.legs()
     return legs.with_far_ones(parts, ground.distances_m, partial(roads.some_legs, profile), lon_lat)
@@ -133,9 +134,9 @@ def _until(latest: float, stated: RoadsInput) -> float:
 class _Legs:
     """A table with all places of a request, some of which may be off the roads."""
 
-    def __init__(self, request: PlanRequest, profile: str, engine: str, stated: RoadsInput,
+    def __init__(self, placed: PlacedRequest, profile: str, engine: str, stated: RoadsInput,
                  table: RoadTable, asked: BoolArray | None) -> None:
-        self._request = request
+        self._placed = placed
         self._profile = profile
         self._engine = engine
         self._stated = stated
@@ -188,10 +189,10 @@ class _Legs:
         return self._is_near & self._is_near[0] & ways[0] & ways[:, 0]
 
     def _is_flown_to(self) -> BoolArray:
-        places = places_of(self._request)
-        first = len(places) - len(self._request.customers)
+        customers = self._placed.request.customers
+        first = len(self._placed.places) - len(customers)
         return np.array([False] * first + [customer.served_by == "drone"
-                                           for customer in self._request.customers])
+                                           for customer in customers])
 
     def _whole(self, off: BoolArray) -> tuple[FloatArray, FloatArray]:
         """Return what is driven, nan to and from places that are off the roads.
@@ -223,6 +224,6 @@ class _Legs:
             found = (f"The nearest road for {self._profile!r}, {away:.0f} m away, has no way to "
                      "or from the first depot")
         return InputError(
-            code="PLACE_OFF_ROADS", path=json_path(paths_of(self._request)[node]),
+            code="PLACE_OFF_ROADS", path=json_path(self._placed.paths[node]),
             message=f"{found}: correct the location, have drones serve it (served_by), check that "
             "the map covers it, or state roads.fallback.")

@@ -12,13 +12,13 @@ from app.requests.conversion.energy import climb_duration
 from app.requests.conversion.far_legs import Estimates, FarTravel
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.leg_origins import AS_ASKED, AS_THE_CROW_FLIES, LegOrigin
-from app.requests.conversion.places import nowhere_of, places_of
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.road_legs import RoadLegs, road_legs
 from app.requests.conversion.units import thousandths
 from app.requests.conversion.work import COMPUTED, legs_seconds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
-from app.schemas.request import MatrixInput, PlanRequest, RoadsInput
+from app.schemas.request import MatrixInput, RoadsInput
 from app.schemas.rows import Row
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
 from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
@@ -57,15 +57,16 @@ SECONDS_PER_METRE = 3.6
 class Travels:
     """Collects the matrices of one valid request, unless the work on them is to end."""
 
-    def __init__(self, request: PlanRequest, preparing: Preparing = UNHURRIED,
+    def __init__(self, placed: PlacedRequest, preparing: Preparing = UNHURRIED,
                  ground: Ground | None = None, roads: Roads = NO_ROADS) -> None:
-        self._request = request
+        self._placed = placed
+        self._request = placed.request
         self._preparing = preparing
-        self._ground = ground or Ground(request, preparing)
+        self._ground = ground or Ground(placed, preparing)
         self._roads = roads
         self._road_legs: dict[str, RoadLegs] = {}
-        self._places = places_of(request)
-        self._nowhere = nowhere_of(request)
+        self._places = placed.places
+        self._nowhere = placed.nowhere
         self._index: dict[_Key, int] = {}
         self._travels: list[Travel] = []
 
@@ -286,7 +287,7 @@ class Travels:
 
     def _legs_on_roads(self, profile: str) -> RoadLegs:
         if profile not in self._road_legs:
-            self._road_legs[profile] = road_legs(self._roads, profile, self._request, self._ground,
+            self._road_legs[profile] = road_legs(self._roads, profile, self._placed, self._ground,
                                                  self._preparing)
         return self._road_legs[profile]
 

@@ -9,7 +9,7 @@ import httpx
 import pytest
 
 from app.main import create_app
-from app.plans.service import PlanService, plan_options, reply_to
+from app.plans.service import PlanService, plan_options
 from app.requests.bounds import Bounds
 from app.requests.reading import read_request
 from app.schemas.limits import DEFAULT_POLICY
@@ -72,7 +72,7 @@ def test_time_limit_runs_from_the_end_of_the_request(
         return plan(problem, options, received_at)
 
     monkeypatch.setattr(planner, "plan", listening)
-    reply_to(planner, read_request(json.dumps(smallest).encode(), None), 12.5)
+    PlanService(planner).reply_to(read_request(json.dumps(smallest).encode(), None), 12.5)
     assert told == [12.5]
 
 

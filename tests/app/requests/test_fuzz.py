@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from app.plans.service import reply_to
+from app.plans.service import PlanService
 from app.requests.reading import read_request
 from app.schemas.errors import InvalidRequestError, RequestError
 from app.schemas.response import PlanReply
@@ -93,7 +93,7 @@ def test_mutated_requests_are_planned_or_refused(planner: Planner, rich: dict[st
     for _ in range(400):
         body = json.dumps(_mutated(rich, rng)).encode()
         try:
-            reply = reply_to(planner, read_request(body, planner.policies), 0.0)
+            reply = PlanService(planner).reply_to(read_request(body, planner.policies), 0.0)
         except InvalidRequestError as error:
             outcomes["refused"] += len(error.errors) > 0
         else:
@@ -112,4 +112,4 @@ def test_mutated_bytes_are_planned_or_refused(planner: Planner, rich: dict[str, 
             start = rng.randrange(len(body))
             body[start : start + rng.randint(0, 3)] = rng.randbytes(rng.randint(0, 3))
         with suppress(RequestError):
-            reply_to(planner, read_request(bytes(body), planner.policies), 0.0)
+            PlanService(planner).reply_to(read_request(bytes(body), planner.policies), 0.0)

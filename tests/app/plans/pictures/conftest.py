@@ -8,7 +8,7 @@ import pytest
 from pydantic_core import to_json
 
 from app.plans.pictures.scene import Scene
-from app.plans.service import reply_to
+from app.plans.service import PlanService
 from app.requests.plan_reading import parse_plan
 from app.requests.reading import read_request
 from app.schemas.openapi import EXAMPLES_DIR
@@ -20,7 +20,8 @@ Drawn = Callable[..., Scene]
 
 def planned(request: Request) -> Request:
     """Return the reply to a request."""
-    return dict(json.loads(reply_to(FirstFitPlanner(), read_request(to_json(request), None), 0.0)))
+    service = PlanService(FirstFitPlanner())
+    return dict(json.loads(service.reply_to(read_request(to_json(request), None), 0.0)))
 
 
 def scene_of(request: Request, plan: Request | None = None) -> Scene:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from app.requests.conversion.leaving_out import default_unassigned_cost
+from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.problem import to_problem
 from app.requests.conversion.travels import Travels
 from app.requests.reading import read_request
@@ -264,7 +265,8 @@ def test_setups_are_spared_at_one_place(smallest: Request) -> None:
 
 def test_flights_back_are_legs_of_their_own_where_somebody_sets_up(smallest: Request) -> None:
     def ways() -> int:
-        return Travels(read_request(json.dumps(smallest).encode(), policies=None)).count()
+        request = read_request(json.dumps(smallest).encode(), policies=None)
+        return Travels(PlacedRequest(request)).count()
 
     smallest["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
     assert ways() == 2
