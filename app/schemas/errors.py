@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
+from types import MappingProxyType
 from typing import Any, ClassVar, Literal, cast, get_args
 
 from fastapi.responses import JSONResponse
@@ -181,38 +182,42 @@ class ProblemDocument(BaseModel):
 class RequestError(ValueError):
     """A request that can't be answered, and the HTTP status that says so."""
 
-    status = 400
-    name = "bad-request"
+    status: ClassVar[int] = 400
+    name: ClassVar[str] = "bad-request"
     title = "The request can't be read"
     refusal: ClassVar[Refusal | None] = None
     """None: its content was looked at."""
+    always: ClassVar[str] = ""
+    """Its detail, where that is always the same."""
+    headers: Mapping[str, str] = MappingProxyType({})
 
-    def __init__(self, detail: str, errors: Sequence[InputError] = ()) -> None:
-        super().__init__(detail)
+    def __init_subclass__(cls, status: int | None = None, name: str | None = None,
+                          refusal: Refusal | None = None) -> None:
+        super().__init_subclass__()
+        cls.status = status or cls.status
+        cls.name = name or cls.name
+        cls.refusal = refusal or cls.refusal
+
+    def __init__(self, detail: str | None = None, errors: Sequence[InputError] = ()) -> None:
+        super().__init__(self.always if detail is None else detail)
         self.errors = tuple(errors)
-        self.headers: Mapping[str, str] = {}
 
 
-class NotJsonError(RequestError):
+class NotJsonError(RequestError, name="not-json"):
     """The body is not JSON."""
 
-    name = "not-json"
     title = "The body is not JSON"
 
 
-class BodyTooLargeError(RequestError):
+class BodyTooLargeError(RequestError, status=413, name="body-too-large"):
     """The body is longer than the service accepts."""
 
-    status = 413
-    name = "body-too-large"
     title = "The body is too large"
 
 
-class InvalidRequestError(RequestError):
+class InvalidRequestError(RequestError, status=422, name="invalid-request"):
     """The body is JSON, and not a valid request."""
 
-    status = 422
-    name = "invalid-request"
     title = "The request is not valid"
 
     def __init__(self, errors: Sequence[InputError]) -> None:
@@ -223,19 +228,15 @@ class InvalidRequestError(RequestError):
                          errors[:MAX_LISTED_ERRORS])
 
 
-class NoRoadsError(RequestError):
+class NoRoadsError(RequestError, status=503, name="roads-unavailable"):
     """Where roads come from doesn't answer, or not what can be right."""
 
-    status = 503
-    name = "roads-unavailable"
     title = "The roads are unavailable"
 
 
-class NoGeocoderError(RequestError):
+class NoGeocoderError(RequestError, status=503, name="geocoder-unavailable"):
     """Where addresses are looked up doesn't answer, or not in time."""
 
-    status = 503
-    name = "geocoder-unavailable"
     title = "The geocoder is unavailable"
 
 

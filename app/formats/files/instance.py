@@ -15,10 +15,9 @@ from model.travel.matrices import planar_distances
 EdgeWeight = Literal["EUC_2D", "FLOOR_2D", "CEIL_2D", "EXACT_2D", "EXPLICIT"]
 
 
-class InstanceFileError(RequestError):
+class InstanceFileError(RequestError, name="not-an-instance"):
     """A file that holds no instance, or one with rules that Tandem doesn't know."""
 
-    name = "not-an-instance"
     title = "The file can't be converted"
 
 

@@ -52,10 +52,9 @@ LOOKING_UP = 5.0
 MULTIPART = b"multipart/form-data"
 
 
-class UnreadableFormError(RequestError):
+class UnreadableFormError(RequestError, name="unreadable-form"):
     """A form that breaks off, or lacks its file."""
 
-    name = "unreadable-form"
     title = "The form can't be read"
 
 

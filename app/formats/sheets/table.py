@@ -25,11 +25,9 @@ _LIST = re.compile(rb"\[\s*+(?:[\[{\"]|$)")
 """How a list of JSON begins; a heading such as `[id]` doesn't."""
 
 
-class NotASheetError(RequestError):
+class NotASheetError(RequestError, status=422, name="not-a-sheet"):
     """Bytes that hold no rows of cells."""
 
-    status = 422
-    name = "not-a-sheet"
     title = "The file can't be read as a spreadsheet"
 
 

@@ -1,12 +1,10 @@
 """Nominatim's search."""
 
-from urllib.parse import urlencode
-
 from pydantic import BaseModel, TypeAdapter
 
 from app.maps.addresses.geocoder import MOST_CANDIDATES, Quality
 from app.maps.addresses.places import Place
-from app.maps.addresses.server import GeocodingServer
+from app.maps.addresses.server import GeocodingServer, path_with
 from app.maps.addresses.shapes import Latitude, Longitude
 
 HOUSE_RANK, STREET_RANK = 28, 26
@@ -35,7 +33,7 @@ def path_of(address: str, server: GeocodingServer) -> str:
     query = {"q": address, "format": "jsonv2", "addressdetails": "1", "limit": MOST_CANDIDATES,
              "countrycodes": server.country.lower(), "accept-language": server.language,
              "email": server.email, "key": server.key}
-    return "/search?" + urlencode({name: value for name, value in query.items() if value})
+    return path_with("/search", query)
 
 
 def read(body: bytes) -> list[Place]:

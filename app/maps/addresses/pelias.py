@@ -1,46 +1,37 @@
 """Pelias' search."""
 
-from urllib.parse import urlencode
-
-from pydantic import BaseModel
-
 from app.maps.addresses.geocoder import MOST_CANDIDATES, Quality
 from app.maps.addresses.places import Place
-from app.maps.addresses.server import GeocodingServer
-from app.maps.addresses.shapes import Features
+from app.maps.addresses.server import GeocodingServer, path_with
+from app.maps.addresses.shapes import Address, read_features
 
 STREETS = ("street", "intersection")
 HOUSES = ("address", "venue")
 BETWEEN = "interpolated"
 
 
-class _Properties(BaseModel):
+class _Properties(Address):
     layer: str
     label: str
     accuracy: str = ""
     match_type: str = ""
-    housenumber: str = ""
-    street: str = ""
     postalcode: str = ""
     borough: str = ""
     locality: str = ""
     localadmin: str = ""
-    county: str = ""
     region: str = ""
-    country: str = ""
 
 
 def path_of(address: str, server: GeocodingServer) -> str:
     """Return where an address is asked for."""
     query = {"text": address, "size": MOST_CANDIDATES, "boundary.country": server.country.upper(),
              "lang": server.language, "api_key": server.key}
-    return "/search?" + urlencode({name: value for name, value in query.items() if value})
+    return path_with("/search", query)
 
 
 def read(body: bytes) -> list[Place]:
     """Return the places of an answer; raises pydantic's `ValidationError`."""
-    return [_place(*feature.geometry.coordinates, feature.properties)
-            for feature in Features[_Properties].model_validate_json(body).features]
+    return read_features(body, _Properties, _place)
 
 
 def _place(lon: float, lat: float, told: _Properties) -> Place:

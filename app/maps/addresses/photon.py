@@ -1,38 +1,29 @@
 """Photon's search."""
 
-from urllib.parse import urlencode
-
-from pydantic import BaseModel
-
 from app.maps.addresses.geocoder import MOST_CANDIDATES, Quality
 from app.maps.addresses.places import Place
-from app.maps.addresses.server import GeocodingServer
-from app.maps.addresses.shapes import Features
+from app.maps.addresses.server import GeocodingServer, path_with
+from app.maps.addresses.shapes import Address, read_features
 
 
-class _Properties(BaseModel):
+class _Properties(Address):
     type: str
     name: str = ""
-    housenumber: str = ""
-    street: str = ""
     postcode: str = ""
     district: str = ""
     city: str = ""
-    county: str = ""
     state: str = ""
-    country: str = ""
 
 
 def path_of(address: str, server: GeocodingServer) -> str:
     """Return where an address is asked for."""
     query = {"q": address, "limit": MOST_CANDIDATES, "lang": server.language, "key": server.key}
-    return "/api?" + urlencode({name: value for name, value in query.items() if value})
+    return path_with("/api", query)
 
 
 def read(body: bytes) -> list[Place]:
     """Return the places of an answer; raises pydantic's `ValidationError`."""
-    return [_place(*feature.geometry.coordinates, feature.properties)
-            for feature in Features[_Properties].model_validate_json(body).features]
+    return read_features(body, _Properties, _place)
 
 
 def _place(lon: float, lat: float, told: _Properties) -> Place:

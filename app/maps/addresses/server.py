@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Literal, get_args
+from urllib.parse import urlencode
 
 from app.maps.remote.servers import require_address, require_positive
 
@@ -80,3 +81,8 @@ class GeocodingServer:
         allowed = PUBLIC.get(self.host, 0.0)
         rates = [rate for rate in (self.per_second, allowed) if rate]
         return 1 / min(rates) if rates else 0.0
+
+
+def path_with(path: str, query: Mapping[str, object]) -> str:
+    """Return a path with a query of what is stated."""
+    return f"{path}?" + urlencode({name: value for name, value in query.items() if value})

@@ -1,13 +1,26 @@
 """What answers of geocoding servers have in common."""
 
+from collections.abc import Callable
 from typing import Annotated, Generic, Literal, TypeVar
 
 from pydantic import BaseModel, Field
 
+from app.maps.addresses.places import Place
+
 Longitude = Annotated[float, Field(ge=-180, le=180, allow_inf_nan=False)]
 Latitude = Annotated[float, Field(ge=-90, le=90, allow_inf_nan=False)]
 
-Properties = TypeVar("Properties", bound=BaseModel)
+
+class Address(BaseModel):
+    """What is told of a place by all."""
+
+    housenumber: str = ""
+    street: str = ""
+    county: str = ""
+    country: str = ""
+
+
+Properties = TypeVar("Properties", bound=Address)
 
 
 class Point(BaseModel):
@@ -29,3 +42,11 @@ class Features(BaseModel, Generic[Properties]):
 
     type: Literal["FeatureCollection"]
     features: list[Feature[Properties]]
+
+
+def read_features(body: bytes, kind: type[Properties],
+                  place: Callable[[float, float, Properties], Place]) -> list[Place]:
+    """Return the places of an answer in GeoJSON; raises pydantic's `ValidationError`."""
+    answer = Features[kind].model_validate_json(body)  # type: ignore[valid-type]
+    return [place(*feature.geometry.coordinates, feature.properties)
+            for feature in answer.features]

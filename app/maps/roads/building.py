@@ -177,7 +177,7 @@ def _make(extract: Extract, tools: Tools, folder: Path, show: Show) -> None:
     # A name of our own, as the tools derive those of their files from it.
     (folder / "roads.osm.pbf").symlink_to(extract.path.resolve())
     script = tools.profile(extract.vehicle)
-    environment = os.environ | {"LUA_PATH": f"{tools.profiles}/?.lua;;"}
+    environment = os.environ | {"LUA_PATH": f"{OWN_PROFILES}/?.lua;{tools.profiles}/?.lua;;"}
     until = READING_SHARE + EXTRACTING_SHARE
     command: list[str | Path] = [tools.extract, "--profile", script, folder / "roads.osm.pbf"]
 
@@ -240,4 +240,7 @@ def _hash_of(path: Path) -> str:
 def _profile_hash(extract: Extract, tools: Tools) -> str:
     """Return what tells a profile from another; those of OSRM are known by its version."""
     script = tools.profile(extract.vehicle)
-    return _hash_of(script) if script.parent == OWN_PROFILES else extract.vehicle
+    if script.parent != OWN_PROFILES:
+        return extract.vehicle
+    scripts = (script, OWN_PROFILES / "goods.lua")
+    return hashlib.sha256("".join(map(_hash_of, scripts)).encode()).hexdigest()

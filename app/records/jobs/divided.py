@@ -24,7 +24,7 @@ from app.records.jobs.rows import SCENARIO, SINGLE, JobRow, NewJob
 from app.records.jobs.running import RegionTerms, Returning, sign_of_life
 from app.records.jobs.schemas import State
 from app.records.jobs.slices import (
-    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, Slice, Stopping,
+    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, Slice, Stopping, hold,
 )
 from app.records.jobs.store import JobStore
 from app.requests.conversion.preparing import StoppedError
@@ -93,14 +93,9 @@ class DividedWork:
         Stopping
             If this process ends, or leaves the job to others.
         """
-        rounds = self._held.get(job_id)
-        if rounds is None:
-            if self._stopping.is_set():
-                raise Stopping
-            rounds = self._begin(job_id)
+        rounds = hold(self._held, job_id, self._stopping, self._begin)
         if rounds is None:
             return OVER
-        self._held[job_id] = rounds
         self._wait(rounds)
         if self._stopping.is_set():
             self._hand_back(rounds)

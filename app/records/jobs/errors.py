@@ -6,30 +6,22 @@ RETRY_SECONDS = 5
 """When to try again where a client's jobs have to end first."""
 
 
-class JobsUnavailableError(RequestError):
+class JobsUnavailableError(RequestError, status=503, name="jobs-unavailable"):
     """The database with the jobs can't be reached, or isn't prepared yet."""
 
-    status = 503
-    name = "jobs-unavailable"
     title = "Jobs can't be reached now"
 
 
-class TooManyJobsError(RequestError):
+class TooManyJobsError(RequestError, status=503, name="too-many-jobs", refusal="overload"):
     """As many jobs wait as may."""
 
-    status = 503
-    name = "too-many-jobs"
     title = "Too many jobs are waiting"
-    refusal = "overload"
 
 
-class JobShareError(RequestError):
+class JobShareError(RequestError, status=429, name="job-share-used-up", refusal="rate_limit"):
     """As many jobs of one client wait as may."""
 
-    status = 429
-    name = "job-share-used-up"
     title = "Too many of your jobs are waiting"
-    refusal = "rate_limit"
 
     def __init__(self, share: int, there: int) -> None:
         super().__init__(f"{there} plans of yours wait or run, and {share} at most may "
@@ -38,30 +30,24 @@ class JobShareError(RequestError):
         self.headers = {"Retry-After": str(RETRY_SECONDS)}
 
 
-class UnknownJobError(RequestError):
+class UnknownJobError(RequestError, status=404, name="unknown-job"):
     """There is no such job, or it is another's."""
 
-    status = 404
-    name = "unknown-job"
     title = "There is no such job"
 
     def __init__(self, job_id: str) -> None:
         super().__init__(f"No job has the id {job_id[:80]!r}: it may have expired.")
 
 
-class NoPlanError(RequestError):
+class NoPlanError(RequestError, status=409, name="no-plan"):
     """The job has no plan that could be drawn."""
 
-    status = 409
-    name = "no-plan"
     title = "The job has no plan"
 
 
-class KeyReusedError(RequestError):
+class KeyReusedError(RequestError, status=422, name="idempotency-key-reused"):
     """The idempotency key belongs to another request."""
 
-    status = 422
-    name = "idempotency-key-reused"
     title = "The idempotency key was used for another request"
 
     def __init__(self) -> None:

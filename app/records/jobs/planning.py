@@ -17,7 +17,7 @@ from app.records.jobs.running import Begun, RegionTerms, Returning, Running, sig
 from app.records.jobs.schemas import State
 from app.records.jobs.search import EarlierWork, Search
 from app.records.jobs.slices import (
-    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping,
+    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping, hold,
 )
 from app.records.jobs.store import JobStore
 from app.requests.conversion.preparing import StoppedError
@@ -80,15 +80,9 @@ class PlanWork:
         Stopping
             If this process ends.
         """
-        running = self._running.get(job_id)
-        if running is None:
-            if self._stopping.is_set():
-                raise Stopping
-            self._courtesy.give_way(self._stopping.is_set)
-            running = self._begin(job_id)
+        running = hold(self._running, job_id, self._stopping, self._begin)
         if running is None:
             return OVER
-        self._running[job_id] = running
         has_ended = running.search.wait(SLICE)
         self._courtesy.give_way(self._stopping.is_set)
         if self._stopping.is_set():
@@ -129,6 +123,7 @@ class PlanWork:
 
     def _begin(self, job_id: str) -> Running | None:
         """Take a job and start its search; None if there is nothing to search. In place."""
+        self._courtesy.give_way(self._stopping.is_set)
         has_waited = self._has_waited(job_id)
         row = self._taken(job_id, has_waited)
         if row is None:

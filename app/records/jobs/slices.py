@@ -1,6 +1,11 @@
 """Slices of work on a job: what the engine repeats until the job is over."""
 
+import threading
+from collections.abc import Callable, MutableMapping
 from dataclasses import dataclass
+from typing import TypeVar
+
+Work = TypeVar("Work")
 
 SLICE = 1.0
 """Seconds after which what was found is written down."""
@@ -18,6 +23,25 @@ class Stopping(BaseException):
 
     No `Exception`, which DBOS would write down as the outcome of the workflow.
     """
+
+
+def hold(held: MutableMapping[str, Work], job_id: str, stopping: threading.Event,
+         begin: Callable[[str], Work | None]) -> Work | None:
+    """Return the work on a job, begun if none is held; None: the job is over. In place.
+
+    Raises
+    ------
+    Stopping
+        If this process ends.
+    """
+    if job_id in held:
+        return held[job_id]
+    if stopping.is_set():
+        raise Stopping
+    work = begin(job_id)
+    if work is not None:
+        held[job_id] = work
+    return work
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from pydantic_core import from_json, to_json
 from app.records.jobs.rows import SCENARIO, JobRow, NewJob, Standing
 from app.records.jobs.scenarios import Comparison, Scenarios
 from app.records.jobs.schemas import Data, State
-from app.records.jobs.slices import MAX_CRASHES, OVER, POISONOUS, SLICE, Slice, Stopping
+from app.records.jobs.slices import MAX_CRASHES, OVER, POISONOUS, SLICE, Slice, Stopping, hold
 from app.records.jobs.store import JobStore
 
 logger = logging.getLogger(__name__)
@@ -54,14 +54,9 @@ class StudyWork:
         Stopping
             If this process ends.
         """
-        row = self._held.get(job_id)
-        if row is None:
-            if self._stopping.is_set():
-                raise Stopping
-            row = self._begin(job_id)
+        row = hold(self._held, job_id, self._stopping, self._begin)
         if row is None:
             return OVER
-        self._held[job_id] = row
         if self._stopping.wait(SLICE):
             self._hand_back(row)
             raise Stopping

@@ -28,11 +28,9 @@ PATIENCE_WITH_OTHERS = 20.0
 """Seconds on top of a time limit that nobody stated, in which roads and geocoders may answer."""
 
 
-class StoppedError(RequestError):
+class StoppedError(RequestError, status=503, name="stopping"):
     """This process ends, or nobody waits for the reply any more, before there is any plan."""
 
-    status = 503
-    name = "stopping"
     title = "The service is stopping"
 
 

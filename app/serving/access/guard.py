@@ -4,6 +4,7 @@ import asyncio
 import logging
 import time
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Annotated
 
 from fastapi import Request, Security
@@ -50,36 +51,24 @@ ANYBODY = "anonymous"
 """Id in place of a key's where access is open."""
 
 
-class UnauthorizedError(RequestError):
+class UnauthorizedError(RequestError, status=401, name="unauthorized", refusal="access"):
     """There is no valid key; which of all reasons it is, isn't told."""
 
-    status = 401
-    name = "unauthorized"
     title = "A valid API key is needed"
-    refusal = "access"
-
-    def __init__(self) -> None:
-        super().__init__("Send a valid API key as 'Authorization: Bearer <key>' or as "
-                         "'X-API-Key: <key>'.")
-        self.headers = {"WWW-Authenticate": 'Bearer realm="tandem"'}
+    always = "Send a valid API key as 'Authorization: Bearer <key>' or as 'X-API-Key: <key>'."
+    headers = MappingProxyType({"WWW-Authenticate": 'Bearer realm="tandem"'})
 
 
-class ForbiddenError(RequestError):
+class ForbiddenError(RequestError, status=403, name="forbidden", refusal="access"):
     """The key is valid, but not for this."""
 
-    status = 403
-    name = "forbidden"
     title = "The API key may not do this"
-    refusal = "access"
 
 
-class KeysUnreadableError(RequestError):
+class KeysUnreadableError(RequestError, status=503, name="keys-unreadable", refusal="access"):
     """The database with the keys has not answered for long."""
 
-    status = 503
-    name = "keys-unreadable"
     title = "API keys can't be checked now"
-    refusal = "access"
 
 
 class Guard:

@@ -18,13 +18,11 @@ NETWORK_BITS = 64
 """An IPv6 customer usually gets a network of this many bits, so all of it counts as one address."""
 
 
-class TooManyRequestsError(RequestError):
+class TooManyRequestsError(RequestError, status=429, name="too-many-requests",
+                           refusal="rate_limit"):
     """A rate limit is used up."""
 
-    status = 429
-    name = "too-many-requests"
     title = "Too many requests"
-    refusal = "rate_limit"
 
     def __init__(self, detail: str, headers: dict[str, str]) -> None:
         super().__init__(detail)

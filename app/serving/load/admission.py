@@ -9,13 +9,10 @@ RETRY_SECONDS = 1
 """When to try again after a refusal: the queue is short, so a slot is soon free."""
 
 
-class OverloadedError(RequestError):
+class OverloadedError(RequestError, status=503, name="overloaded", refusal="overload"):
     """All slots are taken and the queue is full, or the wait in it was too long."""
 
-    status = 503
-    name = "overloaded"
     title = "The service is busy"
-    refusal = "overload"
 
     def __init__(self, detail: str) -> None:
         super().__init__(detail)

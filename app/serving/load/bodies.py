@@ -21,11 +21,9 @@ class ReceivedBody:
     received_at: float
 
 
-class SlowBodyError(RequestError):
+class SlowBodyError(RequestError, status=408, name="slow-body"):
     """The body took too long to arrive."""
 
-    status = 408
-    name = "slow-body"
     title = "The body took too long"
 
     def __init__(self, seconds: float) -> None:

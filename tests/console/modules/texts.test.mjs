@@ -2,8 +2,11 @@
 
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync } from 'node:fs';
+import { register } from 'node:module';
 import { test } from 'node:test';
 import { speaking } from '../../../app/console/static/js/language.js';
+
+register('./as-served.mjs', import.meta.url);
 
 const APP = new URL('../../../app/', import.meta.url);
 const PAGES = ['console/static/', 'records/dispatches/static/'];

@@ -12,6 +12,8 @@
  * Anrede: „Sie“, meist vermieden; Schaltflächen im Infinitiv („Datei öffnen“).
  */
 
+import reason from './reasons/de.js';
+
 export default {
   import: {
     title: '{{name}} einlesen',
@@ -1759,19 +1761,7 @@ export default {
     failures_other: '{{count}} gescheitert',
     over: 'der Tag ist vorbei',
   },
-  reason: {
-    nobody: 'Niemand da',
-    refused: 'Annahme verweigert',
-    address: 'Falsche Adresse',
-    damaged: 'Beschädigt',
-    time: 'Keine Zeit mehr',
-    wind: 'Zu viel Wind',
-    broken: 'Drohne ist defekt',
-    battery: 'Akku ist leer',
-    parcel: 'Kam mit dem Paket zurück',
-    lost: 'Kam nicht zurück',
-    breakdown: 'Panne',
-  },
+  reason,
   sheet: {
     phone: 'Dieser Tag auf dem Telefon',
     head: 'Arbeitszeit {{time}}. Fahrer: {{line}} Datum: {{date}}',

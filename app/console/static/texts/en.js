@@ -1,5 +1,7 @@
 /** The console's texts in English, by view. A text in several numbers ends in `_one`, `_other`. */
 
+import reason from './reasons/en.js';
+
 export default {
   import: {
     title: 'Import {{name}}',
@@ -1707,19 +1709,7 @@ export default {
     failures_other: '{{count}} failures',
     over: 'the day is over',
   },
-  reason: {
-    nobody: 'Nobody there',
-    refused: 'Refused',
-    address: 'Wrong address',
-    damaged: 'Damaged',
-    time: 'No time left',
-    wind: 'Too much wind',
-    broken: 'Drone is broken',
-    battery: 'Battery is empty',
-    parcel: 'Came back with the parcel',
-    lost: 'Did not come back',
-    breakdown: 'Broken down',
-  },
+  reason,
   sheet: {
     phone: 'This day on a phone',
     head: 'Works {{time}}. Driver: {{line}} Date: {{date}}',

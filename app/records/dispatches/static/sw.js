@@ -19,6 +19,8 @@ const FILES = [
   'texts/de.js',
   'texts/en.js',
   '../console/js/language.js',
+  '../console/texts/reasons/de.js',
+  '../console/texts/reasons/en.js',
   '../console/vendor/htm-3.1.1/standalone.module.js',
   '../console/vendor/i18next-26.7.2/i18next.js',
 ];

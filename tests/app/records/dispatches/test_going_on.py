@@ -1,13 +1,12 @@
 """Planning on from what drivers told."""
 
 from datetime import UTC, datetime, timedelta
-from pathlib import Path
 from typing import Any
 
 import httpx
 import pytest
 
-from app.records import dispatches
+from app.console.routes import STATIC_DIR
 from app.records.dispatches.going_on import GROUNDING, OnTheRoad, going_on
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply
 from app.records.dispatches.standing import Told
@@ -117,7 +116,7 @@ def test_drone_that_is_lost_is_launched_no_more(step: str, reason: str,
 
 
 def test_what_grounds_a_drone_is_what_the_page_offers() -> None:
-    page = (Path(dispatches.__file__).parent / "static" / "js" / "reasons.js").read_text("utf-8")
+    page = (STATIC_DIR / "texts" / "reasons" / "en.js").read_text("utf-8")
     assert [reason for reason in GROUNDING if f"'{reason}'" not in page] == []
 
 

@@ -6,14 +6,7 @@ import { flightLines } from '../core/flights.js';
 import { placeOf } from '../core/places.js';
 import { playback } from '../core/playback.js';
 import { Facts } from '../views/parts.js';
-import {
-  html,
-  render,
-  useEffect,
-  useLayoutEffect,
-  useRef,
-  useState,
-} from '../libraries.js';
+import { html, render, useEffect, useLayoutEffect, useRef, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { DrawBar } from './draw-bar.js';
 import { attachHandle } from './handle.js';

@@ -1,24 +1,9 @@
 /** Why steps fail: what is told of it, and what drivers read. */
 
+// The service is told reasons in English, whatever the phone's language: it knows some of them, see
+// GROUNDING, and dispatchers read them in theirs.
+import TOLD from '../../console/texts/reasons/en.js';
 import { t } from './texts.js';
-
-/**
- * Reasons as the service is told them, whatever the phone's language: it knows some of them, see
- * GROUNDING, and dispatchers read them in theirs.
- */
-const TOLD = {
-  nobody: 'Nobody there',
-  refused: 'Refused',
-  address: 'Wrong address',
-  damaged: 'Damaged',
-  time: 'No time left',
-  wind: 'Too much wind',
-  broken: 'Drone is broken',
-  battery: 'Battery is empty',
-  parcel: 'Came back with the parcel',
-  lost: 'Did not come back',
-  breakdown: 'Broken down',
-};
 
 /** Reasons that are offered, by the kind of a step. */
 export const REASONS = {

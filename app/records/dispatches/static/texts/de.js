@@ -1,5 +1,7 @@
 /** Die Texte der Fahrerseite auf Deutsch; Wortliste siehe die der Konsole. */
 
+import reason from '../../console/texts/reasons/de.js';
+
 export default {
   page: {
     title: 'Stopps von heute',
@@ -85,17 +87,5 @@ export default {
     recover: 'Aufgenommen',
     return: 'Ich bin zurück',
   },
-  reason: {
-    nobody: 'Niemand da',
-    refused: 'Annahme verweigert',
-    address: 'Falsche Adresse',
-    damaged: 'Beschädigt',
-    time: 'Keine Zeit mehr',
-    wind: 'Zu viel Wind',
-    broken: 'Drohne ist defekt',
-    battery: 'Akku ist leer',
-    parcel: 'Kam mit dem Paket zurück',
-    lost: 'Kam nicht zurück',
-    breakdown: 'Panne',
-  },
+  reason,
 };

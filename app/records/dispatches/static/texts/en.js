@@ -1,5 +1,7 @@
 /** The texts of drivers' page in English, by what they are about. */
 
+import reason from '../../console/texts/reasons/en.js';
+
 export default {
   page: {
     title: "Today's stops",
@@ -80,17 +82,5 @@ export default {
     recover: 'Recovered',
     return: 'I am back',
   },
-  reason: {
-    nobody: 'Nobody there',
-    refused: 'Refused',
-    address: 'Wrong address',
-    damaged: 'Damaged',
-    time: 'No time left',
-    wind: 'Too much wind',
-    broken: 'Drone is broken',
-    battery: 'Battery is empty',
-    parcel: 'Came back with the parcel',
-    lost: 'Did not come back',
-    breakdown: 'Broken down',
-  },
+  reason,
 };
