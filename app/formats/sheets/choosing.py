@@ -1,5 +1,7 @@
 """Which sheets of a file are read, and what is asked about the others."""
 
+from collections import defaultdict, deque
+
 from app.formats.sheets.cells import letters
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import columns_of
@@ -89,12 +91,14 @@ def with_rows_of(table: Table, other: Table) -> Table:
         If it has more columns or cells than a sheet may have.
     """
     headings = list(table.headings)
-    places = []
+    free, places = defaultdict[str, deque[int]](deque), []
+    for index, known in enumerate(headings):
+        free[simple(known)].append(index)
     for heading in other.headings:
-        free = (index for index, known in enumerate(headings)
-                if index not in places and heading and simple(known) == simple(heading))
-        places.append(next(free, len(headings)))
-        if places[-1] == len(headings):
+        if heading and free[simple(heading)]:
+            places.append(free[simple(heading)].popleft())
+        else:
+            places.append(len(headings))
             headings.append(heading)
     first = len(table.sheet.rows)
     if (len(headings) > MAX_COLUMNS

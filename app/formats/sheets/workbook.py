@@ -68,7 +68,8 @@ def _sheets(book: CalamineWorkbook, unseen: dict[str, Any]) -> list[dict[str, An
     for entry in entries:
         sheet = book.get_sheet_by_name(entry.name)
         is_hidden = entry.visible != SheetVisibleEnum.Visible
-        cells += sheet.total_height * sheet.total_width
+        # From the first cell of all to the last that is filled, as they are read.
+        cells += 0 if sheet.end is None else (sheet.end[0] + 1) * (sheet.end[1] + 1)
         if cells > MAX_CELLS:
             raise ValueError(f"it has more than {MAX_CELLS} cells")
         hidden = unseen.get(entry.name, Hidden())
