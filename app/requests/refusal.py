@@ -7,7 +7,7 @@ import codecs
 import json
 import re
 from collections.abc import Iterator, Sequence
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from itertools import count, islice
 from types import EllipsisType
 
@@ -78,20 +78,34 @@ def require_readable(body: bytes, model: type[BaseModel]) -> None:
     """
     if len(body) < LEAST_BYTES:
         return
-    require_json(body)
     # Brackets in texts count as well, of which there are few.
     parts, most = body.count(b"[") + body.count(b"{"), MAX_PARTS + len(body) // BYTES_PER_PART
+    if parts > most or len(body) <= LISTED_BYTES:
+        require_json(body)
     if parts > most:
         raise InvalidRequestError([InputError(
             code="TOO_MANY_PARTS", path="$", message=f"There are more than {most} objects and "
             "arrays, more than any request needs: send less.")])
-    if len(body) <= LISTED_BYTES:
-        return
-    try:
-        read_shape(body, model)
-    except msgspec.ValidationError as error:
-        raise InvalidRequestError(_errors_beside_rows(body, model)
-                                  or _errors_first(body, model, str(error))) from None
+    if len(body) > LISTED_BYTES:
+        _require_shape(body, model)
+
+
+def _require_shape(body: bytes, model: type[BaseModel]) -> None:
+    """Refuse what is no JSON or doesn't fit the schema; what fits is read but once."""
+    with _as_not_json():
+        _require_text(body)
+        try:
+            read_shape(body, model)
+            return
+        except msgspec.ValidationError as error:
+            told = str(error)
+        except (msgspec.DecodeError, RecursionError):
+            # In the same words as of short bodies.
+            require_json(body)
+            raise
+    # What doesn't fit may be followed by what is no JSON.
+    require_json(body)
+    raise InvalidRequestError(_errors_beside_rows(body, model) or _errors_first(body, model, told))
 
 
 def require_json(body: bytes) -> None:
@@ -102,13 +116,25 @@ def require_json(body: bytes) -> None:
     NotJsonError
         If it is none.
     """
-    try:
-        if not body.isascii():
-            decoder = codecs.getincrementaldecoder("utf-8")()
-            for begin in range(0, len(body), DECODED_AT_ONCE):
-                decoder.decode(body[begin:begin + DECODED_AT_ONCE])
-            decoder.decode(b"", final=True)
+    with _as_not_json():
+        _require_text(body)
         msgspec.json.decode(body, type=msgspec.Raw)
+
+
+def _require_text(body: bytes) -> None:
+    """Raise `UnicodeDecodeError` for what is no text in UTF-8."""
+    if not body.isascii():
+        decoder = codecs.getincrementaldecoder("utf-8")()
+        for begin in range(0, len(body), DECODED_AT_ONCE):
+            decoder.decode(body[begin:begin + DECODED_AT_ONCE])
+        decoder.decode(b"", final=True)
+
+
+@contextmanager
+def _as_not_json() -> Iterator[None]:
+    """Raise `NotJsonError` where a body is found to be no JSON."""
+    try:
+        yield
     except RecursionError:
         raise NotJsonError("The body has values in values in values, more than any request: send "
                            "one JSON object.") from None
