@@ -13,10 +13,10 @@ import random
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
 import httpx
 import typer
@@ -109,6 +109,9 @@ class Study:
         if reply.status_code != 422 or not reply.json()["errors"]:
             raise Fault(f"{path} is answered with {reply.status_code}: {reply.text[:500]}")
         return None
+
+
+Kind = TypeVar("Kind", bound=Study)
 
 
 def _not_json(name: str) -> None:
@@ -283,26 +286,46 @@ def _mistime(rng: random.Random, part: Data) -> None:
                       else max(0, part[name] + rng.choice((-3600, -1, 0.0005, 60, 1e8))))
 
 
+def tried(kind: type[Kind], seeds: Iterable[int], attempt: Callable[[Kind, int], None],
+          on_fault: Callable[[int], None] = lambda _: None) -> tuple[Kind, int]:
+    """Return what came of all seeds at a service of its own, and how many faults, which are told.
+
+    Parameters
+    ----------
+    kind
+        What is noted.
+    attempt
+        Tries one seed.
+    on_fault
+        Is told each seed with a fault.
+    """
+    faults = 0
+    with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
+          client_of(target) as client):
+        study = kind(client)
+        for number in seeds:
+            try:
+                attempt(study, number)
+            except (Fault, httpx.TransportError) as fault:
+                faults += 1
+                typer.echo(f"seed {number}: {type(fault).__name__}: {fault}")
+                on_fault(number)
+        faults += target.process.poll() is not None
+    return study, faults
+
+
 def main(
     problems: Annotated[int, typer.Option(help="Problems to send.")] = 5000,
     seed: Annotated[int, typer.Option(help="Seed of the first; later ones count on.")] = 0,
     folder: Annotated[Path | None, typer.Option(help="Where to write problems that fail.")] = None,
 ) -> None:
     """Fuzz plans, checks and replans."""
-    faults = 0
-    with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
-          client_of(target) as client):
-        study = Study(client)
-        for number in range(seed, seed + problems):
-            try:
-                study.try_problem(number)
-            except (Fault, httpx.TransportError) as fault:
-                faults += 1
-                typer.echo(f"seed {number}: {type(fault).__name__}: {fault}")
-                if folder is not None:
-                    (folder / f"{number}.json").write_text(json.dumps(
-                        wild_request(random.Random(number)), indent=1))
-        faults += target.process.poll() is not None
+    def keep(number: int) -> None:
+        if folder is not None:
+            (folder / f"{number}.json").write_text(json.dumps(
+                wild_request(random.Random(number)), indent=1))
+
+    study, faults = tried(Study, range(seed, seed + problems), Study.try_problem, keep)
     typer.echo(f"{problems} problems, {faults} faults; {study.checked} plans checked, "
                f"{study.replanned} of them replanned, "
                f"{study.left_out} of them with customers left out; longest reply "

@@ -11,18 +11,14 @@ given, where that may still be driven as it is. Nothing that happens is refused.
 import json
 import math
 import random
-import tempfile
 from collections.abc import Collection
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import Annotated, Any
 
-import httpx
 import typer
 
-from benchmarks.fuzz.api import service
 from benchmarks.fuzz.changing_days import Change, by_hand, morning, what_happens
-from benchmarks.fuzz.problems import Fault, Study, client_of, hold_to_the_past
+from benchmarks.fuzz.problems import Fault, Study, hold_to_the_past, tried
 
 Data = dict[str, Any]
 
@@ -149,17 +145,7 @@ def main(
     seed: Annotated[int, typer.Option(help="Seed of the first; later ones count on.")] = 0,
 ) -> None:
     """Fuzz days that go on."""
-    faults = 0
-    with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
-          client_of(target) as client):
-        study = Days(client)
-        for number in range(seed, seed + days):
-            try:
-                study.try_day(number)
-            except (Fault, httpx.TransportError) as fault:
-                faults += 1
-                typer.echo(f"seed {number}: {type(fault).__name__}: {fault}")
-        faults += target.process.poll() is not None
+    study, faults = tried(Days, range(seed, seed + days), Days.try_day)
     typer.echo(f"{days} days, {faults} faults; {study.replanned} plans gone on from, "
                f"{study.compared} compared with the plan given, {study.left_aboard} parcels left "
                f"aboard; {json.dumps(dict(sorted(study.statuses.items())))}")
