@@ -12,14 +12,15 @@ from model.problem import BoolArray, Problem, VehicleType
 
 NO_ROW = -1
 
+Kind = tuple[VehicleType, int, int]
+"""A type of vehicles as its row has it, the index of its type and the row that `drone_row` names.
+"""
 
-def all_kinds(problem: Problem) -> list[tuple[VehicleType, int, int]]:
-    """Return the types of vehicles, as their rows have them, then those of their drones apart.
 
-    Each with the index of its type and the row that its `drone_row` names.
-    """
-    kinds: list[tuple[VehicleType, int, int]] = []
-    apart: list[tuple[VehicleType, int, int]] = []
+def all_kinds(problem: Problem) -> list[Kind]:
+    """Return the types of vehicles, as their rows have them, then those of their drones apart."""
+    kinds: list[Kind] = []
+    apart: list[Kind] = []
     for index, kind in enumerate(problem.vehicle_types):
         first, number = len(problem.vehicle_types) + len(apart), len(kind.drone_types)
         if number < 2:

@@ -11,7 +11,7 @@ import numpy as np
 
 from model.engine.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
 from model.engine.battery_rows import battery_row, full_row, powers_row
-from model.engine.drone_types import NO_ROW, all_kinds
+from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
 from model.engine.pausing import Pause, go_on
@@ -89,9 +89,11 @@ def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -
         raise ValueError("problems: need at least one")
     durations = [durations_of(problem) for problem in problems]
     ways = [ways_of(problem) for problem in problems]
-    instance = _empty(problems, max(map(len, durations)), max(map(len, ways)), legs)
+    kinds = [all_kinds(problem) for problem in problems]
+    instance = _empty(problems, max(map(len, kinds)), max(map(len, durations)),
+                      max(map(len, ways)), legs)
     for row, problem in enumerate(problems):
-        _pack_row(instance, row, problem, durations[row], ways[row])
+        _pack_row(instance, row, problem, kinds[row], durations[row], ways[row])
         if legs:
             write_legs(problem, ways[row], instance.setup[row], instance.duration[row],
                        instance.distance[row], pause)
@@ -99,12 +101,12 @@ def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -
     return instance
 
 
-def _empty(problems: Sequence[Problem], variants: int, travels: int, legs: bool) -> Instance:
-    """Allocate arrays for problems with so many tables of nodes and of `legs`, if any."""
+def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
+           legs: bool) -> Instance:
+    """Allocate arrays for problems with so many types and tables of nodes and of `legs`, if any."""
     rows = len(problems)
     nodes = max(problem.num_nodes for problem in problems)
     ends = nodes if legs else 0
-    types = max(len(all_kinds(problem)) for problem in problems)
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
@@ -149,14 +151,14 @@ def _num_tiers(problems: Sequence[Problem]) -> int:
     return tiers if tiers > 1 or changes or costs else 0
 
 
-def _pack_row(instance: Instance, row: int, problem: Problem,
+def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind],
               durations: dict[Variant, IntArray], ways: Sequence[Way]) -> None:
     """Write one problem. In place."""
     instance.size[row] = (problem.num_depots, problem.num_customers, len(problem.vehicle_types),
                           problem.num_dimensions)
     if problem.customers:
         _pack_customers(instance, row, problem, durations)
-    for index, (kind, part_of, drone_row) in enumerate(all_kinds(problem)):
+    for index, (kind, part_of, drone_row) in enumerate(kinds):
         variants = [variant_of(each, problem, durations) for each in (kind, kind.drones)]
         instance.type[row, index] = _type_row(kind, ways, drone_row, *variants)
         charge_left = problem.vehicle_types[part_of].charge_left
@@ -174,7 +176,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem,
             changes = len(kind.speed_profile.times)
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
-    _pack_compatibility(instance, row, problem)
+    _pack_compatibility(instance, row, problem, kinds)
 
 
 def _pack_customers(instance: Instance, row: int, problem: Problem,
@@ -312,7 +314,8 @@ def _worked(kind: VehicleType) -> int:
     return 0 if kind.works_since is None else kind.earliest - kind.works_since
 
 
-def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
+def _pack_compatibility(instance: Instance, row: int, problem: Problem,
+                        kinds: Sequence[Kind]) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
     customers = slice(problem.num_depots, problem.num_nodes)
     most = most_asked_for(problem)
@@ -322,7 +325,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem) -> None:
     for customer, skills in enumerate(c.skills for c in problem.customers):
         if skills:
             asking.setdefault(skills, []).append(customer)
-    for index, (kind, part_of, drone_row) in enumerate(all_kinds(problem)):
+    for index, (kind, part_of, drone_row) in enumerate(kinds):
         dimensions = slice(most.shape[1])
         fits = np.all(most <= instance.type[row, index].capacity[dimensions], axis=1)
         for skills, customers_asking in asking.items():

@@ -13,9 +13,7 @@ from model.search.evaluation import evaluate
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import ProblemData
-from model.search.strategy import (
-    ALL_MOVES, Moves, grounded, most_visits, strategy_of, visits_of,
-)
+from model.search.strategy import ALL_MOVES, Moves, grounded, strategy_of, visits_of
 
 TURNED_FROM = 2000
 """Number of customers from which on routes of the first plan are turned round as needed. With fewer
@@ -37,11 +35,12 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         instance = grounded(instance)
     types, evaluation = instance.type[0], evaluate(instance)
     swap, visits = _swaps(problem, types, evaluation), visits_of(problem)
+    most_visits = max(1, int(visits.max()))
     must_serve, more = _must_serve(problem, instance), instance.unassigned_more[0]
     return ProblemData(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
-        num_types=len(problem.vehicle_types), max_visits=most_visits(problem),
-        strategy=strategy_of(problem, instance, moves, evaluation, swap),
+        num_types=len(problem.vehicle_types), max_visits=most_visits,
+        strategy=strategy_of(problem, instance, moves, evaluation, swap, most_visits),
         general=not bool(evaluation["lean"].all()), all_optional=not bool(must_serve.any()),
         unassigned_cost=float(instance.unassigned_cost[0]), unassigned_more=more,
         unassigned_costs_differ=bool(more.any()), must_serve=must_serve,

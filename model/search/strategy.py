@@ -42,7 +42,7 @@ ALL_MOVES = Moves()
 
 
 def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: Records,
-                swap: BoolArray) -> Strategy:
+                swap: BoolArray, most_visits: int) -> Strategy:
     """Choose how to search.
 
     Parameters
@@ -57,9 +57,11 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         How routes of each type are timed and priced.
     swap
         (type, type) whose vehicles may drive each other's routes, at a cost by distance alone.
+    most_visits
+        Customers on any sortie; 1 where there are none.
     """
     costs_more = not bool(evaluation["lean"].all())  # than its detour, an insertion somewhere
-    scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem)
+    scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem, most_visits)
     return Strategy(
         loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star,
         resplit=moves.resplit and moves.flights and any(
@@ -84,14 +86,9 @@ def visits_of(problem: Problem) -> IntArray:
     return np.minimum(visits, min(problem.num_customers, MOST_VISITS))
 
 
-def most_visits(problem: Problem) -> int:
-    """Return how many customers any sortie may have; 1 where there are none."""
-    return max(1, int(visits_of(problem).max()))
-
-
-def _blink(problem: Problem) -> float:
+def _blink(problem: Problem, most_visits: int) -> float:
     """Return how often a better place is overlooked; sorties of several offer many more places."""
-    places = most_visits(problem) * max(1, problem.num_customers) ** 2
+    places = most_visits * max(1, problem.num_customers) ** 2
     return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / places))
 
 
