@@ -1009,7 +1009,7 @@ typedef struct tandem_problem_data {
     tandem_i64_2d profile_time;   /* (type, change) */
     tandem_i64_2d profile_factor; /* (type, change + 1) */
     tandem_i32_2d near;           /* (node, rank) customers, nearest first, -1 behind the last */
-    tandem_i32_2d fit;      /* (node, rank) customers whom a truck would visit before or after */
+    tandem_i32_2d granular; /* (node, rank) customers whom a truck would visit before or after */
     tandem_i64_1d deadline; /* (2,) when the search must end, as `model.engine.alarm` says */
 } tandem_problem_data;
 
@@ -1064,7 +1064,7 @@ typedef struct tandem_linked {
     tandem_noted* noted;
     tandem_i64_1d hit; /* (slot,) turn of the last string */
     tandem_i32_2d
-        near; /* (node, rank) mm to or from those that `ProblemData.fit` lists, or what fits */
+        near; /* (node, rank) mm to or from those that `ProblemData.granular` lists, or what fits */
     tandem_i64_1d best_first;  /* (slot,) first customer of the best plan's route, else `nowhere` */
     tandem_i64_1d best_type;   /* (slot,) */
     tandem_i64_1d best_behind; /* (node,) */

@@ -18,7 +18,7 @@ Int most_offers(const ProblemData& data, const Fleet& fleet) {
     const Int sorties = fleet.sortie.shape(1);
     return std::max({at_one_stop * rows * stops + sorties * (data.max_visits + 1),
                      data.num_nodes + fleet.route.size() * (2 + rows) * (trips + 1),
-                     2 * at_one_stop * rows * data.fit.shape(1)});
+                     2 * at_one_stop * rows * data.granular.shape(1)});
 }
 
 }  // namespace

@@ -52,7 +52,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         swap=swap, splice=_splices(problem, instance.rate[0], swap),
         leg=neighbourhood.leg, back=neighbourhood.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
-        near=neighbourhood.near, fit=neighbourhood.fit,
+        near=neighbourhood.near, granular=neighbourhood.granular,
         deadline=Alarm().setting if deadline is None else deadline,
     )
 

@@ -164,7 +164,7 @@ void scan_simple(const Insertion& insertion, Int slot) {
 void scan_beside(const Insertion& insertion) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
-    for (const Int other : data.fit[node]) {
+    for (const Int other : data.granular[node]) {
         if (other < 0) break;
         const Int slot = fleet.where[other].slot;
         if (slot < 0) continue;

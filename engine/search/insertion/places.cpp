@@ -153,7 +153,7 @@ void find_beside(const Insertion& insertion) {
         scan_passing(insertion);
         return;
     }
-    for (const Int other : data.fit[node]) {
+    for (const Int other : data.granular[node]) {
         if (other < 0) break;
         if (searcher.now.where[other].slot >= 0) offer_beside(insertion, other);
     }

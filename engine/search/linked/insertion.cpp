@@ -168,8 +168,8 @@ private:
 
     // How many neighbours are listed.
     Int num_listed() const {
-        Int size = data_.fit.shape(1);
-        while (size > 0 && data_.fit(newcomer_.node, size - 1) < 0) --size;
+        Int size = data_.granular.shape(1);
+        while (size > 0 && data_.granular(newcomer_.node, size - 1) < 0) --size;
         return size;
     }
 
@@ -185,7 +185,7 @@ private:
     // Lists neighbours, of those by rank from `first` to `behind`, whose places may be the best
     // yet, and whose routes may be joined; returns how many.
     std::size_t choose(Int first, Int behind, std::array<Neighbour, at_once>& chosen) const {
-        const std::int32_t* const others = &data_.fit(newcomer_.node, 0);
+        const std::int32_t* const others = &data_.granular(newcomer_.node, 0);
         const std::int32_t* const near = &linked_.near(newcomer_.node, 0);
         const Link* const link = linked_.link.data();
         const Int* const reach = linked_.reach.data();

@@ -29,7 +29,7 @@ struct Linked {
     Noted* noted;
     View<std::int64_t, 1> hit;  // (slot,) turn of the last string
     View<std::int32_t, 2>
-        near;  // (node, rank) mm to or from those that `ProblemData.fit` lists, or what fits
+        near;  // (node, rank) mm to or from those that `ProblemData.granular` lists, or what fits
     View<std::int64_t, 1>
         best_first;  // (slot,) first customer of the best plan's route, else `nowhere`
     View<std::int64_t, 1> best_type;    // (slot,)

@@ -22,8 +22,8 @@ constexpr std::int32_t farthest = std::numeric_limits<std::int32_t>::max();
 void measure_near_by(const ProblemData& data, Linked& linked, Int k, Int node) {
     const LegRow inward = legs_to(data.back, data.type[k].travel, node);
     const LegRow onward = legs_from(data.leg, data.type[k].travel, node);
-    for (Int rank = 0; rank < data.fit.shape(1); ++rank) {
-        const Int other = data.fit(node, rank);
+    for (Int rank = 0; rank < data.granular.shape(1); ++rank) {
+        const Int other = data.granular(node, rank);
         if (other < 0) continue;
         std::int32_t& near = linked.near(node, rank);
         const Int distance = std::min(nearness(inward, onward, other), Int{near});
@@ -122,7 +122,8 @@ void clear_route(Fleet& fleet, Int slot, Int stamp) {
 void measure_near(const ProblemData& data, Linked& linked) {
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         data.deadline.go_on_late();
-        for (Int rank = 0; rank < data.fit.shape(1); ++rank) linked.near(node, rank) = farthest;
+        for (Int rank = 0; rank < data.granular.shape(1); ++rank)
+            linked.near(node, rank) = farthest;
         for (Int k = 0; k < data.num_types; ++k) {
             if (k == 0 || !linked.one_travel) measure_near_by(data, linked, k, node);
         }

@@ -87,7 +87,7 @@ struct ProblemData {
     View<const std::int64_t, 2> profile_factor;  // (type, change + 1)
     View<const std::int32_t, 2> near;  // (node, rank) customers, nearest first, -1 behind the last
     View<const std::int32_t, 2>
-        fit;            // (node, rank) customers whom a truck would visit before or after
+        granular;       // (node, rank) customers whom a truck would visit before or after
     Deadline deadline;  // of the thread whose data it is
 };
 
@@ -122,7 +122,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.profile_time,
             from.profile_factor,
             from.near,
-            from.fit,
+            from.granular,
             Deadline(from.deadline)};
 }
 

@@ -42,7 +42,7 @@ class Linked(NamedTuple):
     former: IntArray  # (slot,) the type that did before, else NOWHERE
     noted: Record
     hit: IntArray  # (slot,) turn of the last string
-    near: Int32Array  # (node, rank) mm to or from those that `ProblemData.fit` lists, or what fits
+    near: Int32Array  # (node, rank) mm to or from `ProblemData.granular`, or what fits
     best_first: IntArray  # (slot,) first customer of the best plan's route, else NOWHERE
     best_type: IntArray  # (slot,)
     best_behind: IntArray  # (node,)
@@ -72,7 +72,7 @@ def make_linked(data: ProblemData, searcher: Searcher, timed: bool) -> Linked:
         moment=np.zeros(MOMENTS + 2 * nodes if timed else 0, dtype_of("tandem_moment")),
         retyped=np.zeros(slots, np.int64), former=np.full(slots, NOWHERE),
         noted=one(dtype_of("tandem_noted")),
-        hit=np.zeros(slots, np.int64), near=np.zeros(data.fit.shape, np.int32),
+        hit=np.zeros(slots, np.int64), near=np.zeros(data.granular.shape, np.int32),
         best_first=np.full(slots, NOWHERE), best_type=np.zeros(slots, np.int64),
         best_behind=np.zeros(nodes, np.int64), cheapest=cheapest, timed=timed,
         reach=np.zeros(nodes, np.int64),

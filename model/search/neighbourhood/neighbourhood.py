@@ -40,7 +40,7 @@ class Neighbourhood(NamedTuple):
     leg: AllLegs
     back: AllLegs
     near: Int32Array
-    fit: Int32Array
+    granular: Int32Array
     numbering: Numbering
 
 
@@ -54,13 +54,13 @@ def make_neighbourhood(problem: Problem, instance: Instance, pause: Pause = go_o
                for travel in problem.travel]
     same_back = returns[problem.vehicle_types[0].travel]
     near = _near(problem, same_back, pause)
-    fit = _fit(problem, instance.node[0, 0, :, 0], near, same_back, pause)
+    granular = _granular(problem, instance.node[0, 0, :, 0], near, same_back, pause)
     numbering = as_stated(problem.num_nodes)
     if along:
         numbering = along_neighbours(near, problem.num_depots)
-        near, fit = (_numbers_of(ranked, numbering, pause) for ranked in (near, fit))
+        near, granular = (_numbers_of(ranked, numbering, pause) for ranked in (near, granular))
     leg, back = _legs(problem, returns, instance.setup[0], numbering, pause)
-    return Neighbourhood(leg, back, near, fit, numbering)
+    return Neighbourhood(leg, back, near, granular, numbering)
 
 
 def _numbers_of(ranked: Int32Array, numbering: Numbering, pause: Pause) -> Int32Array:
@@ -176,9 +176,9 @@ def _near(problem: Problem, same_back: bool, pause: Pause) -> Int32Array:
     return near
 
 
-def _fit(problem: Problem, place: Records, near: Int32Array, same_back: bool, pause: Pause
-         ) -> Int32Array:
-    """Return those of each customer's neighbours whom a truck would best visit before or after.
+def _granular(problem: Problem, place: Records, near: Int32Array, same_back: bool, pause: Pause
+              ) -> Int32Array:
+    """Return the granular neighbourhood: whom a truck would best visit before or after each.
 
     `same_back`: drives take as long there as back.
 
@@ -189,12 +189,12 @@ def _fit(problem: Problem, place: Records, near: Int32Array, same_back: bool, pa
     Operations Research 40:475-489.
     """
     ranks = min(NEAR_INSERTION, near.shape[1])
-    fit = near[:, :ranks].copy()
+    granular = near[:, :ranks].copy()
     first, number = problem.num_depots, problem.num_customers
     earliest, service, latest = (place[field].astype(np.float64) for field in (
         "window_earliest", "service_duration", "window_latest"))
     if number < 3 or (earliest.max() == 0.0 and latest[first:].min() >= UNLIMITED):
-        return fit
+        return granular
     travel = problem.travel[problem.vehicle_types[0].travel]
     for rows in row_blocks(number, ROWS, pause):
         one = np.arange(first + rows.start, first + rows.stop)[:, None]
@@ -205,5 +205,5 @@ def _fit(problem: Problem, place: Records, near: Int32Array, same_back: bool, pa
         weight = np.empty(other.shape)
         call("tandem_write_misfit", there, back, other, first + rows.start, earliest, service,
              latest, weight)
-        fit[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
-    return fit
+        granular[first:][rows] = np.take_along_axis(other, least_columns(weight, ranks), axis=1)
+    return granular

@@ -82,7 +82,7 @@ class ProblemData(NamedTuple):
     profile_time: IntArray  # (type, change)
     profile_factor: IntArray  # (type, change + 1)
     near: Int32Array  # (node, rank) customers, nearest first, -1 behind the last
-    fit: Int32Array  # (node, rank) customers whom a truck would visit before or after
+    granular: Int32Array  # (node, rank) customers whom a truck would visit before or after
     deadline: IntArray  # (2,) when the search must end, as `model.engine.alarm` says
 
 

@@ -109,7 +109,7 @@ def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float
     assert isinstance(data.leg, np.ndarray)
     legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
     least = np.inf
-    for other in data.fit[node].tolist():
+    for other in data.granular[node].tolist():
         slot, p, _ = now.where[other].tolist()
         if slot < 0:
             continue

@@ -59,7 +59,7 @@ def test_neighbours_who_fit_are_those_with_the_least_driving_waiting_and_latenes
         ranked = sorted(min(misfit(node, int(other)), misfit(int(other), node))
                         for other in neighbourhood.near[node] if other >= 0)
         found = [min(misfit(node, int(other)), misfit(int(other), node))
-                 for other in neighbourhood.fit[node]]
+                 for other in neighbourhood.granular[node]]
         assert found == pytest.approx(ranked[:NEAR_INSERTION])
 
 

@@ -51,7 +51,7 @@ def test_a_route_to_a_town_serves_a_village_on_the_way() -> None:
     data = make_data(problem, pack([problem]))
     assert not data.strategy.scan_all
     assert len(plan.routes) >= EACH_DRAWN
-    assert (data.fit[alone, :NEAR_INSERTION] <= NEARER * ON_A_ROUTE).all()
+    assert (data.granular[alone, :NEAR_INSERTION] <= NEARER * ON_A_ROUTE).all()
     searcher = make_searcher(problem, data, plan, np.random.SeedSequence(1))
     searcher.value.temperature, searcher.value.cooling = 1e-9, 1.0
     anneal(data, searcher, TURNS, ANY)
