@@ -36,8 +36,7 @@ def wrong(reply: ImportReply) -> list[tuple[str, str | None]]:
     ("B3", "48.x", "MISREAD"), ("B3", "91", "OFF_GLOBE"), ("B3", "", "NO_COORDINATES"),
     ("C3", "48.201.5", "MISREAD"), ("D3", "seven", "MISREAD"), ("D3", "-1", "MISREAD"),
     ("D3", "5 l", "MISREAD"), ("E3", "noon", "MISREAD"), ("F3", "8:59", "ENDS_BEFORE"),
-    ("F3", "1:00", "ENDS_BEFORE"), ("G3", "soon", "MISREAD"), ("G3", "10:00", "MISREAD"),
-])
+    ("F3", "1:00", "ENDS_BEFORE"), ("G3", "soon", "MISREAD"), ("G3", "10:00", "MISREAD")])
 def test_a_wrong_cell_is_named(cell: str, value: str, code: str) -> None:
     cells = ROWS[1].split(",")
     cells["ABCDEFG".index(cell[0])] = value
