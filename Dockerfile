@@ -15,6 +15,13 @@ COPY app ./app
 COPY model ./model
 RUN /opt/tandem/bin/pip install '.[trace,roads]' \
     && /opt/tandem/bin/pip uninstall --yes pip
+# What of packages nothing here loads: their tests, the runtime and HiGHS once more, for programs in
+# C, and OSRM's programs for another way to prepare roads.
+RUN cd /opt/tandem/lib/python3*/site-packages \
+    && find . -name tests -type d -prune -exec rm -r {} + \
+    && rm onnxruntime/capi/libonnxruntime.so.* highspy/libhighs.so.*.* \
+        osrm/bin/osrm-components osrm/bin/osrm-customize osrm/bin/osrm-datastore \
+        osrm/bin/osrm-partition
 
 
 FROM python:3.13-slim
