@@ -130,7 +130,7 @@ private:
 }  // namespace
 
 void offer_sorties(const Insertion& insertion, Int slot, Int first, Int last) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Trip& trip = now.trip(slot, now.stop(slot, first).trip);

@@ -123,7 +123,7 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
 }  // namespace
 
 void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
-    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
@@ -147,7 +147,7 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
 }
 
 void offer_joining(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
@@ -185,7 +185,7 @@ void offer_joining(const Insertion& insertion, Int slot) {
 }
 
 void offer_flight_trips(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     if (!data.strategy.loops) return;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
@@ -210,7 +210,7 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
 }
 
 void offer_trips(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
@@ -253,7 +253,7 @@ void offer_trips(const Insertion& insertion, Int slot) {
 }
 
 void offer_trips_apart(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, found] = insertion;
+    const auto [data, searcher, node, enlarge, found] = insertion;
     const double best = found.cost;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
@@ -297,7 +297,7 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
 }
 
 void take_cheapest(const Insertion& insertion) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     const View<Move, 1> offer = searcher.scratch->offer;
     const View<double, 1> least = searcher.scratch->least;
     Int left = searcher.scratch->offers;

@@ -21,7 +21,7 @@ namespace {
 
 // Tries a customer on the trips and sorties of a route.
 void try_route(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Route& route = now.route[slot];
     const Int k = route.type;
@@ -53,7 +53,7 @@ void try_route(const Insertion& insertion, Int slot) {
 
 // Tells whether the best place kept for a customer on a route is still that, or none is.
 bool is_kept(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     return searcher.kept(node, slot).stamp == searcher.now.route[slot].stamp &&
            (searcher.kept_move(node, slot).kind >= 0 ||
             searcher.kept_cost(node, slot) >= best.cost);
@@ -61,7 +61,7 @@ bool is_kept(const Insertion& insertion, Int slot) {
 
 // Keeps what was found for a customer on a route, which cost less than `before`, or nothing.
 void keep(const Insertion& insertion, Int slot, double before) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     searcher.kept(node, slot).stamp = searcher.now.route[slot].stamp;
     searcher.kept_cost(node, slot) = best.cost;
     Move& kept = searcher.kept_move(node, slot);
@@ -74,7 +74,7 @@ void keep(const Insertion& insertion, Int slot, double before) {
 // Most turns are undone, so that most routes are as when the customer was inserted before. If the
 // best place there is overlooked, so is the route.
 void try_routes(const Insertion& insertion) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     for (const bool costly : {false, true}) {
         for (const Int slot : searcher.active.first(searcher.count->active)) {
@@ -101,7 +101,7 @@ void try_routes(const Insertion& insertion) {
 
 // Lists a customer behind, and on flights from, the stops beside another, on its trip.
 void offer_beside(const Insertion& insertion, Int other) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Int slot = now.where[other].slot, k = now.route[slot].type;
     const VehicleType& type = data.type[k];
@@ -163,7 +163,7 @@ void find_beside(const Insertion& insertion) {
 bool opens_route(const Move& move) { return move.kind == new_route || move.kind == new_flight; }
 
 void try_trips(const Insertion& insertion, Int number) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     const Fleet& now = searcher.now;
     const Int active = searcher.count->active;
     const Int first = number < active ? below(searcher.rng, active) : 0;
