@@ -17,7 +17,7 @@ def test_console_leads_to_the_guide_which_can_be_searched(
     page.get_by_role("link", name="Guide").click()
     expect(page.get_by_role("heading", name="Tandem", level=1)).to_be_visible()
     page.get_by_role("button", name="Search").first.click()
-    page.keyboard.type("endurance")
+    page.locator("input[aria-label=Search]").fill("endurance")
     page.get_by_role("option").first.click()
     expect(page).to_have_url(re.compile("/guide/.+"))
     expect(page.get_by_role("article")).to_contain_text("endurance")
