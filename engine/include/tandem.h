@@ -136,7 +136,7 @@ typedef struct tandem_evaluation {
     bool retimed;   /* all behind a change is timed again, since speed changes, who comes later may
                        have to wait for another window, or drones are charged aboard */
     bool by_detour; /* an insertion costs what its detour does */
-    bool lean;      /* as that, with one trip of any distance, no releases and no drones */
+    bool by_distance; /* as that, with one trip of any distance, no releases and no drones */
 } tandem_evaluation;
 
 typedef struct tandem_leg_law {
@@ -390,7 +390,7 @@ typedef struct tandem_vehicle_features {
     float type[34];
 } tandem_vehicle_features;
 
-/* A stop of a truck: what is chosen, what a lean route needs, and all else that follows. */
+/* A stop of a truck: what is chosen, and all that follows. */
 typedef struct tandem_stop {
     int64_t node;
     int64_t kind;    /* a customer, or where a trip starts or ends */
@@ -470,13 +470,6 @@ typedef struct tandem_route {
     int64_t barred;
 } tandem_route;
 
-/* A customer's best place on a lean route as it is. */
-typedef struct tandem_kept {
-    int64_t stamp;  /* of the route */
-    int64_t detour; /* the shortest */
-    int64_t stop;   /* before it; -1 if no detour is that short */
-} tandem_kept;
-
 /* Where a customer is served. */
 typedef struct tandem_place {
     int64_t slot;     /* of the route; -1 if left out, -2 if another thread's */
@@ -505,7 +498,6 @@ typedef struct tandem_search_counts {
     int64_t stamp;
     int64_t best_missing;
     int64_t customers;
-    int64_t lean;    /* whether all routes are */
     int64_t changed; /* slots, since the best; -1 where any may have */
     int64_t stay;    /* turns near one customer; 0: everywhere */
     int64_t focus;   /* that customer */
@@ -720,10 +712,6 @@ typedef struct tandem_i64_5d {
     int64_t* data;
     int64_t shape[5];
 } tandem_i64_5d;
-typedef struct tandem_kept_2d {
-    tandem_kept* data;
-    int64_t shape[2];
-} tandem_kept_2d;
 typedef struct tandem_leg_law_1d {
     tandem_leg_law* data;
     int64_t shape[1];
@@ -983,8 +971,7 @@ typedef struct tandem_problem_data {
     int64_t num_types;
     int64_t max_visits; /* customers on a sortie */
     tandem_strategy strategy;
-    bool general;      /* insertions may cost more than their detour; else all routes are lean */
-    bool all_optional; /* nobody has to be served */
+    bool all_optional;             /* nobody has to be served */
     double unassigned_cost;        /* of whoever it costs least to leave out */
     tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */
     bool unassigned_costs_differ;  /* leaving out some costs more than others */
@@ -1046,9 +1033,9 @@ typedef struct tandem_searcher {
     tandem_i64_1d absences;   /* (node,) turns after which a customer was left out */
     tandem_i64_2d hit;        /* (slot, trip) turn of the last string */
     tandem_f64_3d alone;      /* (type, 2, node) cost of a route that serves one customer */
-    tandem_kept_2d kept;      /* (node, slot) the best places on lean routes as they are */
-    tandem_move_2d kept_move; /* (node, slot) the best insertions where not all routes are lean */
-    tandem_f64_2d kept_cost;  /* (node, slot) where not all routes are lean, what these cost */
+    tandem_i64_2d kept_stamp; /* (node, slot) of the route whose best insertion is kept */
+    tandem_move_2d kept_move; /* (node, slot) that insertion */
+    tandem_f64_2d kept_cost;  /* (node, slot) what it costs */
 } tandem_searcher;
 
 typedef struct tandem_linked {
@@ -1224,6 +1211,9 @@ int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
 /* Ruin and recreate so many times among linked stops. */
 int tandem_anneal_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
                          const tandem_linked* linked, int64_t turns);
+/* Link the routes of a search, insert all who are left out in an order and write them back. */
+int tandem_insert_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
+                         const tandem_linked* linked, int64_t order);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
 int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
                       const tandem_linked* linked);

@@ -15,6 +15,10 @@ namespace tandem {
 
 constexpr double retyped_share = 0.1;  // how often changed routes get the vehicles that cost least
 
+// From how many places on all who are inserted at the beginning come beside neighbours or on a new
+// route, too: looking at all routes for each takes time that grows with the square.
+constexpr Int built_beside_from = 2000;
+
 // What holds the routes, and notes what a turn, or one part of it, has changed of them.
 template <typename T>
 concept Store = requires(T store, const T now, Int number, double cost) {
@@ -28,12 +32,11 @@ concept Store = requires(T store, const T now, Int number, double cost) {
     { store.retype() };
     // How often a turn tries something else.
     { now.parts() } -> std::same_as<Int>;
-    // Does that, if it seems to cost less than so much more.
+    // Does that, with vehicles traded now and then where they may be; true if it costs less than so
+    // much more.
     { store.move_part(number, cost) } -> std::same_as<bool>;
-    // Gives the routes changed by that others' vehicles, or those left, where that costs less.
-    { store.trade() };
-    // Whether what has been done costs less than so much more.
-    { now.is_worth(cost) } -> std::same_as<bool>;
+    // Inserts who is absent, from a number on, whatever that costs.
+    { store.insert_all(number) };
     // What the routes, and those left out before, cost.
     { now.served_cost() } -> std::same_as<double>;
     // Goes on from the routes as they are.
@@ -51,16 +54,12 @@ void go_on(Searcher& searcher, Routes& routes, double cost) {
 
 // Swaps tails of routes, or does what else a store can, if that is accepted.
 template <Store Routes>
-void move_part(const ProblemData& data, Searcher& searcher, Routes& routes, Int part) {
-    const double rise = draw_rise(searcher);
-    if (routes.move_part(part, rise)) {
-        if (data.strategy.swap_vehicles && uniform(searcher.rng) < retyped_share) routes.trade();
-        if (routes.is_worth(rise)) {
-            go_on(searcher, routes, routes.served_cost());
-            return;
-        }
+void move_part(Searcher& searcher, Routes& routes, Int part) {
+    if (routes.move_part(part, draw_rise(searcher))) {
+        go_on(searcher, routes, routes.served_cost());
+    } else {
+        routes.take_back();
     }
-    routes.take_back();
 }
 
 // Ruins and recreates once. False, with nothing changed, once the search must end.
@@ -105,11 +104,24 @@ void anneal(const ProblemData& data, Searcher& searcher, Routes& routes, Int tur
         if (!ruin_and_recreate(data, searcher, routes)) return;
         for (Int part = 0; part < routes.parts(); ++part) {
             if ((part > 0 || data.strategy.two_opt_star) && !data.deadline.passed()) {
-                move_part(data, searcher, routes, part);
+                move_part(searcher, routes, part);
             }
         }
         searcher.value->temperature *= searcher.value->cooling;
     }
+}
+
+// Inserts all who are left out in an order, whatever that costs, and goes on from that.
+//
+// Once the search must end, it leaves out whoever is not inserted yet.
+template <Store Routes>
+void insert_all(const ProblemData& data, Searcher& searcher, Routes& routes, Int order) {
+    const Int first = begin_turn(data, searcher, searcher.count->missing);
+    sort_absent(data, searcher, first, order);
+    uniform(searcher.rng);  // As a turn draws that may be taken back.
+    routes.insert_all(first);
+    go_on(searcher, routes, turn_cost(data, searcher, routes.served_cost()));
+    searcher.value->temperature *= searcher.value->cooling;
 }
 
 }  // namespace tandem

@@ -21,7 +21,7 @@ double take_routes(const ProblemData& data, const Searcher& whole, Searcher& par
     for (const Int slot : whole.active.first(whole.count->active)) {
         if (owner[slot] != number) continue;
         data.deadline.go_on();
-        copy_route(whole.now, slot, now, filled, count.lean != 0);
+        copy_route(whole.now, slot, now, filled);
         locate(now, filled);
         cost += now.cost[filled];
         ++filled;
@@ -65,7 +65,7 @@ Int add_routes(Searcher& whole, const Searcher& part, Int filled) {
     const Fleet& now = whole.now;
     SearchCounts& count = *whole.count;
     for (const Int slot : part.active.first(part.count->active)) {
-        copy_route(part.now, slot, now, filled, count.lean != 0);
+        copy_route(part.now, slot, now, filled);
         ++now.used[now.route[filled].type];
         locate(now, filled);
         ++filled;
@@ -82,7 +82,7 @@ Int add_best(Searcher& whole, const Searcher& part, Int filled) {
     SearchCounts& count = *whole.count;
     for (Int slot = 0; slot < part.active.size(); ++slot) {
         if (part.best.route[slot].length == 0) continue;
-        copy_route(part.best, slot, whole.best, filled++, count.lean != 0);
+        copy_route(part.best, slot, whole.best, filled++);
     }
     for (const Int node : part.best_missing.first(part.count->best_missing)) {
         whole.best_missing[count.best_missing++] = node;

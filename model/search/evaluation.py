@@ -33,10 +33,12 @@ def evaluate(instance: Instance) -> Records:
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
     by_detour = ~(timed if release else timed & ~free) & ~priced
     apart = instance.goods.shape[1] > 0
-    lean = (by_detour & ~(timed | release | apart | (types["max_trip_distance"] < UNLIMITED))
-            & (types["max_trips"] == 1) & (types["drones"] == 0))
+    farther = types["max_trip_distance"] < UNLIMITED
+    by_distance = (by_detour & ~(timed | release | apart | farther)
+                   & (types["max_trips"] == 1) & (types["drones"] == 0))
     evaluation = np.zeros(len(types), dtype_of("tandem_evaluation"))
     for name, told in (("timed", timed), ("priced", priced), ("held_back", held_back),
-                       ("retimed", retimed), ("by_detour", by_detour), ("lean", lean)):
+                       ("retimed", retimed), ("by_detour", by_detour),
+                       ("by_distance", by_distance)):
         evaluation[name] = told
     return evaluation

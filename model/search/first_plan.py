@@ -4,7 +4,7 @@ from model.problem import Problem
 from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.savings import by_nearest, cost_by_savings, savings_routes
 from model.search.route.layout import ProblemData
-from model.search.problem_data import are_alike, from_one_place, may_be_turned
+from model.search.problem_data import are_alike, can_be_linked, from_one_place, may_be_turned
 from model.solution import Route, Solution, Stop, Trip
 
 
@@ -21,7 +21,7 @@ def first_plan(problem: Problem, data: ProblemData) -> Solution:
     if data.type["drones"][:data.num_types].any():
         return Solution((), everyone)
     if not are_alike(data):
-        joined = not data.general and from_one_place(data)
+        joined = can_be_linked(data) and from_one_place(data)
         return Solution(tuple(_by_types(problem, data)) if joined else (), everyone)
     if data.num_types > 1:
         data = data._replace(can=by_nearest(data))

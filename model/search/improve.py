@@ -249,12 +249,13 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, data, plan, seeds[0])
     is_large = problem.num_customers >= LARGE_FROM
-    _begin(data, whole, fresh, fresh and bool(plan.routes), task)
+    linked = _linked(data, whole, config.threads)
+    _begin(data, whole, linked[0], fresh, fresh and bool(plan.routes), task)
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(data, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=linked)
-               for linked in _linked(data, whole, config.threads)]
+    workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=room)
+               for room in linked]
 
     node = numbering.node.tolist()
 
@@ -289,7 +290,8 @@ def _size(whole: Searcher) -> tuple[int, int]:
     return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
-def _begin(data: ProblemData, whole: Searcher, fresh: bool, by_savings: bool, task: _Task) -> None:
+def _begin(data: ProblemData, whole: Searcher, linked: Linked | None, fresh: bool,
+           by_savings: bool, task: _Task) -> None:
     """Insert the customers left out; if nothing was given, plan all anew where that is better.
 
     In place. `by_savings`: what there is was made so. Where the clock ends the search, it ends
@@ -303,7 +305,7 @@ def _begin(data: ProblemData, whole: Searcher, fresh: bool, by_savings: bool, ta
     is_best = by_savings and is_large and only_loads_limit(data)
     with task.alarm.sooner(deadline) as alarm:
         hurried = data._replace(deadline=alarm.setting)
-        begin_anew(data, whole, fresh and not is_best, hurried)
+        begin_anew(data, whole, fresh and not is_best, hurried, linked)
         if fresh and data.strategy.change_vehicles and not by_savings:
             _begin_by_types(hurried, whole, limits,
                             BEGINNING_SHARE if is_large else MOST_BEGINNING)
@@ -320,7 +322,7 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
     whole, first = team.whole, team.workers[0]
     starts = None
     if data.strategy.scan_all and not first.heat.drones and first.cooled == 0.0:
-        starts = Starts(data, whole, seeds)
+        starts = Starts(data, whole, seeds, first.linked)
     team.search(crew, WHOLE, rounds=1)
     count, rest = team.num_starts(), WHOLE
     if starts is not None and count > 1:

@@ -41,7 +41,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
         strategy=strategy_of(problem, instance, moves, evaluation, swap, most_visits),
-        general=not bool(evaluation["lean"].all()), all_optional=not bool(must_serve.any()),
+        all_optional=not bool(must_serve.any()),
         unassigned_cost=float(instance.unassigned_cost[0]), unassigned_more=more,
         unassigned_costs_differ=bool(more.any()), must_serve=must_serve,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
@@ -92,8 +92,8 @@ def from_one_place(data: ProblemData) -> bool:
 def only_loads_limit(data: ProblemData) -> bool:
     """Tell whether trucks make one trip each, whenever they like."""
     served = data.place[0, data.num_depots:, 0]
-    return not (data.general or served["window_earliest"].any()
-                or (served["window_latest"] < UNLIMITED).any())
+    return can_be_linked(data) and not bool(
+        served["window_earliest"].any() or (served["window_latest"] < UNLIMITED).any())
 
 
 def can_be_linked(data: ProblemData) -> bool:
@@ -101,7 +101,7 @@ def can_be_linked(data: ProblemData) -> bool:
 
     Vehicles then make one trip each, and distance alone costs.
     """
-    return not data.general
+    return bool(data.evaluation["by_distance"].all())
 
 
 def are_timed(data: ProblemData) -> bool:
@@ -142,8 +142,8 @@ def _swaps(problem: Problem, types: Records, evaluation: Records) -> BoolArray:
                         kind.has_delivered, int(types["variant"][index]),
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
-    lean = evaluation["lean"][:len(group)]
-    swaps: BoolArray = (group == group[:, None]) & lean & lean[:, None]
+    alone = evaluation["by_distance"][:len(group)]
+    swaps: BoolArray = (group == group[:, None]) & alone & alone[:, None]
     np.fill_diagonal(swaps, False)
     return swaps
 

@@ -3,6 +3,7 @@
 import numpy as np
 
 from model.search.beginning.construct import begin_again
+from model.search.linked.layout import Linked
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import keep_best_of, make_rooms, take_all
@@ -12,11 +13,14 @@ class Starts:
     """Searches of several threads that share nothing but where they begin."""
 
     def __init__(self, data: ProblemData, whole: Searcher,
-                 seeds: list[np.random.SeedSequence]) -> None:
-        """Keep the routes of the whole for searches by each seed to begin with."""
+                 seeds: list[np.random.SeedSequence], linked: Linked | None = None) -> None:
+        """Keep the routes of the whole for searches by each seed to begin with, by linked stops if
+        there are.
+        """
         self._data = data
         self._whole = whole
         self._seeds = seeds
+        self._linked = linked
         self._first, = make_rooms(data, whole, seeds[:1])
         self._rooms: list[Searcher] = []
         take_all(data, whole, self._first)
@@ -27,7 +31,7 @@ class Starts:
         for room in self._rooms:
             take_all(self._data, self._first, room)
             if anew:
-                begin_again(self._data, room)
+                begin_again(self._data, room, self._linked)
 
     def spread(self) -> list[Searcher]:
         """Return the searches as they are."""

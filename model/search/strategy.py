@@ -60,15 +60,15 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
     most_visits
         Customers on any sortie; 1 where there are none.
     """
-    costs_more = not bool(evaluation["lean"].all())  # than its detour, an insertion somewhere
+    linked = bool(evaluation["by_distance"].all())
     scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem, most_visits)
     return Strategy(
         loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star,
         resplit=moves.resplit and moves.flights and any(
             kind.num_drones == 1 for kind in problem.vehicle_types),
         swap_vehicles=moves.types and bool(swap.any()),
-        change_vehicles=moves.types and len(problem.vehicle_types) > 1 and costs_more,
-        scan_all=scan_all, keep_places=scan_all and (not costs_more or blink <= LEAST_BLINK),
+        change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
+        scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,
         give_up_early=not _may_save(instance, evaluation), blink=blink)
 
 

@@ -25,73 +25,8 @@ bool is_too_far_beside(const LegRow& inward, const LegRow& onward, View<const St
     return double(2 * near - std::max(stops[p - 1].leg, stops[p].leg)) * rate >= best;
 }
 
-// A stop behind which the detour is shortest, `nowhere` if that is none, and how long it is.
-struct ShortestDetour {
-    Int distance;
-    Int stop;
-};
-
-// Returns the shortest detour for a customer on a lean route that is shorter than `best`.
-ShortestDetour shortest_detour(const Newcomer& newcomer, const Room& room,
-                               View<const Stop, 1> stops, Int last, Int best) {
-    ShortestDetour found{best, nowhere};
-    for (Int p = 0; p < last; ++p) {
-        const Stop &here = stops[p], &behind = stops[p + 1];
-        const Int further = newcomer.further(here.node, behind.node, here.leg);
-        if (further >= found.distance || !room_behind(room, p)) continue;
-        if (newcomer.comes_between(here.node, here.leave, behind.node, behind.latest)) {
-            found = {further, p};
-        } else if (newcomer.place.too_late(here.leave)) {
-            break;
-        }
-    }
-    return found;
-}
-
-// Tries the customer on a lean route that this turn doesn't change. False if the best place there
-// is overlooked.
-//
-// Most turns are undone, so that most routes are as when the customer was inserted before.
-bool try_kept(const Insertion& insertion, const Joining& joins, Kept& kept) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& fleet = searcher.now;
-    const Int slot = joins.slot, k = fleet.route[slot].type, stamp = fleet.route[slot].stamp;
-    const double most = best.cost - joins.cost;
-    if (kept.stamp != stamp || (kept.stop < 0 && double(kept.detour) * joins.rate < most)) {
-        Int longest = far;
-        // Also where distance costs nothing, or a larger vehicle saves more than any detour costs.
-        if (std::abs(most) < double(far) * joins.rate) {
-            longest = static_cast<Int>(most / joins.rate) + 1;
-        }
-        const ShortestDetour found = shortest_detour(
-            newcomer_for(data, data.type[k], node), room_on(data, fleet, slot, k, node),
-            fleet.stop[slot], fleet.trip(slot, 0).last, longest);
-        kept = {stamp, found.distance, found.stop};
-    }
-    if (kept.stop < 0 || double(kept.detour) * joins.rate + joins.cost >= best.cost) return true;
-    return best.try_behind(joins, kept.stop, kept.detour, [] { return true; });
-}
-
-// Tells whether a customer is known to cost no less than the best on a route as it is.
-//
-// That is so of most routes, so nothing else is asked of them.
-bool is_too_far(const Insertion& insertion, Int slot) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
-    const Route& route = searcher.now.route[slot];
-    if (enlarge || !data.strategy.scan_all || route.stamp == changing) return false;
-    const Rate& rate = data.rate[route.type];
-    const Kept& kept = searcher.kept(node, slot);
-    return kept.stamp == route.stamp &&
-           double(kept.detour) * rate.distance >= best.cost - rate.stop;
-}
-
-}  // namespace
-
-bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    return data.evaluation[route.type].by_detour && route.sorties == 0;
-}
-
+// Tells whether somebody may serve a customer more on a trip, and who that is: a larger type if
+// that may be.
 bool may_join(const Insertion& insertion, Int slot, Int index, Joining& joins) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
@@ -112,7 +47,8 @@ bool may_join(const Insertion& insertion, Int slot, Int index, Joining& joins) {
     return joins.cost < best.cost;
 }
 
-void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int last, Int skipped) {
+// Tries the customer behind some stops of a trip where only distance counts.
+void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int last) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
     const Int slot = joins.slot, k = fleet.route[slot].type;
@@ -143,12 +79,19 @@ void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int 
         bool over = false;  // as soon as whoever leaves here comes too late
         best.try_behind(joins, p, further, [&] {
             over = newcomer.place.too_late(leave);
-            return !over && further <= spare && p != skipped && room_behind(room, p) &&
+            return !over && further <= spare && room_behind(room, p) &&
                    newcomer.comes_between(here.node, leave, behind.node, behind.latest) &&
                    (!timed || price_stop(data, fleet, slot, p, newcomer) < infeasible);
         });
         if (over) return;
     }
+}
+
+}  // namespace
+
+bool is_simple(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    return data.evaluation[route.type].by_detour && route.sorties == 0;
 }
 
 void scan_simple(const Insertion& insertion, Int slot) {
@@ -180,25 +123,6 @@ void scan_beside(const Insertion& insertion) {
             may_join(insertion, slot, stops[p].trip, joins)) {
             scan_trip(insertion, joins, p - 1, p);
         }
-    }
-}
-
-void scan_lean(const Insertion& insertion) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& fleet = searcher.now;
-    for (const Int slot : searcher.active.first(searcher.count->active)) {
-        const Route& route = fleet.route[slot];
-        Joining joins;
-        if (is_too_far(insertion, slot) || !data.can(route.type, 0, node) ||
-            !may_join(insertion, slot, 0, joins)) {
-            continue;
-        }
-        // What is kept is where there is room on the vehicle as it is.
-        const bool known = data.strategy.scan_all && route.stamp != changing &&
-                           (joins.type == route.type || tiers_of(data) == 0);
-        Kept& kept = searcher.kept(node, slot);
-        if (known && try_kept(insertion, joins, kept)) continue;
-        scan_trip(insertion, joins, 0, fleet.trip(slot, 0).last - 1, known ? kept.stop : nowhere);
     }
 }
 

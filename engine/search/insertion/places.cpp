@@ -8,7 +8,6 @@
 #include "rules/window.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/offers.h"
-#include "search/insertion/passing.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
@@ -54,7 +53,7 @@ void try_route(const Insertion& insertion, Int slot) {
 // Tells whether the best place kept for a customer on a route is still that, or none is.
 bool is_kept(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, best] = insertion;
-    return searcher.kept(node, slot).stamp == searcher.now.route[slot].stamp &&
+    return searcher.kept_stamp(node, slot) == searcher.now.route[slot].stamp &&
            (searcher.kept_move(node, slot).kind >= 0 ||
             searcher.kept_cost(node, slot) >= best.cost);
 }
@@ -62,7 +61,7 @@ bool is_kept(const Insertion& insertion, Int slot) {
 // Keeps what was found for a customer on a route, which cost less than `before`, or nothing.
 void keep(const Insertion& insertion, Int slot, double before) {
     const auto [data, searcher, node, enlarge, best] = insertion;
-    searcher.kept(node, slot).stamp = searcher.now.route[slot].stamp;
+    searcher.kept_stamp(node, slot) = searcher.now.route[slot].stamp;
     searcher.kept_cost(node, slot) = best.cost;
     Move& kept = searcher.kept_move(node, slot);
     kept = best.move;
@@ -136,23 +135,15 @@ void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, 
 }
 
 void find_place(const Insertion& insertion) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     try_new_route(data, searcher, node, best);
-    if (data.general) {
-        try_routes(insertion);
-    } else {
-        scan_lean(insertion);
-    }
+    try_routes(insertion);
 }
 
 void find_beside(const Insertion& insertion) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const auto [data, searcher, node, enlarge, best] = insertion;
     try_new_route(data, searcher, node, best);
     scan_beside(insertion);
-    if (!data.general) {
-        scan_passing(insertion);
-        return;
-    }
     for (const Int other : data.granular[node]) {
         if (other < 0) break;
         if (searcher.now.where[other].slot >= 0) offer_beside(insertion, other);

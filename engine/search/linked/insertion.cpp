@@ -12,7 +12,6 @@
 #include "rules/window.h"
 #include "search/insertion/best.h"
 #include "search/insertion/newcomer.h"
-#include "search/insertion/passing.h"
 #include "search/insertion/places.h"
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
@@ -24,6 +23,12 @@
 namespace tandem {
 
 namespace {
+
+// A route that serves a town far away passes customers to whom nobody on it is near: a stop on the
+// way there from the depot, or back, costs next to nothing, and no neighbour shows it. So some
+// routes are drawn: one of how many, and how many at most.
+constexpr Int each_drawn = 4;
+constexpr Int most_drawn = 16;
 
 // From which distance on `Linked::near` doesn't tell.
 constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
@@ -121,7 +126,7 @@ public:
         }
     }
 
-    // Tries a customer first and last on routes drawn, as `insertion/passing` says.
+    // Tries a customer first and last on routes drawn.
     void try_passing() {
         const Int number = searcher_.count->active;
         if (number == 0) return;
@@ -317,8 +322,8 @@ private:
 };
 
 // Inserts a customer as a move says. False if no slot is free.
-bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int node,
-                   const Move& move) {
+bool insert(const ProblemData& data, Searcher& searcher, Linked& linked, Int node,
+            const Move& move) {
     Int slot = move.slot;
     Int before = move.first;
     if (opens_route(move)) {
@@ -340,28 +345,30 @@ bool insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, 
 }  // namespace
 
 Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
-                          double spare) {
+                          double spare, bool scan_all) {
     const View<Int, 1> absent = searcher.absent;
-    const bool opening = uniform(searcher.rng) < opening_share;
     const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
+    const bool opens_first = uniform(searcher.rng) < opening_share;
     double total = 0.0;
     Int left = first;
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
-        if (data.deadline.passed()) return {false, total};
-        const bool opens = opening && index == first;
+        if (data.deadline.passed()) {
+            absent[left++] = node;
+            continue;
+        }
+        const bool opens = opens_first && index == first;
         Best best{data.strategy.blink, searcher.rng};
         try_new_route(data, searcher, node, best);
         Places places({data, searcher, node, enlarge, best}, linked);
-        if (!opens) {
+        if (!opens && !scan_all) {
             places.try_beside();
             places.try_passing();
         }
-        if (best.cost == infeasible) places.try_everywhere();
+        if ((!opens && scan_all) || best.cost == infeasible) places.try_everywhere();
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = best.cost < left_out || opens;
-        if (best.cost != infeasible && wanted &&
-            insert_linked(data, searcher, linked, node, best.move)) {
+        if (best.cost != infeasible && wanted && insert(data, searcher, linked, node, best.move)) {
             total += best.cost;
         } else {
             absent[left++] = node;

@@ -11,8 +11,9 @@ struct Recreated {
     double added;
 };
 
-// Inserts the absent customers from number `first` on, each where it costs least. As `recreate`.
+// Inserts the absent customers from number `first` on, each where it costs least; they are tried
+// everywhere if `scan_all`, else nearby. As `recreate`.
 Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int first,
-                          double spare);
+                          double spare, bool scan_all);
 
 }  // namespace tandem

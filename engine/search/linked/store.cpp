@@ -1,14 +1,17 @@
 #include "search/linked/store.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "guard.h"
+#include "randomness.h"
 #include "search/anneal.h"
 #include "search/linked/chain.h"
 #include "search/linked/insertion.h"
 #include "search/linked/retype.h"
 #include "search/linked/strings.h"
 #include "search/linked/tails.h"
+#include "search/linked/tying.h"
 #include "search/route/state.h"
 #include "search/scratch.h"
 
@@ -31,36 +34,39 @@ public:
     }
 
     bool recreate(Int first, double spare) {
-        const auto [done, added] = recreate_linked(data_, searcher_, linked_, first, spare);
+        const auto [done, added] = recreate_linked(data_, searcher_, linked_, first, spare, false);
         added_ = added;
         return done;
+    }
+
+    void insert_all(Int first) {
+        const bool scan_all = data_.num_nodes < built_beside_from;
+        constexpr double infinite = std::numeric_limits<double>::infinity();
+        saved_ = 0.0;
+        added_ = recreate_linked(data_, searcher_, linked_, first, infinite, scan_all).added;
     }
 
     void retype() { added_ -= cheapen_runs(data_, searcher_, linked_); }
 
     Int parts() const { return 1; }
 
-    // Swaps tails of routes, which is not taken back.
+    // Swaps tails of routes, whose price is known before, so that what isn't worth it isn't done.
     bool move_part(Int, double rise) {
-        swapped_ = two_opt_star_linked(data_, searcher_, linked_, rise);
-        if (swapped_.slot < 0) return false;
+        const auto [slot, other, cost] = two_opt_star_linked(data_, searcher_, linked_, rise);
+        if (slot < 0) return false;
         saved_ = 0.0;
-        added_ = swapped_.cost;
-        note_changed(searcher_, swapped_.slot);
-        note_changed(searcher_, swapped_.other);
+        added_ = cost;
+        note_changed(searcher_, slot);
+        note_changed(searcher_, other);
         SearchCounts& count = *searcher_.count;
         count.absent = count.missing;
         std::copy_n(searcher_.missing.begin(), count.missing, searcher_.absent.begin());
+        if (data_.strategy.swap_vehicles && uniform(searcher_.rng) < retyped_share) {
+            added_ -= cheapen_run(data_, searcher_, linked_, slot);
+            added_ -= cheapen_run(data_, searcher_, linked_, other);
+        }
         return true;
     }
-
-    void trade() {
-        const double saved = cheapen_run(data_, searcher_, linked_, swapped_.slot);
-        added_ -= saved + cheapen_run(data_, searcher_, linked_, swapped_.other);
-    }
-
-    // Tails are swapped, and vehicles with others, where that is worth it alone.
-    bool is_worth(double) const { return true; }
 
     double served_cost() const { return searcher_.value->cost - saved_ + added_; }
 
@@ -121,7 +127,6 @@ private:
     Linked& linked_;
     double saved_ = 0.0;
     double added_ = 0.0;
-    SwappedTails swapped_{nowhere, nowhere, 0.0};
 };
 
 }  // namespace
@@ -129,6 +134,13 @@ private:
 void anneal_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int turns) {
     LinkedStore routes(data, searcher, linked);
     anneal(data, searcher, routes, turns);
+}
+
+void insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, Int order) {
+    tie(data, searcher, linked);
+    LinkedStore routes(data, searcher, linked);
+    insert_all(data, searcher, routes, order);
+    write_back(data, searcher, linked);
 }
 
 }  // namespace tandem
@@ -144,5 +156,17 @@ extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
         const ProblemData problem = data_of(*data);
         Scratch scratch(problem, searching);
         anneal_linked(problem, searching, routes, turns);
+    });
+}
+
+extern "C" int tandem_insert_linked(const tandem_problem_data* data,
+                                    const tandem_searcher* searcher, const tandem_linked* linked,
+                                    int64_t order) {
+    return guarded([&] {
+        Searcher searching = searcher_of(*searcher);
+        Linked routes = linked_of(*linked);
+        const ProblemData problem = data_of(*data);
+        Scratch scratch(problem, searching);
+        insert_linked(problem, searching, routes, order);
     });
 }

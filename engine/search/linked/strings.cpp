@@ -111,7 +111,7 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
 
 Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) {
     SearchCounts& count = *searcher.count;
-    const double longest = longest_string(searcher);
+    const double longest = longest_string(searcher, count.active);
     Int strings = draw_strings(longest, searcher.rng);
     Int seed = draw_customer(data, searcher.now, count.focus, searcher.rng);
     if (count.absent > 0 && uniform(searcher.rng) < make_room_share) {

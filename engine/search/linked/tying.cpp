@@ -136,7 +136,6 @@ void tie(const ProblemData& data, Searcher& searcher, Linked& linked) {
         linked.reach[node] = out_of_reach;
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
-        data.deadline.go_on();
         if (searcher.now.route[slot].length > 0) link_route(data, linked, searcher.now, slot);
         linked.best_first[slot] = nowhere;
         if (searcher.best.route[slot].length > 0) link_best(linked, searcher.best, slot);
@@ -175,7 +174,9 @@ extern "C" int tandem_tie(const tandem_problem_data* data, const tandem_searcher
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
-        tie(data_of(*data), searching, routes);
+        const ProblemData problem = data_of(*data);
+        problem.deadline.go_on();
+        tie(problem, searching, routes);
     });
 }
 

@@ -10,7 +10,6 @@
 #include "search/insertion/evaluate.h"
 #include "search/insertion/places.h"
 #include "search/route/edit.h"
-#include "search/route/lean.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -84,16 +83,15 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const Int slot = move.slot;
     touch(searcher, slot);
     Route& route = now.route[slot];
-    if (data.evaluation[route.type].lean) {
-        if (move.type != route.type) change_type(data, now, slot, move.type);
-        insert_lean(data, now, slot, move.first, node);
-        return true;
-    }
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
+    const Int former = route.type;
+    const bool retyped = data.evaluation[former].by_distance && move.type != former;
+    if (retyped) change_type(data, now, slot, move.type);
     apply(data.type[route.type].depot, sequence_in(now, slot), move, node);
     const bool allowed = refresh(data, now, slot);
     if (!allowed) {
+        if (retyped) change_type(data, now, slot, former);
         keep_aside(now, spare, slot);
         refresh(data, now, slot);
     }
@@ -161,7 +159,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         }
         if (best.cost == infeasible) {
             find_place(insertion);
-            if (data.general && (best.cost == infeasible || uniform(searcher.rng) < more_trips)) {
+            if (best.cost == infeasible || uniform(searcher.rng) < more_trips) {
                 tried = count.active;
             }
         }

@@ -92,7 +92,7 @@ void improve_types(const ProblemData& data, Searcher& searcher) {
     for (Int index = 0; index < searcher.count->touched; ++index) {
         const Int slot = searcher.touched[index];
         const Route& route = now.route[slot];
-        if (route.length == 0 || !data.evaluation[route.type].lean) continue;
+        if (route.length == 0 || !data.evaluation[route.type].by_distance) continue;
         const Haul haul = haul_of(now.trip(slot, 0));
         for (Int k = 0; k < data.num_types; ++k) {
             if (data.swap(route.type, k) && is_left(data, now, k) &&

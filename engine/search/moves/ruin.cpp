@@ -86,14 +86,8 @@ bool listed(View<const Int, 1> slots, Int count, Int slot) {
 
 }  // namespace
 
-double longest_string(const Searcher& searcher) {
+double longest_string(const Searcher& searcher, Int trips) {
     const SearchCounts& count = *searcher.count;
-    Int trips = count.active;
-    if (!count.lean) {
-        trips = 0;
-        for (Int slot : searcher.active.first(count.active))
-            trips += searcher.now.route[slot].trips;
-    }
     const double stops = static_cast<double>(count.customers - count.absent) /
                          static_cast<double>(std::max(Int{1}, trips));
     const double allowed = std::min(searcher.value->longest, longest_share * stops);

@@ -12,10 +12,11 @@ constexpr double whole_trip_share = 0.05;    // how often a trip is removed whol
 constexpr Int longest_whole_trip = 25;       // if it has no more stops than this
 constexpr double make_room_share = 0.5;      // how often strings are removed around one left out
 
-// Return how many stops a string has at most: as many as a trip has on average, or less.
+// Return how many stops a string has at most: as many as each of so many trips has on average, or
+// less.
 //
 // Up to `longest_usual_string`, and on long routes up to what `Searcher::value` says.
-double longest_string(const Searcher& searcher);
+double longest_string(const Searcher& searcher, Int trips);
 
 // Draw how many strings are removed: fewer if they are long.
 Int draw_strings(double longest, View<std::uint64_t, 1> rng);

@@ -18,10 +18,6 @@
 namespace tandem {
 namespace {
 
-// From how many places on all who are inserted at the beginning come beside neighbours or on a new
-// route, too: looking at all routes for each takes time that grows with the square.
-constexpr Int built_beside_from = 2000;
-
 constexpr Int resplits = 30;  // trips with one drone planned anew from their order each turn
 
 // Routes in rows of stops, with all that `Fleet` knows of them.
@@ -66,12 +62,11 @@ public:
         // Who is left out stays the same, and isn't listed as absent yet.
         count.absent = count.missing;
         std::copy_n(searcher_.missing.begin(), count.missing, searcher_.absent.begin());
-        return true;
+        if (data_.strategy.swap_vehicles && uniform(searcher_.rng) < retyped_share) {
+            improve_types(data_, searcher_);
+        }
+        return served_cost() < searcher_.value->cost + rise;
     }
-
-    void trade() { improve_types(data_, searcher_); }
-
-    bool is_worth(double rise) const { return served_cost() < searcher_.value->cost + rise; }
 
     double served_cost() const { return tandem::served_cost(searcher_); }
 
@@ -90,7 +85,7 @@ public:
             const Int slot = searcher_.touched[index];
             const Route& route = now.route[slot];
             if (route.length > 0) --now.used[route.type];
-            copy_route(searcher_.before, index, now, slot, count.lean != 0);
+            copy_route(searcher_.before, index, now, slot);
             if (route.length > 0) {
                 ++now.used[route.type];
                 locate(now, slot);
@@ -101,13 +96,22 @@ public:
     }
 
 private:
+    Int num_trips() const {
+        Int trips = 0;
+        for (const Int slot : searcher_.active.first(searcher_.count->active)) {
+            trips += searcher_.now.route[slot].trips;
+        }
+        return trips;
+    }
+
     // Removes strings of customers near each other.
     void remove_strings(Int first) {
         Fleet& now = searcher_.now;
         const View<Int, 1> absent = searcher_.absent;
         const Int before = searcher_.count->absent;
-        auto [total, num_touched, seed] = choose(data_, searcher_, longest_string(searcher_),
-                                                 absent, before, searcher_.scratch->moved);
+        auto [total, num_touched, seed] =
+            choose(data_, searcher_, longest_string(searcher_, num_trips()), absent, before,
+                   searcher_.scratch->moved);
         if (first > 0) try_near(data_, searcher_, seed, first, before);
         for (Int slot : searcher_.scratch->moved.view().first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {
@@ -134,16 +138,9 @@ void anneal_routes(const ProblemData& data, Searcher& searcher, Int turns) {
     anneal(data, searcher, routes, turns);
 }
 
-void insert_all(const ProblemData& data, Searcher& searcher, Int turns, Int order) {
+void insert_all(const ProblemData& data, Searcher& searcher, Int order) {
     RouteStore routes(data, searcher);
-    for (Int turn = 0; turn < turns; ++turn) {
-        const Int first = begin_turn(data, searcher, searcher.count->missing);
-        sort_absent(data, searcher, first, order);
-        uniform(searcher.rng);  // As a turn draws that may be taken back.
-        routes.insert_all(first);
-        go_on(searcher, routes, turn_cost(data, searcher, routes.served_cost()));
-        searcher.value->temperature *= searcher.value->cooling;
-    }
+    insert_all(data, searcher, routes, order);
 }
 
 }  // namespace tandem
@@ -159,7 +156,7 @@ extern "C" int tandem_anneal(const tandem_problem_data* data, const tandem_searc
         if (order == any_order) {
             anneal_routes(problem, working, turns);
         } else {
-            insert_all(problem, working, turns, order);
+            for (Int turn = 0; turn < turns; ++turn) insert_all(problem, working, order);
         }
     });
 }

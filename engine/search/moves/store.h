@@ -10,9 +10,7 @@ constexpr Int any_order = -1;  // no order of insertion in particular: one is dr
 // Ruins and recreates `turns` times, as `search/anneal` says.
 void anneal_routes(const ProblemData& data, Searcher& searcher, Int turns);
 
-// Inserts all who are left out in an order, whatever that costs, `turns` times.
-//
-// Once the search must end, it leaves out whoever is not inserted yet.
-void insert_all(const ProblemData& data, Searcher& searcher, Int turns, Int order);
+// Inserts all who are left out in an order, as `search/anneal` says.
+void insert_all(const ProblemData& data, Searcher& searcher, Int order);
 
 }  // namespace tandem

@@ -22,7 +22,6 @@ using Stop = tandem_stop;
 using Sortie = tandem_sortie;
 using Trip = tandem_trip;
 using Route = tandem_route;
-using Kept = tandem_kept;
 using Place = tandem_place;
 using Move = tandem_move;
 using SearchCounts = tandem_search_counts;
@@ -59,9 +58,8 @@ struct ProblemData {
     std::int64_t num_types;
     std::int64_t max_visits;  // customers on a sortie
     Strategy strategy;
-    bool general;            // insertions may cost more than their detour; else all routes are lean
-    bool all_optional;       // nobody has to be served
-    double unassigned_cost;  // of whoever it costs least to leave out
+    bool all_optional;                      // nobody has to be served
+    double unassigned_cost;                 // of whoever it costs least to leave out
     View<const double, 1> unassigned_more;  // (node,) what leaving out another costs above that
     bool unassigned_costs_differ;           // leaving out some costs more than others
     View<const bool, 1> must_serve;  // (node,) leaving it out costs more than any route for one
@@ -97,7 +95,6 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.num_types,
             from.max_visits,
             from.strategy,
-            from.general,
             from.all_optional,
             from.unassigned_cost,
             from.unassigned_more,
@@ -158,16 +155,16 @@ struct Searcher {
     View<bool, 1> is_changed;       // (slot,) it is among those
     View<std::int64_t, 1> missing;  // customers left out
     View<std::int64_t, 1> best_missing;
-    View<std::int64_t, 1> absent;    // to be inserted this turn, behind those left alone
-    View<std::int64_t, 1> touched;   // slots changed this turn
-    View<bool, 1> marked;            // (node,) removed this turn
-    View<std::int64_t, 1> absences;  // (node,) turns after which a customer was left out
-    View<std::int64_t, 2> hit;       // (slot, trip) turn of the last string
-    View<double, 3> alone;           // (type, 2, node) cost of a route that serves one customer
-    View<Kept, 2> kept;              // (node, slot) the best places on lean routes as they are
-    View<Move, 2> kept_move;     // (node, slot) the best insertions where not all routes are lean
-    View<double, 2> kept_cost;   // (node, slot) where not all routes are lean, what these cost
-    Scratch* scratch = nullptr;  // where customers are inserted
+    View<std::int64_t, 1> absent;      // to be inserted this turn, behind those left alone
+    View<std::int64_t, 1> touched;     // slots changed this turn
+    View<bool, 1> marked;              // (node,) removed this turn
+    View<std::int64_t, 1> absences;    // (node,) turns after which a customer was left out
+    View<std::int64_t, 2> hit;         // (slot, trip) turn of the last string
+    View<double, 3> alone;             // (type, 2, node) cost of a route that serves one customer
+    View<std::int64_t, 2> kept_stamp;  // (node, slot) of the route whose best insertion is kept
+    View<Move, 2> kept_move;           // (node, slot) that insertion
+    View<double, 2> kept_cost;         // (node, slot) what it costs
+    Scratch* scratch = nullptr;        // where customers are inserted
 };
 
 inline Searcher searcher_of(const tandem_searcher& from) {
@@ -189,7 +186,7 @@ inline Searcher searcher_of(const tandem_searcher& from) {
             from.absences,
             from.hit,
             from.alone,
-            from.kept,
+            from.kept_stamp,
             from.kept_move,
             from.kept_cost};
 }
@@ -199,17 +196,6 @@ inline void copy_sequence(const Stop& stop, Stop& to) {
     to.node = stop.node;
     to.kind = stop.kind;
     to.release = stop.release;
-}
-
-// Copy what a lean route needs of a stop. In place.
-inline void copy_lean(const Stop& stop, Stop& to) {
-    copy_sequence(stop, to);
-    to.leave = stop.leave;
-    to.latest = stop.latest;
-    to.leg = stop.leg;
-    to.gap = stop.gap;
-    to.flying = stop.flying;
-    to.trip = stop.trip;
 }
 
 // Let a trip be empty. In place.

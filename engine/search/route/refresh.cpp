@@ -10,7 +10,6 @@
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
-#include "search/route/lean.h"
 #include "search/route/rarer.h"
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
@@ -98,8 +97,8 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
     return !may_work(data.type[route.type], route.end - soonest);
 }
 
-// Write times and cost of a route that isn't lean, with trips that end where they do. In place;
-// false if it breaks a rule.
+// Write times and cost of a route with trips that end where they do. In place; false if it breaks
+// a rule.
 //
 // Where that costs less, its trips are held back; `settled` tells.
 bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
@@ -132,7 +131,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     return true;
 }
 
-// As `refresh`, of a route that isn't lean, with trips that end where they do.
+// As `refresh`, with trips that end where they do.
 bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     bool settled = false;
     if (!price_as_is(data, fleet, slot, settled)) return false;
@@ -204,7 +203,6 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
 
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
-    if (data.evaluation[route.type].lean) return refresh_lean(data, fleet, slot);
     if (!refresh_as_is(data, fleet, slot)) return false;
     if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot);
     return true;
@@ -212,9 +210,7 @@ bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
 
 bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
-    if (is_apart(data, route.type) || data.evaluation[route.type].lean) {
-        return refresh(data, fleet, slot);
-    }
+    if (is_apart(data, route.type)) return refresh(data, fleet, slot);
     bool settled = false;
     return price_as_is(data, fleet, slot, settled);
 }

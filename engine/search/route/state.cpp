@@ -8,23 +8,17 @@
 
 namespace tandem {
 
-void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to, bool lean) {
+void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to) {
     const Route& route = source.route[slot];
-    const View<Stop, 1> stops = source.stop[slot], copies = target.stop[to];
     target.route[to] = route;
     target.cost[to] = source.cost[slot];
+    target.early[to] = source.early[slot];
     for (Int tier = 0; tier < tiers_aboard(source); ++tier) {
         std::copy_n(&source.stop_load(slot, tier, 0), route.length, &target.stop_load(to, tier, 0));
     }
-    if (lean) {
-        for (Int p = 0; p < route.length; ++p) copy_lean(stops[p], copies[p]);
-        target.trip(to, 0) = source.trip(slot, 0);
-    } else {
-        target.early[to] = source.early[slot];
-        std::copy_n(stops.data(), route.length, copies.data());
-        std::copy_n(source.trip[slot].data(), route.trips, target.trip[to].data());
-        std::copy_n(source.sortie[slot].data(), route.sorties, target.sortie[to].data());
-    }
+    std::copy_n(source.stop[slot].data(), route.length, target.stop[to].data());
+    std::copy_n(source.trip[slot].data(), route.trips, target.trip[to].data());
+    std::copy_n(source.sortie[slot].data(), route.sorties, target.sortie[to].data());
 }
 
 bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at) {
@@ -76,7 +70,7 @@ void touch(const Searcher& searcher, Int slot) {
     SearchCounts& count = *searcher.count;
     Route& route = searcher.now.route[slot];
     if (route.stamp == changing) return;
-    copy_route(searcher.now, slot, searcher.before, count.touched, count.lean != 0);
+    copy_route(searcher.now, slot, searcher.before, count.touched);
     route.stamp = changing;
     searcher.touched[count.touched++] = slot;
 }
@@ -100,7 +94,7 @@ void keep_best(const Searcher& searcher) {
     for (const Int slot : searcher.changed.first(count.changed)) {
         searcher.is_changed[slot] = false;
         if (searcher.now.route[slot].stamp != searcher.best.route[slot].stamp) {
-            copy_route(searcher.now, slot, searcher.best, slot, count.lean != 0);
+            copy_route(searcher.now, slot, searcher.best, slot);
         }
     }
     keep_totals(searcher);
@@ -144,7 +138,7 @@ void accept(const Searcher& searcher, double cost) {
         const Int slot = searcher.touched[index];
         // What is kept of a route that is as it was still holds.
         const bool is_as_before =
-            !searcher.kept.empty() && is_same(searcher.now, slot, searcher.before, index);
+            !searcher.kept_stamp.empty() && is_same(searcher.now, slot, searcher.before, index);
         searcher.now.route[slot].stamp =
             is_as_before ? searcher.before.route[index].stamp : count.stamp;
         note_changed(searcher, slot);
@@ -160,7 +154,7 @@ void go_back(const Searcher& searcher) {
     ++count.stamp;
     count.changed = all_slots;
     for (Int slot = 0; slot < searcher.active.size(); ++slot) {
-        copy_route(best, slot, now, slot, count.lean != 0);
+        copy_route(best, slot, now, slot);
         now.route[slot].stamp = count.stamp;
     }
     std::copy(best.used.begin(), best.used.end(), now.used.begin());

@@ -7,8 +7,8 @@
 
 namespace tandem {
 
-// Copy a route between fleets, from a slot to a slot; `lean`, only what lean ones need. In place.
-void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to, bool lean);
+// Copy a route between fleets, from a slot to a slot. In place.
+void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to);
 
 // Tell whether a route without sorties is the same in two fleets, each in its slot.
 bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at);

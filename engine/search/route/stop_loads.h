@@ -54,7 +54,7 @@ inline bool room_between(const Room& room, Int launch, Int recovery) {
     return room.allows(launch, recovery);
 }
 
-// Tell whether a vehicle of type `k` holds what a lean route carries, and may stop so often.
+// Tell whether a vehicle of type `k` holds what a route of one trip carries, and may stop so often.
 bool can_take(const ProblemData& data, const Fleet& fleet, Int slot, Int k);
 
 }  // namespace tandem

@@ -1,4 +1,4 @@
-// What trips and sorties carry, and what a lean route costs by vehicles of each type.
+// What trips and sorties carry, and what a route costs by distance alone by vehicles of each type.
 #pragma once
 
 #include <limits>
@@ -126,7 +126,7 @@ Int larger_type(const ProblemData& data, const Fleet& fleet, Int k, const Haul& 
     return chosen;
 }
 
-// Let a vehicle of another type drive a lean route. In place.
+// Let a vehicle of another type drive a route that costs by distance alone. In place.
 void change_type(const ProblemData& data, const Fleet& fleet, Int slot, Int k);
 
 }  // namespace tandem

@@ -40,9 +40,8 @@ def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
     nodes, count = data.num_nodes, one(dtype_of("tandem_search_counts"))
     now, before, best = (empty_fleet(data, slots, stops, trips, sorties, noted)
                          for noted in (nodes, 0, 0))
-    count.lean, count.focus = not data.general, NOWHERE
+    count.focus = NOWHERE
     room = (nodes, slots) if data.strategy.keep_places else (0, 0)
-    of_moves = room if data.general else (0, 0)
     return Searcher(
         now=now, before=before, best=best, count=count, value=one(dtype_of("tandem_search_values")),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
@@ -50,8 +49,8 @@ def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), alone=alone,
-        kept=np.zeros(room, dtype_of("tandem_kept")),
-        kept_move=np.zeros(of_moves, dtype_of("tandem_move")), kept_cost=np.zeros(of_moves))
+        kept_stamp=np.zeros(room, np.int64), kept_move=np.zeros(room, dtype_of("tandem_move")),
+        kept_cost=np.zeros(room))
 
 
 def _row(length: int) -> IntArray:

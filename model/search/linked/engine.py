@@ -23,6 +23,15 @@ def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linke
     call("tandem_anneal_linked", data, searcher, linked, turns)
 
 
+def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
+                  order: int) -> None:
+    """Link the routes of a search, insert all who are left out in an order and write them back.
+
+    In place. Once the search must end, whoever is not inserted yet is left out.
+    """
+    call("tandem_insert_linked", data, searcher, linked, order)
+
+
 def write_back(data: ProblemData | Packed, searcher: Searcher | Packed,
                linked: Linked | Packed) -> None:
     """Let the routes of a search, and of its best plan, be those that are linked. In place."""

@@ -57,7 +57,6 @@ class ProblemData(NamedTuple):
     num_types: int
     max_visits: int  # customers on a sortie
     strategy: Strategy
-    general: bool  # insertions may cost more than their detour; else all routes are lean
     all_optional: bool  # nobody has to be served
     unassigned_cost: float  # of whoever it costs least to leave out
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that

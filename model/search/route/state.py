@@ -31,6 +31,6 @@ class Searcher(NamedTuple):
     absences: IntArray  # (node,) turns after which a customer was left out
     hit: IntArray  # (slot, trip) turn of the last string
     alone: FloatArray  # (type, 2, node) cost of a route that serves one customer
-    kept: Records  # (node, slot), the best places on lean routes as they are
-    kept_move: Records  # (node, slot), the best insertions where not all routes are lean
-    kept_cost: FloatArray  # (node, slot) where not all routes are lean, what these cost
+    kept_stamp: IntArray  # (node, slot) of the route whose best insertion is kept
+    kept_move: Records  # (node, slot) that insertion
+    kept_cost: FloatArray  # (node, slot) what it costs

@@ -102,8 +102,8 @@ def test_regions_share_all_there_is(seed: int) -> None:
 
 
 def regions_of() -> tuple[Problem, Solution, tuple[Region, ...]]:
-    problem = generate(np.random.default_rng(0), 40, "cvrp")
-    plan = planned(problem, keep=3)
+    problem = generate(np.random.default_rng(0), 60, "cvrp")
+    plan = planned(problem, keep=4)
     return problem, plan, divide(problem, plan, 2, np.random.default_rng(0))
 
 

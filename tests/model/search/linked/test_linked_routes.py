@@ -178,11 +178,11 @@ def begun(problem: Problem) -> tuple[ProblemData, Searcher, Linked]:
     data = make_data(problem, pack([problem], legs=False))
     assert can_be_linked(data)
     searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
-    begin_anew(data, searcher, True)
-    searcher.value.temperature = searcher.value.cost / problem.num_customers
-    searcher.value.cooling = 1.0
     linked = make_linked(data, searcher, are_timed(data))
     measure_near(data, linked)
+    begin_anew(data, searcher, True, linked=linked)
+    searcher.value.temperature = searcher.value.cost / problem.num_customers
+    searcher.value.cooling = 1.0
     tie(data, searcher, linked)
     return data, searcher, linked
 

@@ -1,0 +1,75 @@
+"""Among linked stops, customers of many are tried beside all neighbours."""
+
+import numpy as np
+
+from model.engine.instance import pack
+from model.search.beginning.construct import begin_anew
+from model.search.beginning.translate import make_searcher
+from model.search.linked.engine import insert_linked, measure_near, tie, write_back
+from model.search.linked.layout import make_linked
+from model.search.problem_data import are_timed, make_data
+from model.search.route.engine import BY_FAR, INFEASIBLE, missing_cost
+from model.search.route.layout import NOWHERE, ProblemData
+from model.search.route.state import Searcher
+from model.solution import Solution
+from training.instances import generate
+
+MANY = 2000
+"""Customers from which on not all places are looked at, however early in a search."""
+
+TRIED = 60
+
+
+def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:
+    """Return the cheapest insertion of a customer beside a neighbour, all of them looked at."""
+    now, kind, rate = searcher.now, data.type[0], data.rate[0]
+    assert isinstance(data.leg, np.ndarray)
+    legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
+    least = np.inf
+    for other in data.granular[node].tolist():
+        slot, p, _ = now.where[other].tolist()
+        if slot < 0:
+            continue
+        nodes = now.stop[slot, : now.route[slot].length]["node"]
+        if demand[nodes].sum() + demand[node] <= kind.capacity[0]:
+            for a, b in ((nodes[p - 1], other), (other, nodes[p + 1])):
+                least = min(least, float(legs[a, node] + legs[node, b] - legs[a, b]))
+    return least * rate.distance + rate.stop
+
+
+def take_out(searcher: Searcher, node: int) -> None:
+    """Leave a customer out whom a truck serves among others. In place."""
+    now = searcher.now
+    slot, p, _ = now.where[node].tolist()
+    length = int(now.route[slot].length)
+    now.stop[slot, p:length - 1] = now.stop[slot, p + 1:length].copy()
+    now.route[slot].length -= 1
+    now.where[node]["slot"] = NOWHERE
+    searcher.missing[0], searcher.count.missing = node, 1
+
+
+def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
+    problem = generate(np.random.default_rng(17), MANY, "cvrp")
+    data = make_data(problem, pack([problem]))
+    data = data._replace(strategy=data.strategy._replace(blink=0.0))
+    searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
+    linked = make_linked(data, searcher, are_timed(data))
+    measure_near(data, linked)
+    begin_anew(data, searcher, False, linked=linked)
+    assert searcher.count.missing == 0
+    searcher.alone[:] = INFEASIBLE
+    found = 0
+    for node in np.random.default_rng(4).choice(MANY, TRIED, replace=False) + 1:
+        slot = searcher.now.where[node]["slot"]
+        if searcher.now.route[slot].length <= 3:
+            continue
+        take_out(searcher, int(node))
+        tie(data, searcher, linked)
+        write_back(data, searcher, linked)
+        cost = searcher.value.cost - missing_cost(data, searcher)
+        least = beside_neighbours(data, searcher, int(node))
+        insert_linked(data, searcher, linked, BY_FAR)
+        assert searcher.count.missing == 0
+        assert searcher.value.cost - cost <= least + 1e-6
+        found += least < np.inf
+    assert found > TRIED / 2
