@@ -14,6 +14,9 @@ SITE_DIR = Path(__file__).parent / "built_guide"
 class GuideFiles(StaticFiles):
     """Pages and what belongs to them; browsers ask each time whether they are still the same."""
 
+    async def check_config(self) -> None:
+        """Find nothing wrong where the guide is not built: each request is told so."""
+
     async def get_response(self, path: str, scope: Scope) -> Response:
         if not SITE_DIR.exists():
             raise HTTPException(404, "The guide is not built: run `make guide`")

@@ -18,7 +18,8 @@ async def start(app):
     async with app.router.lifespan_context(app):
         print(*sys.modules, sep='\\n')
 
-asyncio.run(start(create_app()))
+with asyncio.Runner() as runner:
+    runner.run(start(create_app()))
 """
 
 

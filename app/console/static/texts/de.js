@@ -269,7 +269,7 @@ export default {
     plan: 'Planen',
     stop: 'Anhalten',
     keys: 'Tasten',
-    guide: 'Anleitung',
+    guide: 'Hilfe',
     light: 'Hell',
     dark: 'Dunkel',
     example: 'Beispiel öffnen',

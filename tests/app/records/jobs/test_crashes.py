@@ -163,7 +163,8 @@ def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str
     request = with_drones | {"options": {"time_limit": limit}}
     with served(tmp_path, serve=truly, data_dir=tmp_path, drain_seconds=0) as process:
         job = submit(process.client, request)
-        before = eventually(lambda: (seen := read(process.client, job))["progress"] > 0.4 and seen)
+        before = eventually(lambda: (seen := read(process.client, job))["progress"] > 0.4
+                            and seen["cost"] is not None and seen)
         process.kill()
         process.start()
         done = ended(process.client, job)

@@ -5,7 +5,6 @@ import { linksByVehicle } from '../core/dispatches.js';
 import { geoJson, gpx, stopsCsv } from '../core/exports.js';
 import { flightLines, flownLines } from '../core/flights.js';
 import { asStated } from '../core/times.js';
-import { drawPicture, pictureOf, toSvg } from '../core/picture.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Badge } from './parts.js';
@@ -45,10 +44,9 @@ export function ExportTab() {
           JSON.stringify(geoJson(index, legsOf)),
         )}>GeoJSON</button></div></section>
     <section class="section"><h3>${t('take.picture')}</h3><div class="buttons">
-      <button type="button" onClick=${() =>
-        save('plan.svg', 'image/svg+xml', toSvg(pictureOf(index, drawnOf)))}>
+      <button type="button" onClick=${() => saveSvg('plan.svg', index, drawnOf)}>
         SVG</button>
-      <button type="button" onClick=${() => savePng('plan.png', pictureOf(index, drawnOf))}>PNG
+      <button type="button" onClick=${() => savePng('plan.png', index, drawnOf)}>PNG
         </button></div></section>
     <section class="section"><h3>${t('take.drivers')}</h3>
       <div class="buttons">
@@ -81,7 +79,17 @@ function save(name, type, content) {
   setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
-function savePng(name, picture) {
+// Few want a picture: what draws it is loaded for who does.
+const pictures = () => import('../core/picture.js');
+
+async function saveSvg(name, index, legsOf) {
+  const { pictureOf, toSvg } = await pictures();
+  save(name, 'image/svg+xml', toSvg(pictureOf(index, legsOf)));
+}
+
+async function savePng(name, index, legsOf) {
+  const { drawPicture, pictureOf } = await pictures();
+  const picture = pictureOf(index, legsOf);
   const canvas = document.createElement('canvas');
   canvas.width = picture.width * PNG_SCALE;
   canvas.height = picture.height * PNG_SCALE;

@@ -32,7 +32,7 @@ export function Header() {
     <button type="button" class="quiet" onClick=${switchTheme}
       ><${Sign} sign="\u25d0" /><span class="word"><${ThemeName} /></span></button>
     <${LanguageChoice} />
-    <a href="guide/">${t('header.guide')}</a>
+    <a href="guide/"><${Sign} sign="?" /><span class="word">${t('header.guide')}</span></a>
     <a href="docs">API</a>
   </header>`;
 }
