@@ -204,7 +204,9 @@ class Asking:
                 left = until - time.perf_counter()
                 if left <= 0:
                     raise self._late(until - began, together.trouble)
-                for future in wait(pending, min(left, POLL), FIRST_COMPLETED).done:
+                done = wait(pending, min(left, POLL), FIRST_COMPLETED).done
+                # What came with a failure is told before that ends all.
+                for future in sorted(done, key=_has_failed):
                     place = pending.pop(future)
                     if future.cancelled():
                         raise self._kind.unavailable(
@@ -333,6 +335,10 @@ class Asking:
         if loop is not None and client is not None:
             asyncio.run_coroutine_threadsafe(_ended(client), loop).result()
             loop.call_soon_threadsafe(loop.stop)
+
+
+def _has_failed(future: Future[bytes | SourceError]) -> bool:
+    return future.cancelled() or isinstance(future.result(), SourceError)
 
 
 def _answer(question: Question[Answer], outcome: bytes | SourceError) -> Answer:
