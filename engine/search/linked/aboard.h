@@ -9,7 +9,7 @@
 namespace tandem {
 
 // Whether what is aboard has to be looked at from stop to stop.
-inline bool looks_aboard(const Linked& linked) { return linked.aboard.size() > 0; }
+inline bool looks_aboard(const Linked& linked) { return !linked.aboard.empty(); }
 
 // Lets rows tell what leaves and comes aboard at each customer.
 void note_amounts(const ProblemData& data, Linked& linked);

@@ -86,7 +86,8 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
         stop.before = cum;
         stop.last = last;
         depart = std::min(depart, stop.dep - cum);
-        cum += stop.d;
+        // Where speeds change, `d` is none, whose sum would leave the range of numbers.
+        cum = std::max(cum + stop.d, none);
         const Int leave = std::max(time + stop.d, stop.c);
         Stop& behind = stops[last];
         behind.leave = leave;
