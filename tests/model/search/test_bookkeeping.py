@@ -15,6 +15,7 @@ from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
 from model.solution import Solution
+from tests.model.search.found import beside_neighbours
 from training.instances import generate
 
 pytestmark = pytest.mark.slow
@@ -103,23 +104,6 @@ def test_a_search_that_stays_near_by_gets_everywhere() -> None:
     assert all(problem.num_depots <= node < problem.num_nodes for node in seen)
 
 
-def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:
-    """Return the cheapest insertion of a customer beside a neighbour, all of them looked at."""
-    now, kind, rate = searcher.now, data.type[0], data.rate[0]
-    assert isinstance(data.leg, np.ndarray)
-    legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
-    least = np.inf
-    for other in data.granular[node].tolist():
-        slot, p, _ = now.where[other].tolist()
-        if slot < 0:
-            continue
-        nodes = now.stop[slot, : now.route[slot].length]["node"]
-        if demand[nodes].sum() + demand[node] <= kind.capacity[0]:
-            for a, b in ((nodes[p - 1], other), (other, nodes[p + 1])):
-                least = min(least, float(legs[a, node] + legs[node, b] - legs[a, b]))
-    return min(INFEASIBLE, least * rate.distance + rate.stop)
-
-
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
     _, data, searcher = begun("cvrp", SOME)
     data = data._replace(strategy=data.strategy._replace(blink=0.0))
@@ -130,7 +114,8 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
         now.where["slot"][left_out] = NOWHERE
         for node in left_out:
             cost = call("tandem_cost_beside", data, searcher, node)
-            assert cost == pytest.approx(beside_neighbours(data, searcher, node))
+            assert cost == pytest.approx(
+                min(INFEASIBLE, beside_neighbours(data, searcher, node)))
             found += cost < INFEASIBLE
         now.where["slot"][left_out] = slot
     assert found > SOME / 20

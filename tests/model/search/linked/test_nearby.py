@@ -9,32 +9,16 @@ from model.search.linked.engine import insert_linked, measure_near, tie, write_b
 from model.search.linked.layout import make_linked
 from model.search.problem_data import are_timed, make_data
 from model.search.route.engine import BY_FAR, INFEASIBLE, missing_cost
-from model.search.route.layout import NOWHERE, ProblemData
+from model.search.route.layout import NOWHERE
 from model.search.route.state import Searcher
 from model.solution import Solution
+from tests.model.search.found import beside_neighbours
 from training.instances import generate
 
 MANY = 2000
 """Customers from which on not all places are looked at, however early in a search."""
 
 TRIED = 60
-
-
-def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:
-    """Return the cheapest insertion of a customer beside a neighbour, all of them looked at."""
-    now, kind, rate = searcher.now, data.type[0], data.rate[0]
-    assert isinstance(data.leg, np.ndarray)
-    legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
-    least = np.inf
-    for other in data.granular[node].tolist():
-        slot, p, _ = now.where[other].tolist()
-        if slot < 0:
-            continue
-        nodes = now.stop[slot, : now.route[slot].length]["node"]
-        if demand[nodes].sum() + demand[node] <= kind.capacity[0]:
-            for a, b in ((nodes[p - 1], other), (other, nodes[p + 1])):
-                least = min(least, float(legs[a, node] + legs[node, b] - legs[a, b]))
-    return least * rate.distance + rate.stop
 
 
 def take_out(searcher: Searcher, node: int) -> None:
