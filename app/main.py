@@ -21,6 +21,7 @@ from app.formats.vroom.routes import router as vroom_router
 from app.maps.roads.opening import extracts_of, opened_roads
 from app.maps.streets.gallery import Gallery
 from app.maps.streets.routes import router as streets_router
+from app.plans.flights.routes import router as flights_router
 from app.plans.routes import router as plans_router
 from app.plans.service import PlanService
 from app.records.dispatches.pages import mount_drivers_page
@@ -84,8 +85,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     app.state.lookups = new_lookups()
     observer.enter(app)
     shutdown = prepare_for_load(app, settings)
-    for router in (plans_router, health_router, jobs_router, dispatches_router, kept_router,
-                   vroom_router, sheets_router, addresses_router, streets_router,
+    for router in (plans_router, flights_router, health_router, jobs_router, dispatches_router,
+                   kept_router, vroom_router, sheets_router, addresses_router, streets_router,
                    metrics_router(settings)):
         app.include_router(router)
     _map_errors(app)

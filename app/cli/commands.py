@@ -14,6 +14,7 @@ COMMANDS = {
     "roads": "app.cli.roads:roads_cli",
     "addresses": "app.cli.addresses:addresses_cli",
     "plot": "app.cli.plot:plot",
+    "flights": "app.cli.flights:flights",
     "import": "app.cli.importing:import_sheet",
     "serve": "app.cli.serving:serve",
     "settings": "app.cli.settings_page:list_settings",

@@ -102,6 +102,10 @@ ErrorCode = Literal[
     "MISSING_PLAN_START",
     "BEFORE_PLAN_START",
     "UNKNOWN_TIME_ZONE",
+    "FLIGHTS_ON_PLANE",
+    "NO_FLIGHTS",
+    "NO_WAY_AROUND",
+    "TOO_FAST",
 ]
 
 _STATED_CODES = frozenset(get_args(ErrorCode))

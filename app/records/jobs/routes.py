@@ -7,6 +7,8 @@ from pydantic_core import to_json
 from sse_starlette import EventSourceResponse
 
 from app.plans.explaining import explain_job
+from app.plans.flights.answering import flights_of_job
+from app.plans.flights.routes import FLIGHTS, sent
 from app.plans.routes import Service
 from app.records.jobs.desk import JobDesk
 from app.records.jobs.events import events, while_admitted
@@ -21,6 +23,7 @@ from app.records.jobs.webhook import check_url
 from app.requests.bounds import Bounds
 from app.requests.paging import cursor_of, read_cursor
 from app.schemas.explain import ExplainOptions, ExplainReply
+from app.schemas.flights import FORMAT_TEXT, PER_TEXT, FlightFormat, Per
 from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.openapi import EXAMPLES, event_stream, json_body, problems
 from app.schemas.request import PlanRequest
@@ -56,6 +59,11 @@ PICTURE: dict[int | str, dict[str, Any]] = {
 
 EXPLAINED: dict[int | str, dict[str, Any]] = {
     **FOUND, **problems(500, _409="The job has no plan, or none yet, or several.")}
+
+WRITTEN: dict[int | str, dict[str, Any]] = {
+    **FLIGHTS, **problems(_404=UNKNOWN, _409="The job has no plan, or none yet, or several.",
+                          _422="A parameter is not valid, or the plan has no flights that the "
+                          "format can tell.", _503=UNAVAILABLE)}
 
 JobId = Annotated[str, Path(max_length=36, description="Id of the job.")]
 IdempotencyKey = Annotated[str | None, Header(
@@ -178,6 +186,20 @@ async def explain_plan(
         wanted, plan, customer, drones, ExplainOptions(time_limit=time_limit), bounds,
         service.planner, should_stop, service.roads))
     return Response(reply, media_type="application/json")
+
+
+@router.get("/jobs/{job_id}/flights", summary="Write a job's flights", response_class=Response,
+            responses=WRITTEN)
+async def write_flights(
+    request: Request, job_id: JobId, principal: Jobs, planning: Planning, desk: Desk,
+    file_format: Annotated[FlightFormat, Query(alias="format", description=FORMAT_TEXT)],
+    per: Annotated[Per, Query(description=PER_TEXT)] = "sortie",
+) -> Response:
+    """Return the same as `POST /flights` of a job's best plan so far."""
+    wanted, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
+    bounds = Bounds.of_plans(request.app.state.settings)
+    return sent(await planning.run(request, lambda should_stop: flights_of_job(
+        wanted, plan, file_format, per, bounds, should_stop)))
 
 
 @router.delete("/jobs/{job_id}", summary="Stop a job", response_model=JobReply, responses=FOUND)

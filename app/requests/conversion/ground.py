@@ -1,5 +1,6 @@
 """Where a request's places are, and how far it is between them."""
 
+from collections.abc import Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -19,7 +20,8 @@ from model.travel.matrices import (
     points_of,
     straight_distances,
 )
-from model.travel.ways import Ways
+from model.travel.obstacles import obstacles_of
+from model.travel.ways import Ways, find_ways
 
 
 class Detours(NamedTuple):
@@ -70,14 +72,10 @@ class Ground:
         """Tell whether places are on the globe."""
         return self._request.coordinate_system == "geographic"
 
-    def _planar(self, points: FloatArray) -> FloatArray:
-        return (self._projection.project(points) if self.is_geographic
-                else points * self._request.planar_unit)
-
     @cached_property
     def points_m(self) -> FloatArray:
         """Planar metres."""
-        return self._planar(self.locations)
+        return self.planar(self.locations)
 
     @cached_property
     def points(self) -> Points:
@@ -104,7 +102,7 @@ class Ground:
     @cached_property
     def flights(self) -> Flights:
         """Flights of drones of any speed."""
-        flights = Flights(self.points_m, self._airspace, self.distances_m, self._preparing.pause)
+        flights = Flights(self.points_m, self.airspace, self.distances_m, self._preparing.pause)
         obstacles = flights.obstacles
         self._preparing.expect(sights_seconds(
             len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
@@ -112,15 +110,30 @@ class Ground:
 
     def detours(self) -> Detours:
         """Return where flights bend, of a request with no-fly areas."""
-        corners = self.flights.obstacles.corners.place
-        stated = (self._projection.unproject(corners) if self.is_geographic
-                  else corners / self._request.planar_unit)
-        return Detours(self.flights.ways, stated, self._airspace)
+        return Detours(self.flights.ways, self.stated(self.flights.obstacles.corners.place),
+                       self.airspace)
+
+    def detours_among(self, nodes: Sequence[int]) -> Detours:
+        """Return where flights between a few of the places bend, numbered as they are listed."""
+        obstacles = obstacles_of(self.airspace.no_fly)
+        ways = find_ways(self.points_m[nodes], obstacles, self._preparing.pause)
+        return Detours(ways, self.stated(obstacles.corners.place), self.airspace)
+
+    def stated(self, points_m: FloatArray) -> FloatArray:
+        """Return (place, 2) planar metres as the request states places."""
+        return (self._projection.unproject(points_m) if self.is_geographic
+                else points_m / self._request.planar_unit)
+
+    def planar(self, points: FloatArray) -> FloatArray:
+        """Return (place, 2) places as the request states them in planar metres."""
+        return (self._projection.project(points) if self.is_geographic
+                else points * self._request.planar_unit)
 
     @cached_property
-    def _airspace(self) -> Airspace:
+    def airspace(self) -> Airspace:
+        """Its areas and its wind, in planar metres."""
         stated = self._request.airspace
-        rings = [self._planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
+        rings = [self.planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
         return Airspace(
             no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
             wind_speed_kmh=stated.wind.speed_kmh,

@@ -1,0 +1,1 @@
+"""Flights of a plan as files that flight controllers read."""

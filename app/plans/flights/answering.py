@@ -1,0 +1,74 @@
+"""Plans -> their flights as a file, for whoever asks."""
+
+from collections.abc import Callable
+
+from app.maps.roads.roads import NO_ROADS, Roads
+from app.plans.checking import PLAN, PROBLEM, read_about_plan
+from app.plans.explaining import preparing_within
+from app.plans.flights.courses import flights_of
+from app.plans.flights.files import FlightFile, flight_file
+from app.plans.flights.flight import Flight
+from app.plans.replan_replies import violation_reply
+from app.plans.task import task_of
+from app.requests.bounds import Bounds
+from app.requests.conversion.ground import Ground
+from app.requests.conversion.locating import at_addresses
+from app.requests.conversion.places import PlacedRequest
+from app.requests.conversion.preparing import UNHURRIED, Preparing
+from app.requests.plan_reading import parse_plan, read_plan
+from app.schemas.errors import InputError, InvalidRequestError
+from app.schemas.flights import FlightFormat, FlightsRequest, Per
+from app.schemas.plan import PlanInput
+from app.schemas.request import PlanRequest
+
+
+def answer_flights(body: bytes, bounds: Bounds, should_stop: Callable[[], bool] = lambda: False,
+                   roads: Roads = NO_ROADS) -> FlightFile:
+    """Return what a request of `POST /flights` asks for, unless the work is to end.
+
+    Raises
+    ------
+    RequestError
+        If `body` is no valid request, the plan breaks a rule or has no flights that the format can
+        tell, or the work is to end.
+    """
+    request = read_about_plan(body, bounds, FlightsRequest)
+    flights = judged_flights(request.problem, request.plan, preparing_within(bounds, should_stop),
+                             roads)
+    return flight_file(flights, request.format, request.per)
+
+
+def judged_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing = UNHURRIED,
+                   roads: Roads = NO_ROADS) -> list[Flight]:
+    """Return the flights of a plan that breaks no rule.
+
+    Raises
+    ------
+    RequestError
+        If it breaks one, or as `flights_of` does.
+    """
+    task = task_of(problem, preparing, roads=roads)
+    evaluation = task.check(read_plan(plan, task.problem, (PLAN,)))
+    if evaluation.violations:
+        broken = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}")
+                  for each in evaluation.violations]
+        raise InvalidRequestError([InputError(
+            code="ILLEGAL_PLAN", path=each["path"],
+            message=f"The plan breaks {each['code']}: {each['message']}. Only flights of a plan "
+            "without broken rules are written: correct it, or plan anew.") for each in broken])
+    placed = PlacedRequest(problem) if task.places is None else task.places.placed
+    return flights_of(placed, plan, Ground(placed, preparing))
+
+
+def flights_of_job(problem: PlanRequest, plan: bytes, file_format: FlightFormat, per: Per,
+                   bounds: Bounds, should_stop: Callable[[], bool]) -> FlightFile:
+    """Return the flights of a plan that was judged as it was made; raises as `flights_of` does."""
+    flights = planned_flights(problem, parse_plan(plan), preparing_within(bounds, should_stop))
+    return flight_file(flights, file_format, per)
+
+
+def planned_flights(problem: PlanRequest, plan: PlanInput,
+                    preparing: Preparing = UNHURRIED) -> list[Flight]:
+    """Return the flights of a plan as it is; raises as `flights_of` does."""
+    placed = PlacedRequest(at_addresses(problem, plan))
+    return flights_of(placed, plan, Ground(placed, preparing))

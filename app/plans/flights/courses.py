@@ -1,0 +1,241 @@
+"""A plan's sorties -> flights: where drones fly, around zones, how fast and when."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+
+import numpy as np
+from shapely import LineString, Polygon
+
+from app.plans.flights.flight import Flight, Place, Ring, WayPoint
+from app.requests.conversion.energy import climb_duration
+from app.requests.conversion.ground import Detours, Ground
+from app.requests.conversion.launches import drones_named
+from app.requests.conversion.places import PlacedRequest
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.errors import ErrorCode, InputError, InvalidRequestError
+from app.schemas.fields import point_of
+from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
+from app.schemas.request import PlanRequest
+from app.schemas.vehicle import VehicleTypeInput
+from model.problem import FloatArray
+
+ALTITUDE_M = 100.0
+"""Height above the launch at which drones fly."""
+
+DECIMALS = 7
+"""Of degrees: MAVLink counts ten-millionths, which are a centimetre."""
+
+CLEAR_M = 0.1
+"""How far from a zone's corner a flight bends, so that no rounding leads it through."""
+
+NEARBY_M = 5000.0
+"""Zones this far from a flight are told with it; its controller has room for few."""
+
+SHORTEST_WAIT = 1.0
+"""Seconds that are waited for; less is what rounding leaves."""
+
+
+@dataclass(frozen=True)
+class _Sortie:
+    """A sortie and its stops as nodes."""
+
+    route: RouteInput
+    trip: TripInput
+    sortie: SortieInput
+    drones: DronesInput
+    nodes: tuple[int, ...]
+    number: int
+
+
+@dataclass(frozen=True)
+class _Leg:
+    """A flight from place to place: the corners on the way, its end among them."""
+
+    places: list[Place]
+    speeds: list[float]  # m/s over ground on the way to each
+    shares: list[float]  # of the leg's duration that have passed at each
+    seconds: float  # climb and descent included
+
+
+def flights_of(placed: PlacedRequest, plan: PlanInput, ground: Ground) -> list[Flight]:
+    """Return the flights of a plan, in its order, those of each drone in the order it flies them.
+
+    Parameters
+    ----------
+    placed
+        The request, its addresses being located.
+    plan
+        All that it names is there, and sorties have their stops.
+    ground
+        That of the request.
+
+    Raises
+    ------
+    InvalidRequestError
+        If the places are not on the globe, nothing flies, or there is no way around zones.
+    """
+    request = placed.request
+    if request.coordinate_system != "geographic":
+        raise _refused("FLIGHTS_ON_PLANE", "$.problem.coordinate_system", "Flights are written in "
+                       "degrees alone: set coordinate_system to 'geographic' and state places as "
+                       "[longitude, latitude].")
+    if any(point_of(place.location) is None for place in placed.places):
+        raise _refused("MISSING_LOCATION", "$.problem", "Flights lead from place to place: state "
+                       "the location of every depot and customer.")
+    sorties = list(_sorties(placed, plan))
+    if not sorties:
+        raise _refused("NO_FLIGHTS", "$.plan.routes", "No drone flies in this plan: there is "
+                       "nothing to write.")
+    courses = _Courses(placed, ground, sorties)
+    return [courses.flight(sortie) for sortie in sorties]
+
+
+def _sorties(placed: PlacedRequest, plan: PlanInput) -> Iterator[_Sortie]:
+    """Yield all sorties, numbered by their drones in the order of take-off."""
+    nodes = {name: node for node, name in enumerate(placed.names)}
+    types = {kind.id: kind for kind in placed.request.fleet}
+    for route in plan.routes:
+        found = [sortie for trip in route.trips
+                 for sortie in _sorties_of_trip(route, trip, types[route.type], nodes)]
+        flown: dict[str, int] = {}
+        for each in sorted(found, key=lambda each: each.sortie.launch_time):
+            number = flown[each.sortie.drone] = flown.get(each.sortie.drone, 0) + 1
+            yield replace(each, number=number)
+
+
+def _sorties_of_trip(route: RouteInput, trip: TripInput, kind: VehicleTypeInput,
+                     nodes: dict[tuple[str, str], int]) -> Iterator[_Sortie]:
+    for sortie in trip.sorties:
+        drones = drones_named(kind, sortie.drone)
+        if drones is None:
+            continue
+        launch, recovery = trip.stops[sortie.launch_stop], trip.stops[sortie.recovery_stop]
+        names = [(launch.kind, launch.id), *(("customer", visit.id) for visit in sortie.customers),
+                 (recovery.kind, recovery.id)]
+        yield _Sortie(route, trip, sortie, drones, tuple(nodes[name] for name in names), 0)
+
+
+class _Courses:
+    """Works out the ways of some sorties."""
+
+    def __init__(self, placed: PlacedRequest, ground: Ground, sorties: Sequence[_Sortie]) -> None:
+        flown = sorted({node for sortie in sorties for node in sortie.nodes})
+        self._request: PlanRequest = placed.request
+        self._places = placed.places
+        self._ground = ground
+        self._airspace = ground.airspace
+        self._at = {node: index for index, node in enumerate(flown)}
+        self._points = ground.points_m[flown]
+        self._detours: Detours | None = (
+            ground.detours_among(flown) if self._airspace.no_fly else None)
+        self._zones: list[tuple[Polygon, Ring]] = [
+            (Polygon(planar), _closed(stated)) for planar, stated
+            in zip(self._airspace.no_fly, self._request.airspace.no_fly, strict=True)]
+        day = self._request.day
+        self._plan_start: datetime | None = None if day is None else day.start.astimezone(UTC)
+
+    def flight(self, flown: _Sortie) -> Flight:
+        """Return the flight of a sortie."""
+        way_points = tuple(self._way_points(flown))
+        line = LineString(self._ground.planar(np.array([point.place for point in way_points])))
+        return Flight(
+            vehicle=flown.route.vehicle, drone=flown.sortie.drone, number=flown.number,
+            altitude=ALTITUDE_M,
+            lands=flown.drones.energy is None or flown.drones.energy.lands,
+            way_points=way_points, recovery_time=flown.sortie.recovery_time,
+            zones=tuple(ring for zone, ring in self._zones if zone.distance(line) <= NEARBY_M),
+            plan_start=self._plan_start)
+
+    def _way_points(self, flown: _Sortie) -> Iterator[WayPoint]:
+        sortie, nodes = flown.sortie, flown.nodes
+        launch = flown.trip.stops[sortie.launch_stop]
+        recovery = flown.trip.stops[sortie.recovery_stop]
+        leaving = sortie.launch_time
+        yield WayPoint("launch", self._place(nodes[0]), launch.id, 0.0, leaving)
+        for index, visit in enumerate(sortie.customers):
+            leg = self._leg(flown.drones, nodes[index], nodes[index + 1])
+            yield from _bends(leg, leaving, visit.arrival)
+            leaving = visit.departure
+            yield WayPoint("customer", leg.places[-1], visit.id, leg.speeds[-1], visit.arrival,
+                           max(0.0, leaving - visit.arrival))
+        leg = self._leg(flown.drones, nodes[-2], nodes[-1])
+        arrival = leaving + leg.seconds
+        met = sortie.recovery_time - flown.drones.recovery_duration
+        waiting = met - arrival if met - arrival >= SHORTEST_WAIT else 0.0
+        yield from _bends(leg, leaving, arrival)
+        yield WayPoint("recovery", leg.places[-1], recovery.id, leg.speeds[-1], arrival, waiting)
+
+    def _place(self, node: int) -> Place:
+        longitude, latitude = self._ground.locations[node]
+        return float(longitude), float(latitude)
+
+    def _leg(self, drones: DronesInput, start: int, end: int) -> _Leg:
+        """Return the flight from node to node; there is always a way around zones, or it raises."""
+        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
+        corners = np.stack([self._points[self._at[start]], *self._bends(start, end, speed),
+                            self._points[self._at[end]]])
+        x, y = np.diff(corners, axis=0).T
+        lengths = np.hypot(x, y)
+        seconds = self._airspace.wind(speed).durations(x, y, lengths)
+        if drones.profile in (self._request.matrices or {}):
+            total = self._matrix_seconds(drones.profile, start, end)
+            seconds = lengths / max(lengths.sum(), 1.0) * total
+        else:
+            total = float(seconds.sum()) + climb_duration(drones) / 1000 * (start != end)
+        speeds = [float(length / each) if each > 0 else speed / 3.6
+                  for length, each in zip(lengths, seconds, strict=True)]
+        passed = np.cumsum(seconds) / max(float(seconds.sum()), 1e-9)
+        places = [(round(float(lon), DECIMALS), round(float(lat), DECIMALS))
+                  for lon, lat in self._ground.stated(corners[1:-1])]
+        return _Leg([*places, self._place(end)], speeds, passed.tolist(), total)
+
+    def _bends(self, start: int, end: int, speed: float) -> FloatArray:
+        """Return the (corner, 2) planar metres where a flight bends."""
+        a, b = self._at[start], self._at[end]
+        detours = self._detours
+        if detours is None or not detours.ways.blocked[a, b]:
+            return np.empty((0, 2))
+        bends = self._ground.planar(detours.bends(a, b, speed))
+        if len(bends) == 0:
+            names = [getattr(self._places[node], "id", "a stop") for node in (start, end)]
+            raise _refused("NO_WAY_AROUND", "$.problem.airspace", f"There is no way around the "
+                           f"zones from {names[0]!r} to {names[1]!r}: the plan can't be flown.")
+        return _loosened(np.stack([self._points[a], *bends, self._points[b]]))
+
+    def _matrix_seconds(self, profile: str, start: int, end: int) -> float:
+        matrices = self._request.matrices or {}
+        row, column = self._places[start].location_index, self._places[end].location_index
+        if row is None or column is None:
+            raise ValueError(f"matrices[{profile!r}]: a place has no location_index")
+        return 0.0 if start == end else float(matrices[profile].durations[row][column])
+
+
+def _loosened(corners: FloatArray) -> FloatArray:
+    """Return the inner ones of (corner, 2) planar metres, a little away from what they go around.
+
+    At a bend of a tight string, that is opposite to where both of its sides pull.
+    """
+    before, inner, after = corners[:-2], corners[1:-1], corners[2:]
+    pull = _unit(before - inner) + _unit(after - inner)
+    return inner - CLEAR_M * _unit(pull)
+
+
+def _unit(vectors: FloatArray) -> FloatArray:
+    lengths = np.hypot(vectors[:, 0], vectors[:, 1])[:, None]
+    return np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0)
+
+
+def _bends(leg: _Leg, leaving: float, arrival: float) -> Iterator[WayPoint]:
+    for place, speed, share in zip(leg.places[:-1], leg.speeds, leg.shares, strict=False):
+        yield WayPoint("bend", place, None, speed, leaving + share * (arrival - leaving))
+
+
+def _closed(ring: Sequence[Place]) -> Ring:
+    """Return a ring whose last corner is its first."""
+    corners = tuple((float(x), float(y)) for x, y in ring)
+    return corners if corners[0] == corners[-1] else (*corners, corners[0])
+
+
+def _refused(code: ErrorCode, path: str, message: str) -> InvalidRequestError:
+    return InvalidRequestError([InputError(code=code, path=path, message=message)])

@@ -1,0 +1,84 @@
+"""Flights -> the file that is sent: one, or a ZIP of several."""
+
+import re
+from collections.abc import Callable, Mapping, Sequence, Set
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from app.plans.flights.flight import NOTE, Flight
+from app.plans.flights.geojson import geojson_files
+from app.plans.flights.kml import kml_files
+from app.plans.flights.packing import packed
+from app.plans.flights.qgc import plan_files, way_point_files
+from app.plans.flights.wpml import wpml_files
+from app.schemas.flights import FlightFormat, Per
+
+ZIP = "application/zip"
+
+README = "README.txt"
+
+
+class Writer(NamedTuple):
+    """How a format is written: flights of one drone -> files by the ends of their names."""
+
+    write: Callable[[Sequence[Flight]], Mapping[str, bytes]]
+    media_type: str
+
+
+WRITERS: Mapping[FlightFormat, Writer] = {
+    "qgc-plan": Writer(plan_files, "application/json"),
+    "qgc-wpl": Writer(way_point_files, "text/plain"),
+    "kml": Writer(kml_files, "application/vnd.google-earth.kml+xml"),
+    "dji-wpml": Writer(wpml_files, "application/vnd.google-earth.kmz"),
+    "geojson": Writer(geojson_files, "application/geo+json"),
+}
+
+
+@dataclass(frozen=True)
+class FlightFile:
+    """A file to be sent."""
+
+    name: str
+    media_type: str
+    content: bytes
+
+
+def flight_file(flights: Sequence[Flight], file_format: FlightFormat, per: Per) -> FlightFile:
+    """Return all of some flights: at least one.
+
+    Raises
+    ------
+    InvalidRequestError
+        If the format can't tell one of them.
+    """
+    writer = WRITERS[file_format]
+    files: dict[str, bytes] = {}
+    stems: set[str] = set()
+    for name, group in _grouped(flights, per).items():
+        stem = _free(name, stems)
+        stems.add(stem.casefold())
+        files |= {stem + ending: content for ending, content in writer.write(group).items()}
+    if len(files) == 1:
+        (name, content), = files.items()
+        return FlightFile(name, writer.media_type, content)
+    return FlightFile(f"flights-{file_format}.zip", ZIP,
+                      packed({README: f"{NOTE}\n".encode(), **files}))
+
+
+def _grouped(flights: Sequence[Flight], per: Per) -> dict[str, list[Flight]]:
+    """Return the flights that each file holds, by its name's beginning."""
+    if per == "sortie":
+        return {f"{flight.drone} flight {flight.number}": [flight] for flight in flights}
+    groups: dict[str, list[Flight]] = {}
+    for flight in flights:
+        groups.setdefault(flight.drone, []).append(flight)
+    return groups
+
+
+def _free(name: str, taken: Set[str]) -> str:
+    """Return a name that any file system takes and that is not taken yet."""
+    plain = re.sub(r"[^A-Za-z0-9._-]+", "-", name).strip("-.") or "flight"
+    candidate, number = plain, 2
+    while candidate.casefold() in taken:
+        candidate, number = f"{plain}-{number}", number + 1
+    return candidate
