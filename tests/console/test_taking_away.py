@@ -2,7 +2,9 @@
 
 import csv
 import json
-from io import StringIO
+import zipfile
+from collections.abc import Callable
+from io import BytesIO, StringIO
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -10,6 +12,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_example, open_tab, state
+from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
 
@@ -67,6 +70,42 @@ def test_picture_is_saved_as_svg_and_png(console: Page) -> None:
     picture = ElementTree.fromstring(saved(page, "SVG"))
     assert len(picture.findall(".//{*}polyline")) > 5
     assert saved(page, "PNG").startswith(b"\x89PNG")
+
+
+def test_flights_are_saved_for_flight_controllers(console: Page) -> None:
+    page = opened(console, "city_day")
+    part = page.locator("#flight-files")
+    expect(part).to_contain_text("no permission to fly")
+    part.get_by_label("Files").select_option("vehicle")
+    with page.expect_download() as download:
+        part.get_by_role("button", name="Save flights").click()
+    name, content = download.value.suggested_filename, Path(download.value.path()).read_bytes()
+    if name.endswith(".zip"):
+        with zipfile.ZipFile(BytesIO(content)) as archive:
+            content = archive.read(archive.namelist()[1])
+    assert json.loads(content)["fileType"] == "Plan"
+    part.get_by_label("Format").select_option("dji-wpml")
+    expect(part.get_by_role("alert")).to_have_count(0)
+
+
+def test_flights_that_a_format_cannot_tell_are_refused_in_words(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("422",))
+    open_example(page, "berlin")
+    open_tab(page, "export")
+    part = page.locator("#flight-files")
+    part.get_by_label("Format").select_option("dji-wpml")
+    part.get_by_role("button", name="Save flights").click()
+    expect(part.get_by_role("alert")).to_contain_text("goes up to 54 km/h")
+    assert findings(page, ".panel") == []
+    part.get_by_label("Format").select_option("kml")
+    expect(part.get_by_role("alert")).to_have_count(0)
+    assert saved(page, "Save flights").startswith(b"PK")
+
+
+def test_flights_of_a_plane_are_not_offered(console: Page) -> None:
+    page = opened(console, "drones")
+    expect(page.get_by_role("button", name="Save flights")).to_be_disabled()
 
 
 def test_driver_sheet_is_printed(console: Page) -> None:

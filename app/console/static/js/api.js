@@ -152,6 +152,13 @@ export const postCheck = (body) => json('check', { method: 'POST', body: aboutPl
 /** Return the best places of a customer in a plan. */
 export const postFit = (question) => json('fit', { method: 'POST', body: aboutPlan(question) });
 
+/** Return a plan's flights as a file: its name and its content. */
+export async function postFlights(question) {
+  const response = await send('flights', { method: 'POST', body: aboutPlan(question) });
+  const [, name] = /filename="(.+)"/.exec(response.headers.get('content-disposition')) ?? [];
+  return { name, content: await response.blob() };
+}
+
 /** Start a job: `kind` is `jobs`, `compare` or `sweep`. Return it. */
 export const startJob = (kind, { base, ...body }) =>
   json(kind, {

@@ -714,6 +714,17 @@ export default {
     planJson: 'Plan als JSON',
     stops: 'Stopps als CSV',
     picture: 'Bild',
+    flights: 'Flüge für Flugsteuerungen',
+    facts: 'Angaben für eine Flugsteuerung, keine Erlaubnis zu fliegen.',
+    flightsPlanar:
+      'Flüge brauchen Längen und Breiten; dieses Problem liegt auf einer Ebene.',
+    format: 'Format',
+    files: 'Dateien',
+    per: {
+      sortie: 'eine je Flug',
+      vehicle: 'eine je Drohne',
+    },
+    saveFlights: 'Flüge sichern',
     drivers: 'Für Fahrer',
     printAll: 'Alle Fahrerblätter drucken',
     planar: 'GPX braucht Längen und Breiten; dieses Problem liegt auf einer Ebene.',
@@ -1362,6 +1373,14 @@ export default {
     DUPLICATE_VEHICLE: 'Dieses Fahrzeug steht zweimal da.',
     PINNED_TO_UNAVAILABLE: 'Das Fahrzeug, an dem dieser Kunde festgehalten ist, ist ausgefallen.',
     TIMES_DISORDERED: 'Zeiten stehen nicht der Reihe nach.',
+    FLIGHTS_ON_PLANE: 'Flüge brauchen Längen und Breiten; dieses Problem liegt auf einer Ebene.',
+    NO_FLIGHTS: 'In diesem Plan fliegt keine Drohne.',
+    NO_WAY_AROUND: 'An den Flugverbotszonen führt kein Weg vorbei.',
+    TOO_FAST:
+      'Dieses Format geht bis 54 km/h: Planen Sie mit langsameren Drohnen, ' +
+      'oder wählen Sie ein anderes.',
+    ILLEGAL_PLAN:
+      'Dieser Plan verletzt eine Regel: Planen Sie neu, bevor Sie seine Flüge sichern.',
     TRIP_SHAPE: 'Diese Fahrt kann so nicht sein.',
     WRONG_NAME: 'So heißen Fahrzeuge und Drohnen nicht.',
     WRONG_DEPOT: 'Das Fahrzeug hat ein anderes Depot.',

@@ -7,8 +7,10 @@ import { flightLines, flownLines } from '../core/flights.js';
 import { asStated } from '../core/times.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
+import { FlightFiles } from './flight-files.js';
 import { Badge } from './parts.js';
 import { printSheets } from './driver-sheets.js';
+import { save } from './saving.js';
 import { t } from '../texts.js';
 
 const PNG_SCALE = 2;
@@ -48,6 +50,7 @@ export function ExportTab() {
         SVG</button>
       <button type="button" onClick=${() => savePng('plan.png', index, drawnOf)}>PNG
         </button></div></section>
+    <${FlightFiles} entry=${entry} />
     <section class="section"><h3>${t('take.drivers')}</h3>
       <div class="buttons">
         <button type="button" onClick=${() => print(index.vehicles)}>
@@ -69,14 +72,6 @@ export function ExportTab() {
 
 function saveJson(name, value) {
   save(name, 'application/json', `${JSON.stringify(value, null, 2)}\n`);
-}
-
-function save(name, type, content) {
-  const address = URL.createObjectURL(new Blob([content], { type }));
-  const link = document.createElement('a');
-  Object.assign(link, { href: address, download: name });
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 10000);
 }
 
 // Few want a picture: what draws it is loaded for who does.
