@@ -154,8 +154,7 @@ def _location_errors(draft: Draft) -> Errors:
                 yield error_at("ADDRESS_ON_PLANE", path, "Addresses are on the globe: state "
                                "coordinate_system geographic, or [x, y].")
         elif needed_for is not None:
-            yield error_at("MISSING_LOCATION", path,
-                           f"{needed_for}: add a location, or the matrix.")
+            yield error_at("MISSING_LOCATION", path, f"{needed_for}.")
 
 
 def _are_customers_right(draft: Draft) -> bool:
@@ -176,14 +175,20 @@ def _rounding_errors(draft: Draft) -> Errors:
 def _profile_without_matrix(draft: Draft) -> str | None:
     """Say which profile needs locations, or None if none is known to."""
     if draft.matrices is None:
-        return "Without matrices, every place needs a location"
+        return "Without matrices, every place needs a location: add a location, or the matrix"
     for _, vehicle_type in draft.vehicle_types():
         for profile in _profiles(vehicle_type):
             if profile not in draft.matrices:
-                return f"matrices has no {profile!r}, so legs are computed from locations"
+                return (f"matrices has no {profile!r}, so legs are computed from locations: add a "
+                        "location, or the matrix")
+    for path, drones in draft.drone_types():
+        if drones.count > 0 and drones.max_range is not None:
+            return ("A max_range is measured straight between locations: add a location, or leave "
+                    f"out {json_path((*path, 'max_range'))}")
     for name, matrix in draft.matrices.items():
         if matrix is not None and matrix.distances is None:
-            return f"matrices.{name} has no distances, so they are computed from locations"
+            return (f"matrices.{name} has no distances, so they are computed from locations: add a "
+                    "location, or the matrix")
     return None
 
 

@@ -6,7 +6,7 @@ from pydantic import Discriminator, Field, Tag
 
 from app.schemas.energy import EnergyInput, Watts
 from app.schemas.errors import ALONE, LISTED
-from app.schemas.fields import Count, Demand, Duration, Input, Money, Name, Speed
+from app.schemas.fields import Count, Demand, Duration, Input, Metres, Money, Name, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
 
@@ -63,6 +63,11 @@ class DronesInput(Input):
     profile: Name = Field("drone", description="Entry of `matrices` that holds the flights.")
     endurance: Duration | None = Field(
         None, description="Longest flight from take-off to recovery in seconds. Null: no limit."
+    )
+    max_range: Metres | None = Field(
+        None,
+        description="How far a customer of a sortie lies at most from where it is launched, and "
+        "from where it is recovered: straight, in metres, whatever a matrix says. Null: no limit.",
     )
     endurance_includes_waiting: bool = Field(
         True, description="Whether waiting for the truck at the recovery stop uses endurance."

@@ -185,6 +185,7 @@ def _drones(rng: random.Random, dimensions: int) -> Data:
         "capacity": _amounts(rng, dimensions, (0, 1, 3, 10, 10, LONGEST)),
         **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 40, 120, 1000))),
         **_maybe(rng, 0.7, endurance=rng.choice((0, 60, 1200, 1800, LONGEST))),
+        **_maybe(rng, 0.2, max_range=rng.choice((0, 500, 5e3, 2e4, LONGEST))),
         **_maybe(rng, 0.3, endurance_includes_waiting=rng.random() < 0.5),
         **_maybe(rng, 0.5, launch_duration=rng.choice((0, 30, 60, LONGEST)),
                  recovery_duration=rng.choice((0, 30, 60, LONGEST))),
@@ -319,6 +320,11 @@ def _add_matrices(rng: random.Random, request: Data) -> None:
         stated["location_index"] = index
         if not keeps_locations:
             del stated["location"]
+    if not keeps_locations:
+        for kind in request["fleet"]:
+            drones = kind.get("drones") or []
+            for each in drones if isinstance(drones, list) else [drones]:
+                each.pop("max_range", None)
 
     def table() -> list[list[float]]:
         return [[rng.choice((0, rng.uniform(0, longest), longest)) for _ in places]

@@ -95,6 +95,8 @@ typedef struct tandem_vehicle_type {
     int64_t launch_duration;
     int64_t relaunch_duration;
     int64_t recovery_duration;
+    int64_t straight_travel;
+    int64_t max_range;
     int64_t variant;
     int64_t drone_variant;
     int64_t points;

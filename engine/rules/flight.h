@@ -14,6 +14,14 @@ namespace tandem {
 // Whether a flight duration marks a flight that can't be flown.
 inline bool unreachable(Int duration) { return duration >= unreachable_leg; }
 
+// Whether a customer may lie too far from where a drone is launched or recovered.
+inline bool limits_range(const VehicleType& type) { return type.max_range < unlimited; }
+
+// Whether a customer so far away, straight, may be flown to.
+inline bool within_range(const VehicleType& type, Int distance) {
+    return distance <= type.max_range;
+}
+
 // Whether it matters which launch is the first of a trip.
 inline bool launches_differ(const VehicleType& type) {
     return type.relaunch_duration != type.launch_duration;

@@ -18,7 +18,8 @@ void mark_place(const Setting& setting, Drone& drone, Int here, Int to) {
     Recovery place = Recovery::aboard;
     if (drone.sortie != in_flight) {
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-        const bool meets = drone_kind.flight(here, drone.node, to).can_serve();
+        const bool meets = drone_kind.in_range(to, drone.node) &&
+                           drone_kind.flight(here, drone.node, to).can_serve();
         place = meets ? Recovery::meet : Recovery::loop;
     }
     drone.place = static_cast<Int>(place);
@@ -197,7 +198,9 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
         if (!are_several(setting.type)) return d;
         const Int row = drones[d].row;
         if (!setting.can_fly(row, node) || !has_battery(setting, log, row)) continue;
-        if (drone_kind_of(setting, row).flight(vehicle.node, node, vehicle.node).can_serve()) {
+        const DroneKind drone_kind = drone_kind_of(setting, row);
+        if (!drone_kind.in_range(vehicle.node, node)) continue;
+        if (drone_kind.flight(vehicle.node, node, vehicle.node).can_serve()) {
             return d;
         }
         if (chosen < 0) chosen = d;

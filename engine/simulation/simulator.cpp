@@ -76,7 +76,10 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     const Int flight = drone_kind.out(vehicle.node, node);
     const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
     const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
-    if (unreachable(flight) || place.too_late(soonest + flight)) return Verdict::no;
+    if (unreachable(flight) || !drone_kind.in_range(vehicle.node, node) ||
+        place.too_late(soonest + flight)) {
+        return Verdict::no;
+    }
 
     // As if it flew and the vehicle went home.
     const Int home = setting.type.ends_at;

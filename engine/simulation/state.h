@@ -59,6 +59,7 @@ struct Setting {
     View<const VehicleType, 1> types;   // (row,)
     NodeTables nodes;
     View<const Int, 3> durations;  // (travel, node, node) ms
+    View<const Int, 3> distances;  // (travel, node, node) mm
     View<const bool, 2> can_fly;   // (row, node)
 };
 
@@ -66,8 +67,14 @@ struct Setting {
 struct DroneKind {
     const VehicleType& type;
     NodeTable node;
-    View<const Int, 2> out;   // (node, node) ms
-    View<const Int, 2> home;  // (node, node) ms, to where the truck is
+    View<const Int, 2> out;       // (node, node) ms
+    View<const Int, 2> home;      // (node, node) ms, to where the truck is
+    View<const Int, 2> straight;  // (node, node) mm
+
+    // Whether it may serve a customer that is launched or recovered at a node.
+    bool in_range(Int here, Int customer) const {
+        return !limits_range(type) || within_range(type, straight(here, customer));
+    }
 
     // The flight to a customer, launched and recovered at these nodes.
     Flight flight(Int from, Int customer, Int to) const {

@@ -212,7 +212,10 @@ bool launch(OpenVehicle& open, Int node) {
     const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
     const Int flight = drone_kind.out(vehicle.node, node);
     const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
-    if (unreachable(flight) || place.too_late(soonest + flight)) return false;
+    if (unreachable(flight) || !drone_kind.in_range(vehicle.node, node) ||
+        place.too_late(soonest + flight)) {
+        return false;
+    }
     const Int here = log.count.stops - 1;
     const Int index = log.count.sorties++;
     board(open, drone, index, node, takeoff);

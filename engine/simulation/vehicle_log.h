@@ -35,6 +35,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .types = instance.type[b],
         .nodes = nodes,
         .durations = durations,
+        .distances = instance.distance[b],
         .can_fly = instance.can_fly[b],
     };
 }
@@ -43,7 +44,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
 inline DroneKind drone_kind_of(const Setting& setting, Int row) {
     const VehicleType& type = setting.types[row];
     return {type, setting.nodes.by_air(type), setting.durations[type.drone_travel],
-            setting.durations[type.home_travel]};
+            setting.durations[type.home_travel], setting.distances[type.straight_travel]};
 }
 
 // When a truck that leaves at `leave` arrives, by its speed at the time of day, and is set up.

@@ -44,7 +44,7 @@ WORK_RATES = "time", "overtime"
 """The rates per hour of what a vehicle's work costs."""
 
 NO_PROFILE = -1
-NO_DRONES = (0,) * 8
+NO_DRONES = (0,) * 10
 
 AMOUNTS = 2 * DIMENSIONS_PER_TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
@@ -303,10 +303,11 @@ def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
 
 def _drones(drones: DroneType, ways: Sequence[Way]) -> tuple[int, ...]:
     out, home = (index_of(ways, drones.travel, sets_up) for sets_up in (True, False))
+    straight = out if drones.max_range is None else index_of(ways, drones.straight, False)
     relaunch = drones.launch_duration + drones.swap_duration
     return (drones.count, out, home, drones.endurance, int(drones.endurance_includes_waiting),
             relaunch if drones.has_launched else drones.launch_duration, relaunch,
-            drones.recovery_duration)
+            drones.recovery_duration, straight, _limit(drones.max_range))
 
 
 def _worked(kind: VehicleType) -> int:

@@ -73,6 +73,8 @@ def ways_of(problem: Problem) -> list[Way]:
         ways[Way(kind.travel, kind.speed_profile is None)] = None
         for drones in kind.drone_types:
             ways |= {Way(drones.travel, True): None, Way(drones.travel, False): None}
+            if drones.max_range is not None:
+                ways[Way(drones.straight, False)] = None
     return list(ways)
 
 

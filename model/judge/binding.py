@@ -19,7 +19,7 @@ from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
-from model.judge.rules import airborne_duration
+from model.judge.rules import airborne_duration, farthest
 from model.judge.screening import Screen
 from model.problem import (
     MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
@@ -310,6 +310,14 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
             slack = _in_minutes(drones.endurance - flown)
         longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
         yield "endurance", "minute", slack, replace(drones, endurance=longer)
+    if drones.max_range is not None:
+        slack = None
+        if sortie is not None and trip is not None:
+            far = max(farthest(bench.problem, drones, trip, sortie, visit.node)
+                      for visit in sortie.visits)
+            slack = (drones.max_range - far) / MM_PER_KM
+        longer = min(drones.max_range + MM_PER_KM, MAX_QUANTITY)
+        yield "max_range", "km", slack, replace(drones, max_range=longer)
     if drones.batteries is not None:
         slack = None
         if trip is not None:

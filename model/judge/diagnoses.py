@@ -11,7 +11,7 @@ from model.judge.clock import MS_PER_MINUTE
 from model.judge.energy import sortie_energy
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
-from model.judge.rules import airborne_duration, amounts, decimal, watt_hours
+from model.judge.rules import airborne_duration, amounts, decimal, farthest, watt_hours
 from model.judge.trial import Attempt, attempts
 from model.problem import (
     MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType,
@@ -143,6 +143,21 @@ def _endurance(attempt: Attempt) -> Diagnosis:
         f"A flight from the depot and back lasts {_minutes(excess)} more than the endurance"
         f"{_of(drones)}.",
         _if_stated(f"fits if endurance{_of(drones)} were {_minutes(excess)} longer", enough),
+        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
+def _max_range(attempt: Attempt) -> Diagnosis:
+    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
+    far = farthest(attempt.problem, drones, trip, trip.sorties[0], trip.sorties[0].visits[0].node)
+    limit = drones.max_range or 0
+    excess = _up_to_tenth(far - limit, MM_PER_KM)
+    enough = limit + excess
+    changed = replace(drones, max_range=min(enough, MAX_QUANTITY))
+    return Diagnosis(
+        "RANGE",
+        f"It lies {_km(excess)} farther away than the max_range{_of(drones)}.",
+        _if_stated(f"fits if max_range{_of(drones)} were {_km(excess)} longer", enough),
         _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
     )
 
@@ -353,6 +368,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "PAYLOAD": _payload,
     "PICKUP_ORDER": _pickup_order,
     "UNREACHABLE": _unreachable,
+    "MAX_RANGE": _max_range,
     "ENDURANCE": _endurance,
     "ENERGY": _energy,
     "TRIP_DISTANCE": _trip_distance,

@@ -215,6 +215,26 @@ def _sortie_violations(
     if flight > drones.endurance:
         message = f"{seconds(flight)} in the air, endurance is {seconds(drones.endurance)}"
         yield Violation("ENDURANCE", message, path)
+    if drones.max_range is not None:
+        yield from _range_violations(problem, drones, trip, sortie, path)
+
+
+def _range_violations(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie,
+                      path: str) -> Iterator[Violation]:
+    """Customers who lie too far from where their drone is launched, or recovered."""
+    for index, visit in enumerate(sortie.visits):
+        far, limit = farthest(problem, drones, trip, sortie, visit.node), drones.max_range
+        if limit is not None and far > limit:
+            message = (f"customer {problem.customer_at(visit.node).id} lies {decimal(far)} m from "
+                       f"where it is launched or recovered, at most {decimal(limit)} m are allowed")
+            yield Violation("MAX_RANGE", message, f"{path}.visits[{index}]")
+
+
+def farthest(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie, node: int) -> int:
+    """Return how far a customer lies from the ends of a sortie, at most, straight."""
+    distance = problem.travel[drones.straight].distance
+    return max(distance.item(trip.stops[stop].node, node)
+               for stop in (sortie.launch_stop, sortie.recovery_stop))
 
 
 def _energy_violations(problem: Problem, vehicle_type: VehicleType,

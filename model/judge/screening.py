@@ -137,7 +137,7 @@ class Screen:
                 duration, price = self._flight(drones, begin, place)
                 if duration < UNREACHABLE:
                     price += fixed + duration * kind.cost_per_hour / MS_PER_HOUR
-                    yield Guess(max(0, duration - drones.endurance), price, duration,
+                    yield Guess(self._excess(drones, begin, place, duration), price, duration,
                                 Place(vehicle, number, "drone", 0, recovery, first, own_trip=True))
 
     def _on_trip(self, vehicle: Vehicle, number: int, trip: Trip, first_stop: int,
@@ -170,6 +170,15 @@ class Screen:
                     + (start - arrival) * customer.early_cost_per_hour / MS_PER_HOUR)
             yield Guess(late, cost, push, Place(vehicle, number, "truck", index))
 
+    def _excess(self, drones: DroneType, launch: int, recovery: int, duration: int) -> int:
+        """Return by how much a flight between two nodes is too long, a metre told as a second."""
+        excess = max(0, duration - drones.endurance)
+        if drones.max_range is not None:
+            straight = self._legs_of(drones.straight)
+            far = max(straight.far_back[launch], straight.far_back[recovery])
+            excess += max(0, far - drones.max_range)
+        return excess
+
     def _flight(self, drones: DroneType, launch: int, recovery: int) -> tuple[int, float]:
         """Return how long a flight between two nodes takes, and its cost."""
         legs = self._legs_of(drones.travel)
@@ -200,7 +209,7 @@ class Screen:
                 if drone is None:
                     continue
                 held = begin.ready + duration - end.departure
-                yield Guess(too_late + max(0, duration - drones.endurance),
+                yield Guess(too_late + self._excess(drones, begin.node, end.node, duration),
                             cost + max(0, held) * per_hour / MS_PER_HOUR, duration,
                             Place(vehicle, number, "drone", launch, recovery, drone))
 

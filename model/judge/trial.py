@@ -59,8 +59,8 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
     rows = places[:, None]
     travels = [problem.travel[vehicle_type.travel]]
     if drones is not None:
-        travels.append(problem.travel[drones.travel])
-        drones = replace(drones, travel=1)
+        travels += [problem.travel[drones.travel], problem.travel[drones.straight]]
+        drones = replace(drones, travel=1, straight=2)
     return Problem(
         depots=tuple([problem.depots[depot] for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
@@ -215,7 +215,10 @@ def _launch_places(
     skills = problem.vehicle_types[kind].skills
     duration = problem.travel[drones.travel].duration
     loops = duration[first:, node] + duration[node, first:]
-    near = np.flatnonzero(loops <= drones.endurance - drones.service_at(customer))
+    is_near = loops <= drones.endurance - drones.service_at(customer)
+    if drones.max_range is not None:
+        is_near &= problem.travel[drones.straight].distance[first:, node] <= drones.max_range
+    near = np.flatnonzero(is_near)
     found = 0
     for index in near[np.argsort(loops[near], kind="stable")].tolist():
         host = problem.customers[index]

@@ -43,6 +43,8 @@ class DroneType:
     service_duration: int | None = None  # None: the customer's
     service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
     max_customers_per_sortie: int = 1
+    max_range: int | None = None  # mm to customers from where it is launched, and recovered
+    straight: int = 0  # index into Problem.travel, whose distances tell that
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0
     energy: Energy | None = None  # what a sortie may take of the battery; None: any
@@ -64,6 +66,7 @@ class DroneType:
             require_quantity("drone service_duration", duration)
         require_quantity("drone swap_duration", self.swap_duration)
         require_quantity("drone batteries", self.batteries or 0)
+        require_quantity("drone max_range", self.max_range or 0)
         require_rate("drone cost_per_km", self.cost_per_km)
         require_rate("drone cost_per_hour", self.cost_per_hour)
 

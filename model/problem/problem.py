@@ -83,7 +83,8 @@ class Problem:
         for drones in vehicle_type.drone_types:
             require(len(drones.capacity) == self.num_dimensions, f"{name} drone capacity",
                      drones.capacity)
-            require(0 <= drones.travel < len(self.travel), f"{name} drone travel", drones.travel)
+            for travel in (drones.travel, drones.straight):
+                require(0 <= travel < len(self.travel), f"{name} drone travel", travel)
             energy = drones.energy
             require(energy is None or energy.dimension < self.num_dimensions,
                      f"{name} drone energy", energy)

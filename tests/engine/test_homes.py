@@ -13,7 +13,8 @@ RULES = "tandem_vehicle_type", "tandem_rate", "tandem_node", "tandem_setup", "ta
 ANYBODYS = {
     "begins_at", "carried", "changes_ends", "count", "depot", "distance", "drone_travel", "drones",
     "ends_at", "fixed", "home_travel", "load", "max_trips", "metres", "more", "release",
-    "reload_duration", "rounding", "sets_up", "shift_earliest", "stop", "table", "time", "travel"}
+    "reload_duration", "rounding", "sets_up", "shift_earliest", "stop", "straight_travel", "table",
+    "time", "travel"}
 """Their fields that forbid nothing and cost nothing by themselves, or whose names others have."""
 
 SHOWN = {"policy/features.cpp": {"capacity", "drone_distance", "drone_time"},

@@ -18,7 +18,9 @@ from model.judge.timing import Operation, latest_release, schedule_trip
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Stop, Trip, Visit
-from tests.model.open_trip import Flight, OpenTrip, back_at, drones_of, lasts, preferred
+from tests.model.open_trip import (
+    Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred,
+)
 
 MINUTE = 60_000
 
@@ -193,7 +195,10 @@ def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | No
         late = [index for index in order if arrivals[index] >= UNREACHABLE
                 or drones_of(vehicle_type, trip, index).endurance < airborne_duration(
                     problem, drones_of(vehicle_type, trip, index), timed, timed.sorties[index])
-                or _drained(problem, vehicle_type, timed, index)]
+                or _drained(problem, vehicle_type, timed, index)
+                or not in_range(problem, drones_of(vehicle_type, trip, index),
+                                timed.stops[timed.sorties[index].launch_stop].node,
+                                trip.flights[index].customer)]
         if not late:
             return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)), timed)
         if set(late) & set(loops):

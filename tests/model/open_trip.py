@@ -51,9 +51,11 @@ def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: 
 
 
 def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: int) -> bool:
-    """Tell whether endurance and energy suffice for a flight that ends at `to`, if nobody waits."""
+    """Tell whether a flight may end at `to`, and endurance and energy suffice if nobody waits."""
     flight = trip.flights[index]
     drones = kind.drone_type(flight.drone)
+    if not in_range(problem, drones, to, flight.customer):
+        return False
     if flight_duration(problem, kind, trip, index, to) > drones.endurance:
         return False
     if drones.energy is None:
@@ -68,6 +70,12 @@ def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: i
     if not drones.energy.lands:
         taken += hover_energy(drones.energy, drones.service_at(customer), weight)
     return taken <= drones.energy.available
+
+
+def in_range(problem: Problem, drones: DroneType, node: int, customer: int) -> bool:
+    """Tell whether a customer may be flown to from a node, or back."""
+    distance = problem.travel[drones.straight].distance.item(node, customer)
+    return drones.max_range is None or distance <= drones.max_range
 
 
 def drones_of(kind: VehicleType, trip: OpenTrip, index: int) -> DroneType:
@@ -88,7 +96,7 @@ def back_at(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, tak
 
 def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,
               free: list[int]) -> list[int]:
-    """Return the drones that lift a parcel and have a battery, those before that could come back.
+    """Return the drones that lift a parcel so far and have a battery, first who could come back.
     """
     customer = problem.customer_at(node)
 
@@ -96,7 +104,8 @@ def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,
         drones = kind.drone_type(drone)
         flown = [flight for flight in trip.flights
                  if kind.drone_index(flight.drone) == kind.drone_index(drone)]
-        return (all(amount <= most for amounts in (customer.demand, customer.taken_in)
+        return (in_range(problem, drones, trip.nodes[-1], node)
+                and all(amount <= most for amounts in (customer.demand, customer.taken_in)
                     for amount, most in zip(amounts, drones.capacity, strict=True))
                 and (drones.batteries is None or len(flown) < drones.batteries))
 

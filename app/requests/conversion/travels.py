@@ -45,6 +45,9 @@ class _Key(NamedTuple):
     estimated_kmh: float = 0.0  # where roads may not be known
 
 
+STRAIGHT = _Key("drive", "", DEFAULT_DRONE_SPEED_KMH)
+"""Legs whose distances tell how far places lie from one another; nobody needs to travel them."""
+
 COMPUTED_FROM = 3000
 """Above how many places legs from coordinates are computed wherever they are looked up. Tables are
 read in less time, but to make them takes so long that a search of ten seconds gains nothing by
@@ -121,6 +124,10 @@ class Travels:
         """Return the index of the drones' matrices."""
         return self._at(self._flying(drones))
 
+    def straight(self) -> int:
+        """Return the index of matrices whose distances are straight."""
+        return self._at(STRAIGHT)
+
     def origins(self) -> tuple[LegOrigin, ...]:
         """Return what the legs of each profile are made of, trucks' first."""
         fleet = self._request.fleet
@@ -169,7 +176,9 @@ class Travels:
 
     def _keys(self) -> set[_Key]:
         fleet = self._request.fleet
-        return ({self._driving(kind)[0] for kind in fleet}
+        measured = {STRAIGHT for kind in fleet for drones in kind.drone_types
+                    if drones.max_range is not None}
+        return ({self._driving(kind)[0] for kind in fleet} | measured
                 | {self._flying(drones) for kind in fleet for drones in kind.drone_types})
 
     def _stated(self, keys: set[_Key]) -> set[_Key]:

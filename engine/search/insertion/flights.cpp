@@ -6,6 +6,7 @@
 #include "rules/shift.h"
 #include "search/insertion/listing.h"
 #include "search/insertion/offers.h"
+#include "search/route/drone_data.h"
 #include "search/route/edit.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -64,6 +65,7 @@ public:
         const Leg out = leg_from(inward_, from.node);
         // Most stops are so far away that nothing else needs to be looked at.
         if (flown_cost(rate_, out.distance) - early_ >= best_) return;
+        if (!in_range(data_, type_, from.node, node_)) return;
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
         const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
         if (flown_cost(rate_, out.distance) + late - early_ >= best_) return;
@@ -79,7 +81,7 @@ public:
             const Stop& to = stops_[recovery];
             const Leg home = leg_to(onward_, to.node);
             const double flown = flown_cost(rate_, out.distance + home.distance);
-            if (flown + late - early_ >= best_) continue;
+            if (flown + late - early_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
             if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
                                               stops_[recovery + 1].latest) {
                 continue;

@@ -13,6 +13,7 @@
 #include "search/insertion/listing.h"
 #include "search/insertion/new_trips.h"
 #include "search/insertion/newcomer.h"
+#include "search/route/drone_data.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
@@ -197,7 +198,8 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
         double cost = flown_cost(data.rate[row], out.distance + home.distance);
         cost -= now.early[slot];
         if (unreachable(std::max(out.duration, home.duration)) || cost >= best.cost ||
-            !data.can(row, 1, node) || !may_begin(data, k, node)) {
+            !data.can(row, 1, node) || !may_begin(data, k, node) ||
+            !in_range(data, data.type[row], depot, node)) {
             continue;
         }
         for (Int p = -1; p < route.length; ++p) {

@@ -11,6 +11,7 @@
 #include "rules/leg.h"
 #include "rules/rates.h"
 #include "rules/shift.h"
+#include "search/route/drone_data.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -42,7 +43,9 @@ inline double loop_cost(const ProblemData& data, Int k, Int node, Int customer) 
     const Rate& rate = data.rate[k];
     const auto [flight, distance] =
         way_by_air(data, type, data.place.by_air(type)[customer], node, customer, node);
-    if (!data.strategy.loops || !flight.can_serve()) return infinite_cost;
+    if (!data.strategy.loops || !in_range(data, type, node, customer) || !flight.can_serve()) {
+        return infinite_cost;
+    }
     const Int duration = flight.duration();
     return usual_work_cost(rate, duration + handling_duration(type)) +
            airborne_cost(rate, duration) + flown_cost(rate, distance);

@@ -46,6 +46,10 @@ double cost_across(const ProblemData& data, Int k, View<const Line, 1> line, Int
     const Int service = data.place.by_truck(type)[from.node].service_duration();
     const Int drive =
         to.drive - from.drive - spared.spared_drive + stay_beside_launch(type, service);
+    if (!in_range(data, type, from.node, spared.node) ||
+        !in_range(data, type, to.node, spared.node)) {
+        return infinite_cost;
+    }
     const Int back = flight.duration();
     const Int airborne = std::max(back, drive);
     if (!within_endurance(type, 0, back, airborne) || !flight.can_wait(airborne - back)) {

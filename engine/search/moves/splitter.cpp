@@ -174,7 +174,7 @@ private:
             const auto least = std::min_element(cost.begin(), cost.end());
             const Operation found{*least, first + (least - cost.begin()), flown};
             if (found.cost == infinite_cost || !found.is_better(best)) return;
-            if (has_energy(found.before, flown, j)) {
+            if (can_fly(found.before, flown, j)) {
                 best = found;
                 return;
             }
@@ -182,10 +182,15 @@ private:
         }
     }
 
-    // Tell whether the drone's battery lasts until the truck is there.
-    bool has_energy(Int i, Int flown, Int j) const {
-        if (!is_limited(type_)) return true;
+    // Tell whether the customer isn't too far away, and the drone's battery lasts until the truck
+    // is there.
+    bool can_fly(Int i, Int flown, Int j) const {
         const Int customer = line_[flown].node;
+        if (!in_range(data_, type_, line_[i].node, customer) ||
+            !in_range(data_, type_, line_[j].node, customer)) {
+            return false;
+        }
+        if (!is_limited(type_)) return true;
         const Flight flight = way_by_air(data_, type_, places_by_air_[customer], line_[i].node,
                                          customer, line_[j].node)
                                   .flight;

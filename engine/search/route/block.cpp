@@ -54,6 +54,14 @@ inline bool reach(Windows place, TimeSegment reached, BlockSums& sums) {
     return true;
 }
 
+// Tell whether no customer of a sortie lies too far from where it is launched or recovered.
+bool reaches(const Truck& truck, const DroneData& drone_data, const Sortie& sortie, Int node) {
+    const VehicleType& type = drone_data.type;
+    return !limits_range(type) ||
+           std::all_of(sortie.nodes, sortie.nodes + sortie.count,
+                       [&](Int customer) { return in_range(truck.data, type, node, customer); });
+}
+
 // Launch a sortie from `node` once the truck's crew is free. In place; false if not allowed.
 bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& sums) {
     const VehicleType& type = drone_data.type;
@@ -195,7 +203,7 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int 
         const bool allowed = sortie.state == sortie_flies
                                  ? bring_home(drone_data, sortie, node, sums)
                                  : fly_out(drone_data, sortie, node, sums);
-        if (!allowed) return false;
+        if (!allowed || !reaches(truck, drone_data, sortie, node)) return false;
     }
     for (Int index = sums.oldest; index < count && sorties[index].launch <= p; ++index) {
         if (sorties[index].state == sortie_waits) return false;

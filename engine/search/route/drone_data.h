@@ -2,6 +2,7 @@
 #pragma once
 
 #include "rules/drone_types.h"
+#include "rules/flight.h"
 #include "rules/leg.h"
 #include "rules/window.h"
 #include "search/route/layout.h"
@@ -15,6 +16,13 @@ struct DroneData {
     TravelLegs legs;
     TravelLegs homeward;
 };
+
+// Whether drones of a type may serve a customer who are launched or recovered at a node.
+inline bool in_range(const ProblemData& data, const VehicleType& type, Int node, Int customer) {
+    return !limits_range(type) ||
+           within_range(type,
+                        leg(legs_of(data.leg, type.straight_travel), node, customer).distance);
+}
 
 // Return what the drones of a row meet.
 inline DroneData drone_data_at(const ProblemData& data, Int row) {

@@ -3,6 +3,7 @@
 import numpy as np
 
 from model.problem import Problem
+from tests.model.permits import with_ranges
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
@@ -52,6 +53,14 @@ def all_rules_drone_types(rng: np.random.Generator) -> Problem:
     while True:
         problem = with_drone_types(rng, all_rules(rng))
         if any(kind.more_drones for kind in problem.vehicle_types):
+            return problem
+
+
+def all_rules_in_range(rng: np.random.Generator) -> Problem:
+    """Return problems some of whose drones may fly no farther than so."""
+    while True:
+        problem = with_ranges(rng, all_rules(rng))
+        if any(drones.max_range for kind in problem.vehicle_types for drones in kind.drone_types):
             return problem
 
 

@@ -17,7 +17,8 @@ from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.search.mixed_rules import (
     all_rules, all_rules_at_once, all_rules_begun, all_rules_both_ways, all_rules_drone_types,
-    all_rules_elsewhere, all_rules_goods_apart, all_rules_limits_aboard, all_rules_of_duty,
+    all_rules_elsewhere, all_rules_goods_apart, all_rules_in_range, all_rules_limits_aboard,
+    all_rules_of_duty,
     all_rules_on_batteries, all_rules_open, all_rules_open_reloading, all_rules_own_durations,
     all_rules_reloading, all_rules_setups, all_rules_several_windows, all_rules_swapping,
 )
@@ -147,6 +148,17 @@ def long_sorties(rng: np.random.Generator) -> Problem:
     return street_problem(rng, one_by_truck(rng), truck)
 
 
+def near_sorties(rng: np.random.Generator) -> Problem:
+    """Drones may serve two customers on a flight, none of them far from its ends."""
+    problem = long_sorties(rng)
+    place = problem.coordinates
+    metres = np.rint(np.linalg.norm(place[:, None] - place, axis=2) * MM_PER_KM).astype(np.int64)
+    drones = replace(DRONES, max_customers_per_sortie=2, endurance=25 * MINUTE, straight=2,
+                     max_range=int(rng.integers(3, 9)) * MM_PER_KM)
+    return replace(problem, travel=(*problem.travel, Travel(metres, metres)), vehicle_types=tuple(
+        replace(kind, drones=drones) for kind in problem.vehicle_types))
+
+
 def rush_hour(rng: np.random.Generator) -> Problem:
     profile = SpeedProfile((20 * MINUTE, 60 * MINUTE), (FULL_SPEED, FULL_SPEED // 2, FULL_SPEED))
     customers = with_windows(rng, plain_customers(rng, 4), 20, None)
@@ -264,7 +276,7 @@ KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
     timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries,
-    small_and_large_drones)
+    small_and_large_drones, near_sorties)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -290,7 +302,7 @@ def missed_seeds(draw: Callable[[np.random.Generator], Problem], seeds: range) -
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
-    dear = two_drones, long_sorties, drones_both_ways, small_and_large_drones
+    dear = two_drones, long_sorties, drones_both_ways, small_and_large_drones, near_sorties
     number = 1 if draw in dear else 2
     assert missed_seeds(draw, range(number)) == []
 
@@ -310,7 +322,8 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 @pytest.mark.parametrize("draw", [
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
     all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
-    all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping],
+    all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping,
+    all_rules_in_range],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

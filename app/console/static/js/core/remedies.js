@@ -65,6 +65,11 @@ const CHANGES = [
       ),
   ],
   [
+    new RegExp(`^fits if max_range(?: of (.+))? were ${NUMBER} km longer$`),
+    (request, { type }, id, more) =>
+      add(request, [...dronesAt(request, type, id), 'max_range'], numberOf(more) * METRES_PER_KM),
+  ],
+  [
     new RegExp(`^fits with a battery(?: of (.+))? of ${NUMBER} Wh more$`),
     (request, { type }, id, more) =>
       add(request, [...dronesAt(request, type, id), 'energy', 'battery_wh'], numberOf(more)),

@@ -20,6 +20,7 @@ const SAID = [
   ['droneCapacity', 'fits if the drone capacity(?: of .+?)? were at least (?<number>.+)'],
   ['pickups', `fits if ${NAME} may pick up at any time`],
   ['endurance', `fits if endurance(?: of .+)? were ${TIME} longer`],
+  ['range', `fits if max_range(?: of .+)? were ${NUMBER} km longer`],
   ['battery', `fits with a battery(?: of .+)? of ${NUMBER} Wh more`],
   ['km', `fits if trips could be ${NUMBER} km longer`],
   ['lastWindow', `fits if its last window closed ${TIME} later`],

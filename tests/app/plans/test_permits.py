@@ -1,0 +1,67 @@
+"""What permits ask of drones, over HTTP."""
+
+from typing import Any
+
+import httpx
+from tests.app.plans.asking import planned
+
+Request = dict[str, Any]
+
+
+def by_drone(request: Request, **drones: Any) -> Request:
+    """Return a request all of whose customers one drone serves."""
+    for customer in request["customers"]:
+        customer["served_by"] = "drone"
+    request["fleet"][0]["drones"] = {"count": 1, "capacity": [10], **drones}
+    return request
+
+
+def farthest_km(request: Request) -> float:
+    """Return how far customers lie from the only depot."""
+    (x, y), = [depot["location"] for depot in request["depots"]]
+    unit = request["planar_unit"] / 1000
+    return max(((east - x)**2 + (north - y)**2) ** 0.5 * unit
+               for east, north in (each["location"] for each in request["customers"]))
+
+
+def test_nobody_is_flown_to_from_farther_away_than_max_range(client: httpx.Client,
+                                                             smallest: Request) -> None:
+    metres = 1000 * farthest_km(smallest)
+    request = by_drone(smallest, max_range=metres + 1)
+    plan = planned(client, request)
+    assert plan["unassigned"] == []
+    request["fleet"][0]["drones"]["max_range"] = metres - 1
+    left_out, = planned(client, request)["unassigned"]
+    reason, = left_out["reasons"]
+    assert (reason["code"], reason["remedy"]) == (
+        "RANGE", "fits if max_range were 0.1 km longer")
+    verdict = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert "MAX_RANGE" in {broken["code"] for broken in verdict["violations"]}
+
+
+def test_max_range_is_measured_whatever_matrices_say(client: httpx.Client,
+                                                     smallest: Request) -> None:
+    size = len(smallest["customers"]) + 1
+    table = {"durations": [[10] * size] * size, "distances": [[1] * size] * size}
+    request = by_drone(smallest, max_range=1000 * farthest_km(smallest) - 1)
+    request["matrices"] = {"truck": table, "drone": table}
+    for index, place in enumerate([*request["depots"], *request["customers"]]):
+        place["location_index"] = index
+    assert len(planned(client, request)["unassigned"]) == 1
+    del request["customers"][0]["location"]
+    answer = client.post("/plan", json=request)
+    assert answer.status_code == 422
+    error, = answer.json()["errors"]
+    assert (error["code"], error["path"]) == ("MISSING_LOCATION", "$.customers[0].location")
+    assert "$.fleet[0].drones.max_range" in error["message"]
+
+
+def test_explain_tells_what_max_range_is_worth(client: httpx.Client, smallest: Request) -> None:
+    request = by_drone(smallest, max_range=1000 * farthest_km(smallest) - 500)
+    plan = planned(client, request)
+    (left_out,) = plan["unassigned"]
+    told = client.post("/explain", json={
+        "problem": request, "plan": plan, "customer": left_out["id"]}).json()
+    rule, = [each for each in told["binding"] if each["rule"] == "drones.max_range"]
+    assert (rule["slack"], rule["unit"]) == (None, "km")
+    assert rule["saves_per_unit"] > 0

@@ -1,0 +1,25 @@
+"""Tiny problems with what permits ask of drones; every time is a whole number of minutes."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from model.problem import MM_PER_KM, DroneType, Problem, Travel
+from tests.model.tiny import MINUTE, with_drones
+
+
+def with_ranges(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which most drones may fly no farther than so, straight."""
+    place = rng.integers(0, 5, (problem.num_nodes, 2))
+    steps = np.abs(place[:, None] - place).max(axis=2).astype(np.int64)
+    straight = len(problem.travel)
+
+    def limited(drones: DroneType) -> DroneType:
+        if rng.random() < 0.2:
+            return drones
+        return replace(drones, straight=straight,
+                       max_range=int(rng.integers(1, 5)) * MM_PER_KM)
+
+    return replace(problem, travel=(*problem.travel, Travel(steps * MINUTE, steps * MM_PER_KM)),
+                   vehicle_types=tuple(with_drones(kind, limited)
+                                       for kind in problem.vehicle_types))
