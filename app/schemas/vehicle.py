@@ -170,6 +170,16 @@ class VehicleTypeInput(Input):
     max_sorties: Count | None = Field(
         None, description="Most sorties of one trip, of all its drones. Null: no limit."
     )
+    max_airborne: Annotated[int, Field(ge=1)] | None = Field(
+        None,
+        description="Most drones of one truck in the air at once, from take-off to the beginning "
+        "of recovery. Null: as many as it has.",
+    )
+    truck_waits: bool = Field(
+        False,
+        description="Whether the truck stands still while any of its drones is out: each is "
+        "launched and recovered at the same stop.",
+    )
     reload_duration: Duration = Field(
         0.0, description="Time at the depot between two trips in seconds."
     )

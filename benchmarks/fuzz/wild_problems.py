@@ -145,6 +145,8 @@ def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
                                      "cost_per_hour": rng.choice((0, 20, RICHEST))}),
         **_maybe(rng, 0.2, max_stops=rng.choice((0, 1, 3, 1_000_000))),
         **_maybe(rng, 0.2, max_sorties=rng.choice((0, 1, 2, 1_000_000))),
+        **_maybe(rng, 0.2, max_airborne=rng.choice((1, 1, 2, 1_000_000))),
+        **_maybe(rng, 0.2, truck_waits=rng.random() < 0.7),
         **_maybe(rng, 0.3, max_trip_distance=rng.choice((0, 1, 1e4, 1e5, LONGEST))),
         **_maybe(rng, 0.4, max_trips=rng.choice((1, 2, 3, 1000)),
                  reload_duration=rng.choice((0, 0, 600, LONGEST))),

@@ -84,6 +84,8 @@ typedef struct tandem_vehicle_type {
     int64_t max_trips;
     int64_t max_stops;
     int64_t max_sorties;
+    int64_t max_airborne;
+    int64_t truck_waits;
     int64_t reload_duration;
     int64_t speed_changes;
     int64_t drone_row;

@@ -22,6 +22,15 @@ inline bool within_range(const VehicleType& type, Int distance) {
     return distance <= type.max_range;
 }
 
+// How many drones of a truck may be in the air at once.
+inline Int most_airborne(const VehicleType& type) { return type.max_airborne; }
+
+// Whether that is fewer than it has.
+inline bool limits_airborne(const VehicleType& type) { return type.max_airborne < type.drones; }
+
+// Whether a truck stands still while any of its drones is out.
+inline bool waits_for_drones(const VehicleType& type) { return type.truck_waits != 0; }
+
 // Whether it matters which launch is the first of a trip.
 inline bool launches_differ(const VehicleType& type) {
     return type.relaunch_duration != type.launch_duration;

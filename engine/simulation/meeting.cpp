@@ -13,16 +13,21 @@ namespace {
 
 constexpr Int not_yet = -1;  // take-off and recovery that have no time yet
 
-// Mark where a drone is recovered: at `to` if it can fly there, else at `here`.
-void mark_place(const Setting& setting, Drone& drone, Int here, Int to) {
-    Recovery place = Recovery::aboard;
-    if (drone.sortie != in_flight) {
-        const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-        const bool meets = drone_kind.in_range(to, drone.node) &&
-                           drone_kind.flight(here, drone.node, to).can_serve();
-        place = meets ? Recovery::meet : Recovery::loop;
+// Mark where drones are recovered: at `to` those that can fly there, while there is room for them
+// in the air, else at `here`.
+void mark_places(const Setting& setting, View<Drone, 1> drones, Int here, Int to) {
+    Int room = waits_for_drones(setting.type) ? 0 : most_airborne(setting.type);
+    for (Drone& drone : drones) {
+        Recovery place = Recovery::aboard;
+        if (drone.sortie != in_flight) {
+            const DroneKind drone_kind = drone_kind_of(setting, drone.row);
+            const bool meets = room > 0 && drone_kind.in_range(to, drone.node) &&
+                               drone_kind.flight(here, drone.node, to).can_serve();
+            place = meets ? Recovery::meet : Recovery::loop;
+            if (meets) --room;
+        }
+        drone.place = static_cast<Int>(place);
     }
-    drone.place = static_cast<Int>(place);
 }
 
 // Tell whether there is a battery for one more sortie by drones of a row on the last trip.
@@ -35,6 +40,24 @@ bool has_battery(const Setting& setting, const VehicleLog& log, Int row) {
     return allows_sorties(setting.types[row], flown);
 }
 
+// Whether a drone waits that is recovered where it is launched.
+bool is_loop_waiting(View<const Drone, 1> drones) {
+    return std::any_of(drones.begin(), drones.end(), [](const Drone& drone) {
+        return is_recovered(drone, Recovery::loop) && drone.takeoff == not_yet;
+    });
+}
+
+// Where a drone that waits may be recovered if it is launched beside so many in the air: nowhere,
+// here alone, or anywhere. Loops come first where there would be no room for them behind.
+enum class Airspace { none, loops, all };
+
+Airspace airspace_beside(const VehicleType& type, View<const Drone, 1> drones, Int airborne) {
+    if (!limits_airborne(type)) return Airspace::all;
+    if (airborne >= most_airborne(type)) return Airspace::none;
+    if (airborne + 1 < most_airborne(type) || !is_loop_waiting(drones)) return Airspace::all;
+    return Airspace::loops;
+}
+
 struct NextLaunch {
     Int drone;  // -1: none
     Int takeoff;
@@ -43,11 +66,13 @@ struct NextLaunch {
 // The drone that can be launched first from `free` on; `launched` is how many launches of the trip
 // come before.
 NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int here, Int to,
-                       Int free, Int launched) {
+                       Int free, Int launched, Airspace airspace) {
     NextLaunch next{-1, 0};
+    if (airspace == Airspace::none) return next;
     for (Int d = 0; d < drones.size(); ++d) {
         const Drone& drone = drones[d];
         if (is_aboard(drone) || drone.takeoff != not_yet) continue;
+        if (airspace == Airspace::loops && !is_recovered(drone, Recovery::loop)) continue;
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
         const Flight flight =
             drone_kind.flight(here, drone.node, is_recovered(drone, Recovery::meet) ? to : here);
@@ -116,10 +141,13 @@ Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drone
     Int free = vehicle.crew;
     Int waiting = vehicle.flying;
     Int looping = 0;
+    Int leaving = 0;
     Int before = vehicle.launched;
     for (Drone& drone : drones) drone.takeoff = drone.recovery = not_yet;
     while (waiting + looping > 0) {
-        const auto [launched, takeoff] = next_launch(setting, drones, here, to, free, before);
+        const Airspace airspace = airspace_beside(setting.type, drones, looping + leaving);
+        const auto [launched, takeoff] =
+            next_launch(setting, drones, here, to, free, before, airspace);
         Int begin = takeoff;
         if (launched >= 0) {
             begin = launch_begin(setting.types[drones[launched].row], takeoff, before);
@@ -135,7 +163,7 @@ Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drone
             free = takeoff;
             --waiting;
             ++before;
-            if (is_recovered(drones[launched], Recovery::loop)) ++looping;
+            ++(is_recovered(drones[launched], Recovery::loop) ? looping : leaving);
         }
     }
     return free;
@@ -208,21 +236,25 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
     return chosen;
 }
 
+bool order_may_change(const VehicleType& type) {
+    return are_several(type) || limits_airborne(type);
+}
+
 bool order_is_open(const Setting& setting, const Vehicle& vehicle) {
-    return are_several(setting.type) && vehicle.flying > 0 &&
+    return order_may_change(setting.type) && vehicle.flying > 0 &&
            longest_work(setting.type) < unlimited;
 }
 
 Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
                     Int takeoff) {
-    if (!are_several(setting.type)) return takeoff;
+    if (!order_may_change(setting.type)) return takeoff;
     return take_off(type, vehicle.crew, vehicle.launched);
 }
 
 Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to) {
     constexpr Leaving impossible{-1, -1, -1};
     const Int here = vehicle.node;
-    for (Drone& drone : drones) mark_place(setting, drone, here, to);
+    mark_places(setting, drones, here, to);
     if (vehicle.flying == 0) {
         const Int leave = std::max(vehicle.service_end, vehicle.free);
         const Int arrival = travel_arrival(setting, here, to, leave);

@@ -30,11 +30,15 @@ void note_charges(const Setting& setting, const VehicleLog& log, View<Drone, 1> 
 Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
                View<const Drone, 1> drones, Int node);
 
+// Whether drones may be launched in another order than they were chosen in: those of another type,
+// or which come back to where they are launched.
+bool order_may_change(const VehicleType& type);
+
 // Tell whether another drone in flight may be the first, so that working may begin sooner.
 bool order_is_open(const Setting& setting, const Vehicle& vehicle);
 
-// When a drone takes off at the soonest that does at `takeoff` behind all in flight: one of another
-// type may be launched before these.
+// When a drone takes off at the soonest that does at `takeoff` behind all in flight: it may be
+// launched before these.
 Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
                     Int takeoff);
 

@@ -9,6 +9,7 @@
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "rules/start.h"
+#include "simulation/meeting.h"
 
 namespace tandem {
 namespace {
@@ -138,8 +139,8 @@ private:
                                 ? charged_takeoff(setting_, log_, index, first_, free_, launched_)
                                 : sortie_takeoff(setting_, log_, sortie, free_, launched_);
         const Int arrival = takeoff + drone_kind.out(node, customer);
-        // Who is still in flight may be launched before those of other types.
-        const bool may_be_sooner = writes && is_flying && are_several(setting_.type);
+        // Who is still in flight may be launched before others.
+        const bool may_be_sooner = writes && is_flying && order_may_change(setting_.type);
         if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
         const Int start = place.start_of_service(arrival);
         const Int served = place.end_of_service(arrival);

@@ -253,7 +253,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         _changes_ends(kind), kind.earliest, kind.busy_until,
         int(kind.works_since is not None), *_limits_of_work(kind),
         _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
-        _most_sorties(kind), kind.reload_duration,
+        _most_sorties(kind), kind.most_airborne, int(kind.truck_waits), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
         *battery_row(energy), _pickup_order(kind), load[0], _padded(free, room),

@@ -281,6 +281,11 @@ def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
     if kind.max_sorties is not None:
         slack = None if trip is None else float(kind.max_sorties - len(trip.sorties))
         yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
+    if kind.most_airborne < kind.num_drones:
+        most = kind.most_airborne + 1
+        yield "max_airborne", "unit", None, replace(kind, max_airborne=most)
+    if kind.truck_waits:
+        yield "truck_waits", "rule", None, replace(kind, truck_waits=False)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:

@@ -94,6 +94,7 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         yield from _aboard_violations(problem, timed)
     if vehicle_type.drones is not None and trip.sorties:
         yield from _drone_busy(timed)
+        yield from _airborne_violations(vehicle_type, timed)
         yield from _energy_violations(problem, vehicle_type, timed)
         for index, sortie in enumerate(trip.sorties):
             sortie_path = f"{path}.sorties[{index}]"
@@ -189,6 +190,21 @@ def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
                 yield Violation("DRONE_BUSY", f"drone {drone} is still on a sortie", path)
             else:
                 flying.add(drone)
+
+
+def _airborne_violations(vehicle_type: VehicleType, timed: TimedTrip) -> Iterator[Violation]:
+    """Sorties that leave too many drones in the air, or their truck on its way."""
+    flying, most = 0, vehicle_type.most_airborne
+    for group in timed.decision.operations or ():
+        for index, is_launch in group:
+            flying += 1 if is_launch else -1
+            if is_launch and flying > most:
+                message = f"{flying} drones in the air, at most {most} are allowed"
+                yield Violation("MAX_AIRBORNE", message, f"{timed.path}.sorties[{index}]")
+    for index, sortie in enumerate(timed.trip.sorties):
+        if vehicle_type.truck_waits and sortie.launch_stop != sortie.recovery_stop:
+            message = f"{vehicle_type.id} drives on while a drone is out"
+            yield Violation("TRUCK_WAITS", message, f"{timed.path}.sorties[{index}]")
 
 
 def _sortie_violations(

@@ -134,6 +134,8 @@ class Screen:
             return
         for first, drones in first_drones(kind):
             for recovery, place in enumerate((begin, end)):
+                if recovery and kind.truck_waits:
+                    break
                 duration, price = self._flight(drones, begin, place)
                 if duration < UNREACHABLE:
                     price += fixed + duration * kind.cost_per_hour / MS_PER_HOUR
@@ -192,6 +194,7 @@ class Screen:
         """Yield flights of their own, of drones of a type, numbered from `first`, aboard then."""
         per_hour = self._problem.vehicle_types[vehicle.type].cost_per_hour
         customer, last = self._customer, len(trip.stops) - 1
+        waits = self._problem.vehicle_types[vehicle.type].truck_waits
         legs = self._legs_of(drones.travel)
         for launch in range(first_stop - 1, last + 1):
             begin = trip.stops[launch]
@@ -200,7 +203,8 @@ class Screen:
             too_late = 0
             if customer.late_cost_per_hour is None:
                 too_late = max(0, arrival - customer.latest)
-            for recovery in range(launch, min(launch + SPANS, last + 1)):
+            furthest = launch if waits else min(launch + SPANS - 1, last)
+            for recovery in range(launch, furthest + 1):
                 end = trip.stops[recovery]
                 duration, cost = self._flight(drones, begin.node, end.node)
                 if duration >= UNREACHABLE:

@@ -165,12 +165,12 @@ def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie:
 
 
 def _by_arrival(
-    sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight]
+    sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight], most: int
 ) -> Iterator[Operation]:
     """Yield recoveries of earlier sorties, then launches, then recoveries of loops.
 
-    A drone's loop ends before it is launched again, and with it those that are back sooner.
-    `flights` fills in the meantime.
+    A drone's loop ends before it is launched again, and with it those that are back sooner; loops
+    end, too, before more drones than `most` would be in the air. `flights` fills in the meantime.
     """
     def arrival(index: int) -> tuple[int, int]:
         return flights[index].arrival, index
@@ -186,6 +186,11 @@ def _by_arrival(
             for loop in sorted([i for i in loops if arrival(i) <= last], key=arrival):
                 loops.remove(loop)
                 yield Operation(loop, False)
+            away = sum([sorties[other].recovery_stop > stop for other in flights])
+            while loops and away + len(loops) >= most:
+                first = min(loops, key=arrival)
+                loops.remove(first)
+                yield Operation(first, False)
             yield Operation(index, True)
             if sortie.recovery_stop == stop:
                 loops.append(index)
@@ -201,7 +206,7 @@ def _operate(problem: Problem, kind: VehicleType, decision: TripDecision, stop: 
     """
     operations: Iterable[Operation]
     if decision.operations is None:
-        operations = _by_arrival(decision.sorties, stop, flights)
+        operations = _by_arrival(decision.sorties, stop, flights, kind.most_airborne)
     else:
         operations = decision.operations[stop]
     facts, earliest = ((), time) if known is None else (known.sorties, now)

@@ -99,6 +99,8 @@ class VehicleType:
     max_trips: int = 1
     max_stops: int | None = None  # customers that the truck itself serves on a trip
     max_sorties: int | None = None  # on a trip, of all drones together
+    max_airborne: int | None = None  # of a truck's drones, at once
+    truck_waits: bool = False  # drones are launched and recovered at the same stop
     reload_duration: int = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
     service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
@@ -130,11 +132,12 @@ class VehicleType:
         for duration in self.service_durations.values():
             require_quantity(f"vehicle type {self.id} service_durations", duration)
         for name in ("earliest", "reload_duration", "busy_until", "max_working_duration",
-                     "max_trip_distance", "max_stops", "max_sorties"):
+                     "max_trip_distance", "max_stops", "max_sorties", "max_airborne"):
             require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
         for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
                      "cost_per_load_km", "co2_kg_per_km", "co2_kg_per_kwh"):
             require_rate(f"vehicle type {self.id} {name}", getattr(self, name) or 0.0)
+        require(self.max_airborne != 0, f"vehicle type {self.id} max_airborne", self.max_airborne)
         require(self.drones is not None or not self.more_drones,
                 f"vehicle type {self.id} more_drones", self.more_drones)
         self._require_beginning()
@@ -160,6 +163,11 @@ class VehicleType:
     def service_at(self, customer: Customer) -> int:
         """Return how long a truck serves a customer."""
         return self.service_durations.get(customer.id, customer.service_duration)
+
+    @property
+    def most_airborne(self) -> int:
+        """How many of a truck's drones may be in the air at once."""
+        return self.num_drones if self.max_airborne is None else self.max_airborne
 
     @property
     def drone_types(self) -> tuple[DroneType, ...]:

@@ -132,9 +132,15 @@ def _at_this_stop(problem: Problem, kind: VehicleType, recovered: OpenTrip,
         begin = max(crew, charged_launch(problem, drones, path, rests[index]))
         return held_takeoff(problem, drones, path, begin + lasting), lasting
 
+    def may_fly(index: int) -> bool:
+        """Tell whether there is room in the air; the last is for those that come back here."""
+        free = kind.most_airborne - len(back) - len(set(rests) - set(launches) - set(loops))
+        return free > 1 or (free == 1 and (index in loops or not set(launches) & set(loops)))
+
     while launches or back:
-        taken = {index: take_off(index) for index in launches}
-        launch = min(launches, key=lambda index: (taken[index][0], recovered.flights[index].drone),
+        able = [index for index in launches if may_fly(index)]
+        taken = {index: take_off(index) for index in able}
+        launch = min(able, key=lambda index: (taken[index][0], recovered.flights[index].drone),
                      default=None)
         loop = min(back, key=lambda index: (back[index], recovered.flights[index].drone),
                    default=None)
@@ -162,11 +168,19 @@ def _settle(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
                  _timed(problem, vehicle, settled))
 
 
+def _to_come_back(problem: Problem, kind: VehicleType, trip: OpenTrip, to: int) -> list[int]:
+    """Return the sorties that can't end at `to`, or that would be too many in the air meanwhile."""
+    away = [index for index in trip.flying if lasts(problem, kind, trip, index, to)]
+    away.sort(key=lambda index: trip.flights[index].drone)
+    away = away[:0 if kind.truck_waits else kind.most_airborne]
+    return [index for index in trip.flying if index not in away]
+
+
 def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | None:
     """Drive the vehicle to a node while drones are in the air."""
     trip = vehicle.trips[-1]
     vehicle_type, flying = problem.vehicle_types[vehicle.kind], trip.flying
-    loops = [index for index in flying if not lasts(problem, vehicle_type, trip, index, to)]
+    loops = _to_come_back(problem, vehicle_type, trip, to)
     while True:
         here = len(trip.nodes) - 1
         operations = list(trip.operations[-1])

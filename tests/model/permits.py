@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.problem import MM_PER_KM, DroneType, Problem, Travel
+from model.problem import MM_PER_KM, DroneType, Problem, Travel, VehicleType
 from tests.model.tiny import MINUTE, with_drones
 
 
@@ -23,3 +23,15 @@ def with_ranges(rng: np.random.Generator, problem: Problem) -> Problem:
     return replace(problem, travel=(*problem.travel, Travel(steps * MINUTE, steps * MM_PER_KM)),
                    vehicle_types=tuple(with_drones(kind, limited)
                                        for kind in problem.vehicle_types))
+
+
+def with_few_airborne(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem most of whose trucks wait for drones, or let few of several fly at once."""
+    def permitted(kind: VehicleType) -> VehicleType:
+        if kind.drones is None:
+            return kind
+        kind = replace(kind, drones=replace(kind.drones, count=1 + int(rng.integers(3))))
+        most = int(rng.integers(1, 3)) if rng.random() < 0.7 else None
+        return replace(kind, max_airborne=most, truck_waits=bool(rng.random() < 0.4))
+
+    return replace(problem, vehicle_types=tuple(map(permitted, problem.vehicle_types)))

@@ -44,6 +44,8 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         max_trips=stated.max_trips,
         max_stops=stated.max_stops,
         max_sorties=stated.max_sorties,
+        max_airborne=stated.max_airborne,
+        truck_waits=stated.truck_waits,
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
         pickups=stated.pickups,

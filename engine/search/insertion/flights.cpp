@@ -53,6 +53,8 @@ public:
           inward_(legs_to(data_.back, type_.drone_travel, node_)),
           onward_(legs_from(data_.leg, type_.home_travel, node_)),
           room_(room_on(data_, searcher_.now, slot, searcher_.now.route[slot].type, node_)),
+          crosses_(data_.strategy.crossings &&
+                   !waits_for_drones(data_.type[searcher_.now.route[slot].type])),
           best_(insertion.best.cost),
           early_(searcher_.now.early[slot]),
           idle_(idle_time(searcher_.now.route[slot])),
@@ -75,7 +77,7 @@ public:
         const Int begun = recovery_end(type_, ready) - idle_;
         Int last = free_until(data_, searcher_.now, slot_, launch, row_);
         const Int furthest = searcher_.now.trip(slot_, from.trip).last;
-        last = std::min({last, furthest, data_.strategy.crossings ? launch + max_span : launch});
+        last = std::min({last, furthest, crosses_ ? launch + max_span : launch});
         for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
              ++recovery) {
             const Stop& to = stops_[recovery];
@@ -122,6 +124,7 @@ private:
     LegRow inward_;
     LegRow onward_;
     Room room_;
+    bool crosses_;
     double best_;
     double early_;  // what the route's waiting costs, which may become less
     Int idle_;      // how long the route could work longer at no cost

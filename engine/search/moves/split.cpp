@@ -46,7 +46,7 @@ double cost_across(const ProblemData& data, Int k, View<const Line, 1> line, Int
     const Int service = data.place.by_truck(type)[from.node].service_duration();
     const Int drive =
         to.drive - from.drive - spared.spared_drive + stay_beside_launch(type, service);
-    if (!in_range(data, type, from.node, spared.node) ||
+    if (waits_for_drones(type) || !in_range(data, type, from.node, spared.node) ||
         !in_range(data, type, to.node, spared.node)) {
         return infinite_cost;
     }

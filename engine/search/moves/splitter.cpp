@@ -61,7 +61,7 @@ public:
         Operation best{infinite_cost, 0, no_flight};
         if (j == length_ - 1 || drives_[line_[j].node]) {
             drive_to(j, best);
-            if (data_.strategy.crossings) cross_to(j, best);
+            if (data_.strategy.crossings && !waits_for_drones(type_)) cross_to(j, best);
         }
         line_[j].before = best.before;
         line_[j].flight = best.flight;

@@ -141,11 +141,28 @@ bool is_aboard(View<const Sortie, 1> sorties, Int index, Int oldest) {
     return true;
 }
 
+// Tell whether a drone may be in the air beside those that are, launched at stop `p`.
+//
+// Those that come back there are launched first: behind, there might be no room.
+bool has_airspace(const VehicleType& type, View<const Sortie, 1> sorties, Int count, Int index,
+                  Int p, const BlockSums& sums) {
+    if (sums.flying >= most_airborne(type)) return false;
+    if (sums.flying + 1 < most_airborne(type) || sorties[index].recovery == p) return true;
+    for (Int other = sums.oldest; other < count && sorties[other].launch <= p; ++other) {
+        const Sortie& loop = sorties[other];
+        if (loop.state == sortie_waits && loop.launch == p && loop.recovery == p) return false;
+    }
+    return true;
+}
+
 // Tell whether a sortie is to be launched or recovered at stop `p` next.
-bool is_due(View<const Sortie, 1> sorties, Int index, Int p, Int oldest) {
+bool is_due(const VehicleType& type, View<const Sortie, 1> sorties, Int count, Int index, Int p,
+            const BlockSums& sums) {
     const Sortie& sortie = sorties[index];
     if (sortie.state == sortie_flies) return sortie.recovery == p;
-    return sortie.state == sortie_waits && sortie.launch == p && is_aboard(sorties, index, oldest);
+    return sortie.state == sortie_waits && sortie.launch == p &&
+           is_aboard(sorties, index, sums.oldest) &&
+           (!limits_airborne(type) || has_airspace(type, sorties, count, index, p, sums));
 }
 
 // Return when the launch or recovery of a sortie that is due can begin, doubled.
@@ -170,7 +187,7 @@ Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p
     Int chosen = -1, earliest = none;
     for (Int index = sums.oldest; index < count && sorties[index].launch <= p; ++index) {
         Sortie& sortie = sorties[index];
-        if (!is_due(sorties, index, p, sums.oldest)) continue;
+        if (!is_due(truck.type, sorties, count, index, p, sums)) continue;
         if (sortie.state == sortie_waits) {
             const DroneData drone_data = truck.drone_data(sortie);
             if (charges_aboard(drone_data.type)) {
@@ -286,7 +303,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
             sums.hi = std::min(sums.hi, last_end(type) - d);
         }
         if (sums.flying == 0) break;
-        if (stop.kind == end_stop || p + 1 >= length) return -1;
+        if (stop.kind == end_stop || p + 1 >= length || waits_for_drones(type)) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
         const TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});

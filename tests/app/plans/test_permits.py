@@ -65,3 +65,42 @@ def test_explain_tells_what_max_range_is_worth(client: httpx.Client, smallest: R
     rule, = [each for each in told["binding"] if each["rule"] == "drones.max_range"]
     assert (rule["slack"], rule["unit"]) == (None, "km")
     assert rule["saves_per_unit"] > 0
+
+
+def broken(client: httpx.Client, request: Request, sorties: list[Request],
+           stops: int = 0) -> set[str]:
+    """Return the rules that a plan breaks on whose only trip the truck serves the first customers.
+    """
+    served = [{"kind": "customer", "id": each["id"]} for each in request["customers"][:stops]]
+    depot = {"kind": "depot", "id": "hub"}
+    plan = {"routes": [{"vehicle": "truck-1", "type": "truck", "trips": [
+        {"stops": [depot, *served, depot], "sorties": sorties}]}]}
+    verdict = client.post("/check", json={"problem": request, "plan": plan})
+    assert verdict.status_code == 200, verdict.text
+    return {violation["code"] for violation in verdict.json()["violations"]}
+
+
+def sortie(number: int, customer: str, launch: int, recovery: int) -> Request:
+    """Return a sortie as plans state it."""
+    return {"drone": f"truck-1/drone-{number}", "launch_stop": launch, "recovery_stop": recovery,
+            "customers": [{"id": customer}]}
+
+
+def test_few_drones_are_in_the_air_at_once(client: httpx.Client, smallest: Request) -> None:
+    request = by_drone(smallest, count=2)
+    both = [sortie(1, "A", 0, 1), sortie(2, "B", 0, 1)]
+    assert broken(client, request, both) == set()
+    request["fleet"][0]["max_airborne"] = 1
+    assert broken(client, request, both) == {"MAX_AIRBORNE"}
+    assert broken(client, request, [sortie(1, "A", 0, 0), sortie(2, "B", 0, 0)]) == set()
+    assert planned(client, request)["unassigned"] == []
+
+
+def test_a_truck_waits_for_its_drones(client: httpx.Client, smallest: Request) -> None:
+    request = by_drone(smallest)
+    request["customers"][0]["served_by"] = "truck"
+    across = [sortie(1, "B", 0, 1)]
+    assert broken(client, request, across, 1) == set()
+    request["fleet"][0]["truck_waits"] = True
+    assert broken(client, request, across, 1) == {"TRUCK_WAITS"}
+    assert broken(client, request, [sortie(1, "B", 1, 1)], 1) == set()

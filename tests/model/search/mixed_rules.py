@@ -3,7 +3,7 @@
 import numpy as np
 
 from model.problem import Problem
-from tests.model.permits import with_ranges
+from tests.model.permits import with_few_airborne, with_ranges
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
@@ -53,6 +53,15 @@ def all_rules_drone_types(rng: np.random.Generator) -> Problem:
     while True:
         problem = with_drone_types(rng, all_rules(rng))
         if any(kind.more_drones for kind in problem.vehicle_types):
+            return problem
+
+
+def all_rules_few_airborne(rng: np.random.Generator) -> Problem:
+    """Return problems of trucks with few of their drones in the air, or that wait for them."""
+    while True:
+        problem = with_few_airborne(rng, all_rules(rng))
+        if any(kind.drones and (kind.truck_waits or kind.most_airborne < kind.num_drones)
+               for kind in problem.vehicle_types):
             return problem
 
 

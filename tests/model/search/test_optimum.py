@@ -17,10 +17,10 @@ from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.search.mixed_rules import (
     all_rules, all_rules_at_once, all_rules_begun, all_rules_both_ways, all_rules_drone_types,
-    all_rules_elsewhere, all_rules_goods_apart, all_rules_in_range, all_rules_limits_aboard,
-    all_rules_of_duty,
-    all_rules_on_batteries, all_rules_open, all_rules_open_reloading, all_rules_own_durations,
-    all_rules_reloading, all_rules_setups, all_rules_several_windows, all_rules_swapping,
+    all_rules_elsewhere, all_rules_few_airborne, all_rules_goods_apart, all_rules_in_range,
+    all_rules_limits_aboard, all_rules_of_duty, all_rules_on_batteries, all_rules_open,
+    all_rules_open_reloading, all_rules_own_durations, all_rules_reloading, all_rules_setups,
+    all_rules_several_windows, all_rules_swapping,
 )
 from tests.model.tiny import with_dimensions, with_places
 
@@ -159,6 +159,15 @@ def near_sorties(rng: np.random.Generator) -> Problem:
         replace(kind, drones=drones) for kind in problem.vehicle_types))
 
 
+def one_of_two_airborne(rng: np.random.Generator) -> Problem:
+    """One of two drones is in the air at a time, or the truck waits for both."""
+    problem = two_drones(rng)
+    waits = bool(rng.random() < 0.5)
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, max_airborne=2 if waits else 1, truck_waits=waits)
+        for kind in problem.vehicle_types))
+
+
 def rush_hour(rng: np.random.Generator) -> Problem:
     profile = SpeedProfile((20 * MINUTE, 60 * MINUTE), (FULL_SPEED, FULL_SPEED // 2, FULL_SPEED))
     customers = with_windows(rng, plain_customers(rng, 4), 20, None)
@@ -276,7 +285,7 @@ KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
     timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries,
-    small_and_large_drones, near_sorties)
+    small_and_large_drones, near_sorties, one_of_two_airborne)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -302,7 +311,8 @@ def missed_seeds(draw: Callable[[np.random.Generator], Problem], seeds: range) -
 @pytest.mark.parametrize("draw", KINDS, ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan(draw: Callable[[np.random.Generator], Problem]) -> None:
     # What many plans of two drones are compared with takes seconds each.
-    dear = two_drones, long_sorties, drones_both_ways, small_and_large_drones, near_sorties
+    dear = two_drones, long_sorties, drones_both_ways, small_and_large_drones, near_sorties, \
+        one_of_two_airborne
     number = 1 if draw in dear else 2
     assert missed_seeds(draw, range(number)) == []
 
@@ -323,7 +333,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
     all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
     all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping,
-    all_rules_in_range],
+    all_rules_in_range, all_rules_few_airborne],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

@@ -532,6 +532,8 @@ export default {
     max_trips: 'Die Höchstzahl der Fahrten',
     overtime_max_duration: 'Die Überstunden',
     max_stops: 'Die Höchstzahl der Stopps einer Fahrt',
+    max_airborne: 'Die Höchstzahl der Drohnen in der Luft',
+    truck_waits: 'Das Warten des Fahrzeugs auf Drohnen',
     max_sorties: 'Die Höchstzahl der Flüge einer Fahrt',
     vehicles: 'Welche Fahrzeuge ihn bedienen dürfen',
     served_by: 'Ob ein Fahrzeug oder eine Drohne ihn bedienen muss',
@@ -922,6 +924,7 @@ export default {
     location_index: 'Zeile in der Matrix',
     max_customers_per_sortie: 'Höchstens Kunden je Flug',
     max_duration: 'Höchstens',
+    max_airborne: 'Höchstens in der Luft',
     max_range: 'Höchstens entfernt',
     max_sorties: 'Höchstens Flüge',
     max_stops: 'Höchstens Stopps',
@@ -968,6 +971,7 @@ export default {
     time_window: 'Zeitfenster',
     time_windows: 'Mehrere Zeitfenster',
     times: 'Zeitangaben',
+    truck_waits: 'Fahrzeug wartet',
     turnaround: 'Wieder startklar',
     unassigned_cost: 'Kosten, wenn ausgelassen',
     unit: 'Einheit',
@@ -1130,6 +1134,9 @@ export default {
       max_stops:
         'Wie viele Kunden das Fahrzeug selbst auf einer Fahrt höchstens bedient. Leer: ' +
         'ohne Grenze.',
+      max_airborne:
+        'Wie viele Drohnen eines Fahrzeugs höchstens zugleich in der Luft sind. Leer: alle.',
+      truck_waits: 'Ob das Fahrzeug steht, solange eine seiner Drohnen unterwegs ist.',
       max_sorties: 'Wie viele Flüge eine Fahrt höchstens hat. Leer: ohne Grenze.',
       reload_duration: 'Zeit am Depot zwischen zwei Fahrten.',
       skills: 'Was die Fahrzeuge und ihre Drohnen können, etwa Hebebühne oder Kühlung.',
@@ -1457,6 +1464,8 @@ export default {
     SEARCH: 'In der verfügbaren Zeit wurde kein Platz gefunden.',
     MAX_STOPS: 'Die Fahrt hätte zu viele Stopps.',
     MAX_RANGE: 'Ein Kunde läge zu weit vom Start oder von der Aufnahme entfernt.',
+    MAX_AIRBORNE: 'Zu viele Drohnen wären in der Luft.',
+    TRUCK_WAITS: 'Das Fahrzeug führe weiter, während eine Drohne unterwegs ist.',
     MAX_SORTIES: 'Die Fahrt hätte zu viele Flüge.',
     SORTIES: 'Es wären zu viele Flüge.',
     STOPS: 'Es wären zu viele Stopps.',
