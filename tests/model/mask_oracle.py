@@ -97,6 +97,16 @@ def _drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> boo
         problem, kind, trip)[index]
 
 
+def _cannot_be_flown(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
+    """Tell whether a sortie lasts too long, or begins too far from its customer."""
+    sortie = trip.sorties[index]
+    drones = kind.drone_type(sortie.drone)
+    return (drones.endurance < airborne_duration(problem, drones, trip, sortie)
+            or _drained(problem, kind, trip, index)
+            or not in_range(problem, drones, trip.stops[sortie.launch_stop].node,
+                            sortie.visits[0].node))
+
+
 def _rest(problem: Problem, kind: VehicleType, trip: Trip, drone: int, stop: int) -> Rest | None:
     """Return how a drone has last come aboard before a stop; None if nothing is charged there."""
     drones = kind.drone_type(drone)
@@ -207,12 +217,7 @@ def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | No
             settled = _recovered(trip, to, loops, order, operations)
             timed = _timed(problem, vehicle, settled)
         late = [index for index in order if arrivals[index] >= UNREACHABLE
-                or drones_of(vehicle_type, trip, index).endurance < airborne_duration(
-                    problem, drones_of(vehicle_type, trip, index), timed, timed.sorties[index])
-                or _drained(problem, vehicle_type, timed, index)
-                or not in_range(problem, drones_of(vehicle_type, trip, index),
-                                timed.stops[timed.sorties[index].launch_stop].node,
-                                trip.flights[index].customer)]
+                or _cannot_be_flown(problem, vehicle_type, timed, index)]
         if not late:
             return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)), timed)
         if set(late) & set(loops):
