@@ -184,7 +184,7 @@ class Planner:
         with Alarm(give_up, listener.should_stop) as alarm:
             if alarm.has_rung:
                 return None
-            view = prepare(policy, problem, instance)
+            view = prepare(problem, instance)
             found = decode(policy, view, config, give_up, alarm.setting)
         return None if found is NOTHING else extract(problem, instance, found.actions)
 

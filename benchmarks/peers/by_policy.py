@@ -34,7 +34,7 @@ def solve(instance: Published, seconds: float, seed: int, policy: str) -> PeerAn
     loaded = _policy(policy)
     began = time.perf_counter()
     packed = pack([problem])
-    scene = prepare(loaded, problem, packed)
+    scene = prepare(problem, packed)
     decoded = decode(loaded, scene, config(instance, seconds, seed, policy))
     solution = extract(problem, packed, decoded.actions)
     return plan_to_answer(solution, time.perf_counter() - began)

@@ -109,7 +109,7 @@ def plans(problem: Problem, policy: Policy, way: Way, turns: int | None = None) 
     instance = pack([problem], legs=way.start == "policy")
     first = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     if way.start == "policy":
-        scene = prepare(policy, problem, instance)
+        scene = prepare(problem, instance)
         decoded = decode(policy, scene, DecodeConfig(most_views=1))
         first = extract(problem, instance, decoded.actions)
     improved = improve(problem, instance, first, search_config(way, turns),

@@ -40,7 +40,7 @@ def plan_costs(case: Case, policy: str, turns: int) -> tuple[float, ...]:
     """
     problem = case.problem()
     instance = pack([problem])
-    scene = prepare(_policy(policy), problem, instance)
+    scene = prepare(problem, instance)
     plans = [extract(problem, instance, decode(_policy(policy), scene, config).actions)
              for config in WAYS.values()]
     if turns:

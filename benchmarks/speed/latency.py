@@ -110,10 +110,10 @@ def by_phase(request: dict[str, Any], runs: int) -> Clock:
             parsed = read_request(body, [policy.name])
             problem = to_problem(parsed)
             options = plan_options(parsed.options)
-        with now.phase("encode"):
+        with now.phase("describe"):
             instance = pack([problem])
-            scene = prepare(policy, problem, instance)
-        with now.phase("steps"):
+            scene = prepare(problem, instance)
+        with now.phase("decode"):
             decoded = decode(policy, scene, DecodeConfig(options.decoding, options.num_samples))
         with now.phase("extract"):
             solution = extract(problem, instance, decoded.actions)

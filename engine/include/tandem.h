@@ -1132,16 +1132,13 @@ typedef struct tandem_scene {
     tandem_f32_3d type_token; /* (problem, type, number) */
 } tandem_scene;
 
-/* Rollouts of one problem, each begun by actions that are given. */
-typedef struct tandem_courses {
-    tandem_i64_1d row;         /* (rollout,) of the state */
-    tandem_i64_1d view;        /* (rollout,) of the memory */
-    tandem_f64_1d temperature; /* (rollout,) 0 for the likeliest action at each step */
-    tandem_u64_1d random;      /* (rollout,) states of random numbers, which are moved on */
-    tandem_i64_1d kept;        /* (rollout,) actions that are given */
-    tandem_i64_2d actions;     /* (rollout, action) codes */
-    tandem_i64_1d count;       /* (rollout,) actions in the end, -1 of one that was given up */
-} tandem_courses;
+/* How a rollout begins and goes on. */
+typedef struct tandem_course {
+    double temperature;    /* 0 for the likeliest action at each step */
+    tandem_u64_1d random;  /* (1,) state of random numbers, which is moved on */
+    int64_t kept;          /* how many actions are given */
+    tandem_i64_1d actions; /* codes */
+} tandem_course;
 
 /* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them.
  */
@@ -1157,11 +1154,11 @@ int tandem_candidate_scores(const tandem_step_weights* weights, const tandem_f32
 /* Choose the likeliest candidate, or one drawn by probability if the temperature isn't 0. */
 int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_u64_1d* random,
                   int64_t* choice);
-/* Plan by the policy, on so many threads, each with a row of the state behind all others' to try
-   actions on, until an alarm tells to give up. */
-int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_3d* memory,
-                    const tandem_scene* scene, const tandem_state* state,
-                    const tandem_courses* courses, const tandem_i64_1d* alarm, int64_t threads);
+/* Plan row `r` of the state by the policy, where the last row is scratch, until an alarm tells to
+   give up; `count` of its actions, -1 if it was given up. */
+int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_2d* memory,
+                    const tandem_scene* scene, const tandem_state* state, int64_t r,
+                    const tandem_course* course, const tandem_i64_1d* alarm, int64_t* count);
 
 /* Search: neighbourhood. */
 

@@ -1,12 +1,8 @@
 #include "policy/rollouts.h"
 
 #include <algorithm>
-#include <atomic>
-#include <exception>
 #include <memory>
 #include <numeric>
-#include <system_error>
-#include <thread>
 #include <vector>
 
 #include "deadline.h"
@@ -88,16 +84,7 @@ Int most_candidates(const Instance& instance) {
     return 2 * instance.node.shape(2) + 1 + instance.type.shape(1);
 }
 
-// Where a rollout begins, and how it goes on.
-struct Course {
-    Memory memory;
-    double temperature;
-    View<std::uint64_t, 1> random;
-    Int kept;              // actions that are given
-    View<Int, 1> actions;  // codes
-};
-
-// Plans one rollout after another, in one thread.
+// Plans a rollout.
 class Planner {
 public:
     Planner(const StepWeights& weights, const Scene& scene, State& state, Int scratch,
@@ -141,31 +128,6 @@ private:
     std::vector<float> scores_;
 };
 
-// Run a function by number on some threads, this one among them; throws what one of them threw.
-template <class Work>
-void run_on(Int threads, Work&& work) {
-    std::vector<std::exception_ptr> thrown(static_cast<std::size_t>(threads));
-    const auto caught = [&](Int number) noexcept {
-        try {
-            work(number);
-        } catch (...) {
-            thrown[static_cast<std::size_t>(number)] = std::current_exception();
-        }
-    };
-    std::vector<std::thread> others;
-    others.reserve(static_cast<std::size_t>(threads));
-    try {
-        for (Int number = 1; number < threads; ++number) others.emplace_back(caught, number);
-    } catch (const std::system_error&) {
-        // With fewer threads it only takes longer.
-    }
-    caught(0);
-    for (std::thread& other : others) other.join();
-    for (const std::exception_ptr& error : thrown) {
-        if (error) std::rethrow_exception(error);
-    }
-}
-
 }  // namespace
 
 Int choose(std::vector<float>& scores, Int count, double temperature,
@@ -182,23 +144,10 @@ Int choose(std::vector<float>& scores, Int count, double temperature,
     return best;
 }
 
-void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
-              State& state, const Courses& courses, View<const Int, 1> alarm, Int threads) {
-    const View<const Int, 1> rows(courses.row), view(courses.view), kept(courses.kept);
-    const View<const double, 1> temperature(courses.temperature);
-    const View<std::uint64_t, 1> random(courses.random);
-    const View<Int, 2> actions(courses.actions);
-    const View<Int, 1> count(courses.count);
-    const Int scratch = state.problem.size() - threads;
-    std::atomic<Int> next = 0;
-    run_on(std::min(threads, rows.size()), [&](Int number) {
-        Planner planner(weights, scene, state, scratch + number, Deadline(alarm));
-        for (Int i = next++; i < rows.size(); i = next++) {
-            const View<std::uint64_t, 1> own(&random[i], {1});
-            const Course course{memory[view[i]], temperature[i], own, kept[i], actions[i]};
-            count[i] = planner.plan(course, rows[i]);
-        }
-    });
+Int roll_out(const StepWeights& weights, const Scene& scene, State& state, Int r,
+             const Course& course, View<const Int, 1> alarm) {
+    Planner planner(weights, scene, state, state.problem.size() - 1, Deadline(alarm));
+    return planner.plan(course, r);
 }
 
 }  // namespace tandem
@@ -215,14 +164,15 @@ int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_
     });
 }
 
-int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_3d* memory,
-                    const tandem_scene* scene, const tandem_state* state,
-                    const tandem_courses* courses, const tandem_i64_1d* alarm, int64_t threads) {
+int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_2d* memory,
+                    const tandem_scene* scene, const tandem_state* state, int64_t r,
+                    const tandem_course* course, const tandem_i64_1d* alarm, int64_t* count) {
     return guarded([&] {
         const Instance instance = instance_of(scene->instance);
         const Scales scale = scales_of(scene->scale);
         State running = state_of(*state);
-        roll_out(step_weights_of(*weights), *memory, {instance, scale, scene->type_token}, running,
-                 *courses, View<Int, 1>(*alarm), threads);
+        *count = roll_out(
+            step_weights_of(*weights), {instance, scale, scene->type_token}, running, r,
+            {*memory, course->temperature, course->random, course->kept, course->actions}, *alarm);
     });
 }

@@ -5,7 +5,14 @@
 
 namespace tandem {
 
-using Courses = tandem_courses;
+// Where a rollout begins, and how it goes on.
+struct Course {
+    Memory memory;
+    double temperature;
+    View<std::uint64_t, 1> random;
+    Int kept;              // actions that are given
+    View<Int, 1> actions;  // codes
+};
 
 // The likeliest of so many candidates, or one drawn by probability if the temperature isn't 0.
 //
@@ -14,10 +21,10 @@ using Courses = tandem_courses;
 Int choose(std::vector<float>& scores, Int count, double temperature,
            View<std::uint64_t, 1> random);
 
-// Plan each rollout, on so many threads, until an alarm tells to give up.
+// Plan row `r` of the state until an alarm tells to give up; returns how many actions there are.
 //
-// Each thread tries actions on a row of its own of the state, behind those of all rollouts.
-void roll_out(const StepWeights& weights, View<const float, 3> memory, const Scene& scene,
-              State& state, const Courses& courses, View<const Int, 1> alarm, Int threads);
+// Actions are tried on the last row of the state.
+Int roll_out(const StepWeights& weights, const Scene& scene, State& state, Int r,
+             const Course& course, View<const Int, 1> alarm);
 
 }  // namespace tandem

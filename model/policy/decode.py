@@ -3,9 +3,9 @@
 import json
 import time
 from collections.abc import Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, replace
-from itertools import chain
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass
+from itertools import chain, repeat
 from pathlib import Path
 from typing import Literal, NamedTuple
 
@@ -19,7 +19,7 @@ from model.engine.instance import Instance
 from model.policy.decision_features import Observation, Rollouts, Scene
 from model.policy.problem_features import Float32Array, Tokens, scales, tokens
 from model.policy.rolling import (
-    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out, roll_out_views,
+    NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out,
 )
 from model.policy.route_pool import RoutePool
 from model.problem import BoolArray, IntArray, Problem
@@ -77,11 +77,10 @@ class Policy:
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A problem as the policy sees it from one side."""
+    """A problem as policies see it."""
 
     scene: Scene
     tokens: Tokens
-    memory: Float32Array  # (token, width)
 
 
 def load_policy(folder: Path) -> Policy:
@@ -113,19 +112,24 @@ def load_policy(folder: Path) -> Policy:
                   step_weights)
 
 
-def prepare(policy: Policy, problem: Problem, instance: Instance) -> View:
-    """Run the encoder."""
+def prepare(problem: Problem, instance: Instance) -> View:
+    """Describe a problem to policies; `instance` is the same, packed alone."""
     scale = scales(instance)
     seen = tokens(instance, scale, problem.coordinates[None])
-    return View(Scene(instance, scale, seen.type), seen, encode(policy, seen, 0))
+    return View(Scene(instance, scale, seen.type), seen)
 
 
-def encode(policy: Policy, seen: Tokens, symmetry: int) -> Float32Array:
-    """Return what the encoder makes of a problem laid out by one of the `SYMMETRIES`."""
+def laid_out(seen: Tokens, symmetry: int) -> Tokens:
+    """Return a problem's tokens with its plane laid out by one of the `SYMMETRIES`."""
     swapped, x, y = SYMMETRIES[symmetry]
     node = seen.node.copy()
     node[..., :2] = (node[..., 1::-1] if swapped else node[..., :2]) * np.array([x, y], np.float32)
-    memory, = policy.encoder.run(None, {"node": node, "type": seen.type, "pair": seen.pair})
+    return seen._replace(node=node)
+
+
+def encode(policy: Policy, seen: Tokens) -> Float32Array:
+    """Return what the encoder makes of a problem, (token, width)."""
+    memory, = policy.encoder.run(None, {"node": seen.node, "type": seen.type, "pair": seen.pair})
     return memory
 
 
@@ -138,7 +142,7 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
     policy
         An exported policy.
     view
-        The problem, prepared by the same policy.
+        The problem.
     config
         Greedy or sampled; the same seed gives the same plan. Where several samples are asked for,
         greedy plans are among them.
@@ -173,7 +177,6 @@ class _Block(NamedTuple):
     symmetry: int  # one of SYMMETRIES
     temperatures: list[float]
     is_first: bool = False
-    is_view: bool = False  # one greedy plan of all
 
 
 def _rounds(policy: Policy, view: View, config: DecodeConfig) -> list[list[_Block]]:
@@ -202,7 +205,7 @@ def _greedy(views: int, in_parts: bool) -> list[list[_Block]]:
     encoded and planned as a whole.
     """
     parts = views // 2 if in_parts else 0
-    whole = [_Block(symmetry, [0.0], symmetry == 0, True) for symmetry in range(views - parts)]
+    whole = [_Block(symmetry, [0.0], symmetry == 0) for symmetry in range(views - parts)]
     lines = [_Block(symmetry, [0.0] * parts) for symmetry in range(min(LANES, len(whole)))]
     return [whole, lines] if parts > 0 else [whole]
 
@@ -215,41 +218,38 @@ class _Planning:
         self.alarm = alarm
         self._policy = policy
         self._deadline = deadline
-        self._views = {0: view}
+        self._view = view
+        self._memories: dict[int, Float32Array] = {}  # by symmetry
 
     def plan(self, blocks: Sequence[_Block], seeds: Sequence[np.random.SeedSequence],
              so_far: Rollout, pool: ThreadPoolExecutor) -> list[Rollout]:
         """Return what blocks plan, those that are due, before what they go on from changes."""
-        weights = self._policy.step_weights
-        if weights is None or not all(block.is_view for block in blocks):
-            planned = pool.map(lambda block, seed: self._plan_block(block, seed, so_far), blocks,
-                               seeds)
-            return list(chain.from_iterable(planned))
-        views = list(pool.map(self._seen_from, (
-            block.symmetry for block in blocks if self._is_due(block))))
-        return roll_out_views(weights, [view.memory for view in views], self._views[0].scene,
-                              self.alarm, num_cores()) if views else []
+        # All are encoded first: so no core waits at the end while another does both for the last.
+        memories = [pool.submit(self._encode, block) for block in blocks]
+        planned = pool.map(self._plan_block, blocks, memories, seeds, repeat(so_far))
+        return list(chain.from_iterable(planned))
 
-    def _plan_block(self, block: _Block, seed: np.random.SeedSequence,
-                    so_far: Rollout) -> list[Rollout]:
-        if not self._is_due(block):
+    def _plan_block(self, block: _Block, encoded: Future[Float32Array | None],
+                    seed: np.random.SeedSequence, so_far: Rollout) -> list[Rollout]:
+        memory = encoded.result()
+        if memory is None:
             return []
-        return _decode_block(self._policy, self._seen_from(block.symmetry), block.temperatures,
+        return _decode_block(self._policy, self._view.scene, memory, block.temperatures,
                              np.random.default_rng(seed), so_far, self.alarm)
 
-    def _is_due(self, block: _Block) -> bool:
+    def _encode(self, block: _Block) -> Float32Array | None:
+        """Return what the encoder makes of a block's view; None if the block isn't due."""
         is_late = self._deadline is not None and time.perf_counter() >= self._deadline
-        return not has_rung(self.alarm) and (block.is_first or not is_late)
+        if has_rung(self.alarm) or (is_late and not block.is_first):
+            return None
+        symmetry = block.symmetry
+        if symmetry not in self._memories:
+            seen = laid_out(self._view.tokens, symmetry)
+            self._memories[symmetry] = encode(self._policy, seen)
+        return self._memories[symmetry]
 
-    def _seen_from(self, symmetry: int) -> View:
-        if symmetry not in self._views:
-            first = self._views[0]
-            self._views[symmetry] = replace(
-                first, memory=encode(self._policy, first.tokens, symmetry))
-        return self._views[symmetry]
 
-
-def _decode_block(policy: Policy, view: View, temperatures: list[float],
+def _decode_block(policy: Policy, scene: Scene, memory: Float32Array, temperatures: list[float],
                   rng: np.random.Generator, so_far: Rollout,
                   alarm: IntArray) -> list[Rollout]:
     """Plan a rollout by each temperature.
@@ -257,21 +257,20 @@ def _decode_block(policy: Policy, view: View, temperatures: list[float],
     Those of a policy whose step is in the engine go on from the best so far. An alarm ends them.
     """
     if policy.step_weights is not None:
-        return roll_out(policy.step_weights, view.memory, view.scene, temperatures, rng, so_far,
-                        alarm)
+        return roll_out(policy.step_weights, memory, scene, temperatures, rng, so_far, alarm)
     rows, warmth = len(temperatures), np.array([temperatures], np.float32).T
-    rollouts = Rollouts(view.scene, np.zeros(rows, np.int64))
+    rollouts = Rollouts(scene, np.zeros(rows, np.int64))
     seen = rollouts.seen
     hidden = np.zeros((rows, policy.hidden_size), np.float32)
     choice = np.zeros(rows, np.int64)
     actions = []
-    for _ in range(max_steps(view.scene.instance)):
+    for _ in range(max_steps(scene.instance)):
         if has_rung(alarm):
             return []
         most = rollouts.step(choice)
         if most == 0:
             break
-        logits, hidden = policy.step.run(None, step_inputs(policy, view, seen, most, hidden))
+        logits, hidden = policy.step.run(None, step_inputs(policy, memory, seen, most, hidden))
         noise = rng.standard_exponential(logits.shape, np.float32)
         noise[warmth[:, 0] == 0.0] = 1.0
         disturbed(logits, np.where(warmth > 0.0, warmth, 1.0), noise).argmax(axis=1, out=choice)
@@ -292,11 +291,11 @@ def disturbed(logits: Float32Array, temperature: Float32Array,
     return logits / temperature - np.log(np.maximum(noise, np.finfo(np.float32).tiny))
 
 
-def step_inputs(policy: Policy, view: View, seen: Observation, most: int,
+def step_inputs(policy: Policy, memory: Float32Array, seen: Observation, most: int,
                 hidden: Float32Array) -> dict[str, IntArray | Float32Array | BoolArray]:
     """Return the inputs of `step.onnx`, padded to `most` candidates."""
     return {
-        "memory": view.memory,
+        "memory": memory,
         "here": seen.here,
         "candidate": np.ascontiguousarray(seen.token[:, :most]),
         "feature": np.ascontiguousarray(seen.feature[:, :most, : policy.num_features]),

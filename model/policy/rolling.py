@@ -19,7 +19,7 @@ from model.policy.decision_features import (
 )
 from model.policy.keeping import MOST_ANEW, MOST_ANEW_GREEDILY, part_to_keep
 from model.policy.problem_features import Float32Array
-from model.problem import FloatArray, IntArray
+from model.problem import IntArray
 from model.simulation.actions import max_steps, reset
 from model.simulation.state import by_term
 
@@ -83,16 +83,13 @@ HOTTER, HOTTER_WITH_DRONES = 2.0, 1.4
 good route is of use in whatever plan it was drawn. Less of it where drones fly."""
 
 
-class Courses(NamedTuple):
-    """Where some rollouts begin and how they go on, a row each."""
+class Course(NamedTuple):
+    """How a rollout begins and goes on."""
 
-    row: IntArray  # (rollout,) of the state
-    view: IntArray  # (rollout,) of the memory
-    temperature: FloatArray  # (rollout,) 0 for the likeliest action at each step
-    random: NDArray[np.uint64]  # (rollout,) states of random numbers, which are moved on
-    kept: IntArray  # (rollout,) actions that are given
-    actions: IntArray  # (rollout, action) codes
-    count: IntArray  # type: ignore[assignment]  # (rollout,) actions in the end, or GIVEN_UP
+    temperature: float  # 0 for the likeliest action at each step
+    random: NDArray[np.uint64]  # (1,) state of random numbers, which is moved on
+    kept: int  # actions that are given
+    actions: IntArray  # (action,) codes
 
 
 def read_weights(path: Path) -> StepWeights:
@@ -128,32 +125,6 @@ def candidate_scores(weights: StepWeights, memory: Float32Array, seen: Observati
     return scores
 
 
-class _Planning:
-    """Plans of one problem under way."""
-
-    def __init__(self, weights: StepWeights, memory: Float32Array, scene: Scene, rows: int,
-                 alarm: IntArray | None, num_threads: int = 1) -> None:
-        self._state = reset(scene.instance, np.zeros(rows, np.int64), num_threads)
-        self._most = max_steps(scene.instance)
-        self._given = packed(weights), memory, packed(scene), packed(self._state)
-        self._alarm = Alarm().setting if alarm is None else alarm
-        self._num_threads = num_threads
-
-    def plan(self, rows: Sequence[int], temperature: float, random: NDArray[np.uint64],
-             kept: IntArray) -> list[Rollout]:
-        """Plan rollouts of the state, the first from the first view; leave out those given up."""
-        number = len(rows)
-        actions = np.empty((number, self._most), np.int64)
-        actions[:, :len(kept)] = kept
-        courses = Courses(
-            np.array(rows), np.arange(number), np.full(number, float(temperature)),
-            random, np.full(number, len(kept)), actions, np.zeros(number, np.int64))
-        call("tandem_roll_out", *self._given, courses, self._alarm, self._num_threads)
-        cost = by_term(self._state.cost[rows]).sum(axis=1)
-        return [Rollout(codes[:count].copy(), float(total)) for codes, count, total
-                in zip(actions, courses.count.tolist(), cost, strict=True) if count != GIVEN_UP]
-
-
 def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
              temperatures: Sequence[float], rng: np.random.Generator, so_far: Rollout = NOTHING,
              alarm: IntArray | None = None) -> list[Rollout]:
@@ -176,8 +147,10 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
     alarm
         Setting of an alarm at which the rest is given up.
     """
-    instance = scene.instance
-    planning = _Planning(weights, memory[None], scene, len(temperatures), alarm)
+    instance, most = scene.instance, max_steps(scene.instance)
+    state = reset(instance, np.zeros(len(temperatures), np.int64))
+    given = packed(weights), memory, packed(scene), packed(state)
+    alarm = Alarm().setting if alarm is None else alarm
     hotter = HOTTER_WITH_DRONES if (instance.type["drones"] > 0).any() else HOTTER
     random = rng.spawn(1)[0].integers(1 << 64, size=1, dtype=np.uint64)
     plans: list[Rollout] = []
@@ -187,34 +160,16 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
             most_anew = MOST_ANEW if temperature > 0 else MOST_ANEW_GREEDILY
             kept = part_to_keep(instance, so_far.actions, most_anew, rng)
             temperature *= hotter
-        found = planning.plan([r], temperature, random, kept)
-        if not found:
+        actions = np.empty(most, np.int64)
+        actions[:len(kept)] = kept
+        count = call("tandem_roll_out", *given, r,
+                     Course(temperature, random, len(kept), actions), alarm)
+        if count == GIVEN_UP:
             break
-        plans += found
-        so_far = min(so_far, *found, key=cost_of)
+        found = Rollout(actions[:count].copy(), float(by_term(state.cost[r:r + 1]).sum()))
+        plans.append(found)
+        so_far = min(so_far, found, key=cost_of)
     return plans
-
-
-def roll_out_views(weights: StepWeights, memories: Sequence[Float32Array], scene: Scene,
-                   alarm: IntArray | None = None, num_threads: int = 1) -> list[Rollout]:
-    """Plan a problem greedily from each of some views at the same time; return the plans.
-
-    Parameters
-    ----------
-    weights
-        Of the policy's decisions.
-    memories
-        By view, (token, memory width) that its encoder made of the problem.
-    scene
-        The problem, packed alone.
-    alarm
-        Setting of an alarm at which all that are not ended are given up.
-    num_threads
-        Of the engine.
-    """
-    views = len(memories)
-    planning = _Planning(weights, np.stack(memories), scene, views, alarm, num_threads)
-    return planning.plan(range(views), 0.0, np.zeros(views, np.uint64), NOTHING.actions)
 
 
 def cost_of(rollout: Rollout) -> float:

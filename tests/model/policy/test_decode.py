@@ -15,7 +15,8 @@ from model.engine.alarm import Alarm
 from model.engine.instance import pack
 from model.policy import rolling
 from model.policy.decode import (
-    BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, load_policy, prepare,
+    BLOCK, SYMMETRIES, DecodeConfig, Policy, decode, disturbed, encode, laid_out, load_policy,
+    prepare,
 )
 from model.policy.network import MASKED
 from model.policy.rolling import CLIP, NOTHING, choose
@@ -38,7 +39,7 @@ def problem() -> Problem:
 
 def plan(policy: Policy, problem: Problem, config: DecodeConfig,
          deadline: float | None = None) -> tuple[tuple[int, ...], float]:
-    decoded = decode(policy, prepare(policy, problem, pack([problem])), config, deadline)
+    decoded = decode(policy, prepare(problem, pack([problem])), config, deadline)
     return tuple(decoded.actions.tolist()), decoded.cost
 
 
@@ -74,7 +75,7 @@ def test_views_and_routes_of_all_samples_make_plans_cheaper(policy: Policy) -> N
     costs = np.zeros((6, 3))
     for number, row in enumerate(costs):
         problem = generate(np.random.default_rng(number), 30, "vrptw")
-        scene = prepare(policy, problem, pack([problem]))
+        scene = prepare(problem, pack([problem]))
         drawn = DecodeConfig("sample", 40)
         row[:] = [decode(policy, scene, config).cost
                   for config in (DecodeConfig(most_views=1), DecodeConfig(), drawn)]
@@ -98,7 +99,7 @@ def test_nobody_is_served_where_nothing_can_be_carried(policy: Policy, problem: 
                                                        config: DecodeConfig) -> None:
     small = replace(problem, vehicle_types=tuple(
         replace(kind, capacity=(0,) * len(kind.capacity)) for kind in problem.vehicle_types))
-    decoded = decode(policy, prepare(policy, small, pack([small])), config)
+    decoded = decode(policy, prepare(small, pack([small])), config)
     assert len(decoded.actions) == 0
     assert decoded.cost == pytest.approx(small.num_customers * small.unassigned_cost)
 
@@ -152,9 +153,9 @@ def test_rollouts_of_the_engine_and_the_graph_plan_the_same(variant: str) -> Non
     by_graph, alone = replace(policy, step_weights=None), DecodeConfig(most_views=1)
     for seed in range(3):
         problem = generate(np.random.default_rng(seed), 15, variant)
-        scene = prepare(policy, problem, pack([problem]))
+        scene = prepare(problem, pack([problem]))
         for symmetry in range(len(SYMMETRIES)):
-            seen = replace(scene, memory=encode(policy, scene.tokens, symmetry))
+            seen = replace(scene, tokens=laid_out(scene.tokens, symmetry))
             one, other = (decode(each, seen, alone) for each in (policy, by_graph))
             assert one.actions.tolist() == other.actions.tolist()
             assert one.cost == other.cost
@@ -165,8 +166,8 @@ def test_encoder_sees_a_token_for_each_node_and_vehicle_type(policy: Policy,
     kinds = [replace(kind, more_drones=(replace(kind.drones, id="other"),))
              for kind in problem.vehicle_types if kind.drones is not None]
     several = replace(problem, vehicle_types=tuple(kinds))
-    memory = prepare(policy, several, pack([several])).memory
-    assert len(memory) == problem.num_nodes + len(kinds)
+    seen = prepare(several, pack([several])).tokens
+    assert len(encode(policy, seen)) == problem.num_nodes + len(kinds)
 
 
 def test_missing_policy_is_refused(tmp_path: Path) -> None:
@@ -197,23 +198,23 @@ def test_best_sample_is_never_worse_than_the_greedy_plan(policy: Policy) -> None
 
 
 def test_symmetries_show_the_same_plane_in_eight_ways(policy: Policy, problem: Problem) -> None:
-    seen = prepare(policy, problem, pack([problem])).tokens
-    memories = [encode(policy, seen, symmetry) for symmetry in range(len(SYMMETRIES))]
+    seen = prepare(problem, pack([problem])).tokens
+    memories = [encode(policy, laid_out(seen, symmetry)) for symmetry in range(len(SYMMETRIES))]
     assert len({memory.tobytes() for memory in memories}) == 8
     swapped = problem.coordinates[:, ::-1] * [1, -1]
-    same = prepare(policy, replace(problem, coordinates=swapped), pack([problem])).memory
-    assert np.array_equal(same, memories[SYMMETRIES.index((True, 1, -1))])
+    same = prepare(replace(problem, coordinates=swapped), pack([problem])).tokens
+    assert np.array_equal(encode(policy, same), memories[SYMMETRIES.index((True, 1, -1))])
 
 
 @pytest.mark.parametrize("config", [DecodeConfig(), DecodeConfig("sample", 3 * BLOCK)])
 def test_rollouts_end_at_an_alarm(policy: Policy, problem: Problem, config: DecodeConfig) -> None:
-    scene = prepare(policy, problem, pack([problem]))
+    scene = prepare(problem, pack([problem]))
     assert decode(policy, scene, config, alarm=Alarm(0.0).setting) is NOTHING
 
 
 def test_rollouts_go_on_until_an_alarm(policy: Policy) -> None:
     problem = generate(np.random.default_rng(8), 300, "drone")
-    scene = prepare(policy, problem, pack([problem]))
+    scene = prepare(problem, pack([problem]))
     decode(policy, scene, DecodeConfig())
     began = time.thread_time()
     with Alarm(time.perf_counter() + 0.1) as alarm:
