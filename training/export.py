@@ -38,8 +38,7 @@ class Encoder(nn.Module):
 
     def forward(self, node: Tensor, kind: Tensor, pair: Tensor) -> Tensor:
         """Return the memory, (token, memory width)."""
-        mask = torch.cat([node[..., 0], kind[..., 0]], dim=1) > -torch.inf
-        return self.policy.encode(node, kind, pair, mask)[0]
+        return self.policy.encode(node, kind, pair, None)[0]
 
 
 class Step(nn.Module):

@@ -44,14 +44,18 @@ class EncoderLayer(nn.Module):
         self.gate = nn.Linear(config.width, 2 * config.inner)
         self.down = nn.Linear(config.inner, config.width)
 
-    def forward(self, x: Tensor, pair: Tensor, mask: Tensor) -> Tensor:
-        """(problem, token, width) to the same; mask (problem, token) True = a token."""
+    def forward(self, x: Tensor, pair: Tensor, mask: Tensor | None) -> Tensor:
+        """(problem, token, width) to the same.
+
+        Pairs are (problem, feature, token, token); mask (problem, token) True = a token.
+        """
         query, key, value = (
             part.unflatten(2, (self.num_heads, -1)).transpose(1, 2)
             for part in self.query_key_value(self.attention_norm(x)).chunk(3, dim=2))
         score = query @ key.transpose(2, 3) / math.sqrt(query.shape[3])
-        score = score + self.pair_bias(pair).permute(0, 3, 1, 2)
-        score = score.masked_fill(~mask[:, None, None, :], MASKED)
+        score = score + (self.pair_bias.weight @ pair.flatten(2)).unflatten(2, pair.shape[2:])
+        if mask is not None:
+            score = score.masked_fill(~mask[:, None, None, :], MASKED)
         mixed = torch.softmax(score, dim=3).to(value.dtype) @ value
         x = x + self.output(mixed.transpose(1, 2).flatten(2))
         gate, up = self.gate(self.gate_norm(x)).chunk(2, dim=2)
@@ -122,20 +126,25 @@ class AttentionPolicy(nn.Module):
         self.action_mix = nn.Linear(config.action_width, config.action_width)
         self.action_score = nn.Linear(config.action_width, 1, bias=False)
 
-    def encode(self, node: Tensor, kind: Tensor, pair: Tensor, token_mask: Tensor) -> Tensor:
+    def encode(self, node: Tensor, kind: Tensor, pair: Tensor,
+               token_mask: Tensor | None) -> Tensor:
         """Return (problem, node + type, 4 * width + action_width).
 
         That is what queries read of the present place, then keys, values, pointer keys, and the
         candidate's share of the network over actions.
         """
         types = kind.shape[1]
-        pair = pad(pair, (0, 0, 0, types, 0, types))
+        # Features of pairs are fewer to move than the biases that are made of them.
+        pair = pad(pair.movedim(3, 1), (0, types, 0, types))
         x = torch.cat([self.node_embedding(node), self.type_embedding(kind)], dim=1)
         for layer in self.layers:
             x = layer(x, pair, token_mask)
         x = self.norm(x)
-        weight = token_mask[..., None].to(x.dtype)
-        mean = (x * weight).sum(dim=1, keepdim=True) / weight.sum(dim=1, keepdim=True)
+        if token_mask is None:
+            mean = x.sum(dim=1, keepdim=True) / x.shape[1]
+        else:
+            weight = token_mask[..., None].to(x.dtype)
+            mean = (x * weight).sum(dim=1, keepdim=True) / weight.sum(dim=1, keepdim=True)
         return torch.cat([self.here(x) + self.graph(mean), self.key_value_pointer(x)], dim=2)
 
     def advance(self, memory: Tensor, here: Tensor, hidden: Tensor) -> Tensor:

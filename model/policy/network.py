@@ -23,7 +23,8 @@ class PolicyNetwork(Protocol):
 
     hidden_size: int  # 0 for a policy that remembers nothing between decisions
 
-    def encode(self, node: Tensor, kind: Tensor, pair: Tensor, token_mask: Tensor) -> Tensor:
+    def encode(self, node: Tensor, kind: Tensor, pair: Tensor,
+               token_mask: Tensor | None) -> Tensor:
         """Embed nodes and vehicle types, once per problem.
 
         Parameters
@@ -35,7 +36,7 @@ class PolicyNetwork(Protocol):
         pair
             (problem, node, node, NUM_PAIR_FEATURES).
         token_mask
-            (problem, node + type) True = a token, False = padding.
+            (problem, node + type) True = a token, False = padding; None: there is no padding.
 
         Returns
         -------

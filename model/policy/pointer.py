@@ -47,7 +47,8 @@ class PointerPolicy(nn.Module):
         self.pointer_context = nn.Linear(width, width, bias=False)
         self.pointer_score = nn.Linear(width, 1, bias=False)
 
-    def encode(self, node: Tensor, kind: Tensor, pair: Tensor, token_mask: Tensor) -> Tensor:
+    def encode(self, node: Tensor, kind: Tensor, pair: Tensor,
+               token_mask: Tensor | None) -> Tensor:
         """Pass the local states through their convolution; the activation follows in `score`."""
         nodes = self.node_convolution(node.transpose(1, 2))
         kinds = self.type_convolution(kind.transpose(1, 2))
