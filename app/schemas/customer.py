@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from app.schemas.fields import (
+    LAUNCH_TEXT,
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
     Demand,
@@ -139,6 +140,7 @@ class CustomerInput(Input):
         None, description="Vehicles that may serve the customer. Null: all. A name that is both a "
         "type's and a vehicle's means the type."
     )
+    launch: bool = Field(True, description=LAUNCH_TEXT)
     info: Info = Field(
         default_factory=dict,
         json_schema_extra={"default": {}},

@@ -52,6 +52,8 @@ LOCATION_TEXT = (
     "geocoder. May be left out where `matrices` cover every vehicle."
 )
 LOCATION_INDEX_TEXT = "Row and column of this place in `matrices`, from 0. Needed with `matrices`."
+LAUNCH_TEXT = ("Whether drones may take off from a truck there and be recovered. It says nothing "
+               "of who may serve the place.")
 
 
 class Input(BaseModel):

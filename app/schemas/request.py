@@ -12,8 +12,8 @@ from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
-    LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, Input, Instant, Location, LocationIndex, Money,
-    Name, PlaceLocation, Rounding, Table,
+    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, Input, Instant, Location,
+    LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
 from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
@@ -35,6 +35,7 @@ class DepotInput(Input):
     id: Name = Field(description="Name of the depot, unique among depots.")
     location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
+    launch: bool = Field(True, description=LAUNCH_TEXT)
 
 
 class MatrixInput(Input):

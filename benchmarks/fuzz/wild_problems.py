@@ -30,7 +30,8 @@ def wild_request(rng: random.Random) -> Data:
     dimensions = rng.choice((1, 1, 2, 2, 3, 3, 8))
     name = rng.choice(NAMES)
     system, unit, place = _geography(rng)
-    depots = [{"id": f"D{number}", "location": place()} for number in range(rng.randint(1, 3))]
+    depots: list[Data] = [{"id": f"D{number}", "location": place()}
+                          for number in range(rng.randint(1, 3))]
     customers = [{"id": name.replace("#", str(number)), "location": place(),
                   **_customer(rng, dimensions)} for number in range(rng.choice(SIZES))]
     fleet = [{"id": rng.choice(NAMES).replace("#", f"t{number}"), **_vehicle_type(rng, dimensions),
@@ -51,6 +52,8 @@ def wild_request(rng: random.Random) -> Data:
         _serve_by_type(rng, request)
     if rng.random() < 0.3 and customers:
         _share_places(rng, request)
+    if rng.random() < 0.2:
+        _bar_launches(rng, request)
     if rng.random() < 0.25:
         _add_matrices(rng, request)
     if rng.random() < 0.5:
@@ -311,6 +314,14 @@ def _share_places(rng: random.Random, request: Data) -> None:
         customer["setup_duration"] = rng.choice((0, 1e-4, 60, 60, 300, 900, 1e5, LONGEST))
         if rng.random() < 0.4:
             customer["location"] = rng.choice(places)["location"]
+
+
+def _bar_launches(rng: random.Random, request: Data) -> None:
+    """Let drones take off at some places alone. In place."""
+    share = rng.choice((0.1, 0.5, 1))
+    for place in (*request["depots"], *request["customers"]):
+        if rng.random() < share:
+            place["launch"] = rng.random() < 0.1
 
 
 def _add_matrices(rng: random.Random, request: Data) -> None:

@@ -884,6 +884,8 @@ typedef struct tandem_instance {
     tandem_setup_2d setup;         /* (problem, node), or (problem, 0) */
     tandem_i64_2d max_time_aboard; /* (problem, node) ms, FAR without limit, or (problem, 0) if
                                       nobody has one */
+    tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
+                                      (problem, 0) where any may */
     tandem_vehicle_type_2d type;   /* (problem, row); trucks first, as many as `size` says */
     tandem_rate_2d rate;           /* (problem, row) */
     tandem_bool_3d reload; /* (problem, type, node) where a trip may end and the next begin */
@@ -985,7 +987,9 @@ typedef struct tandem_problem_data {
     tandem_price_1d price; /* (node,) per ms */
     tandem_goods_1d goods; /* (node,) none where all go together */
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
-    tandem_i64_1d max_time_aboard;   /* (node,) ms, none where nothing is limited */
+    tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
+    tandem_bool_1d
+        no_launch; /* (node,) no drone takes off or is recovered there; none where any may */
     tandem_vehicle_type_1d type;     /* (row,) */
     tandem_rate_1d rate;             /* (row,) per mm and per ms */
     tandem_evaluation_1d evaluation; /* (row,) */

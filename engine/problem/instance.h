@@ -59,6 +59,8 @@ struct Instance {
     View<const Setup, 2> setup;                   // (problem, node), or (problem, 0)
     View<const std::int64_t, 2> max_time_aboard;  // (problem, node) ms, FAR without limit, or
                                                   // (problem, 0) if nobody has one
+    View<const bool, 2> no_launch;  // (problem, node) no drone takes off or is recovered there, or
+                                    // (problem, 0) where any may
     View<const VehicleType, 2> type;  // (problem, row); trucks first, as many as `size` says
     View<const Rate, 2> rate;         // (problem, row)
     View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
@@ -84,6 +86,7 @@ inline Instance instance_of(const tandem_instance& from) {
             from.goods,
             from.setup,
             from.max_time_aboard,
+            from.no_launch,
             from.type,
             from.rate,
             from.reload,

@@ -5,6 +5,7 @@
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/shift.h"
 #include "simulation/vehicle_log.h"
 
@@ -13,10 +14,11 @@ namespace {
 
 constexpr Int not_yet = -1;  // take-off and recovery that have no time yet
 
-// Mark where drones are recovered: at `to` those that can fly there, while there is room for them
-// in the air, else at `here`.
+// Mark where drones are recovered: at `to` those that can and may fly there, while there is room
+// for them in the air, else at `here`.
 void mark_places(const Setting& setting, View<Drone, 1> drones, Int here, Int to) {
     Int room = waits_for_drones(setting.type) ? 0 : most_airborne(setting.type);
+    if (!is_launch_place(setting.no_launch, to)) room = 0;
     for (Drone& drone : drones) {
         Recovery place = Recovery::aboard;
         if (drone.sortie != in_flight) {
@@ -221,6 +223,7 @@ void note_charges(const Setting& setting, const VehicleLog& log, View<Drone, 1> 
 Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
                View<const Drone, 1> drones, Int node) {
     Int chosen = -1;
+    if (!is_launch_place(setting.no_launch, vehicle.node)) return chosen;
     for (Int d = 0; d < drones.size(); ++d) {
         if (drones[d].sortie != in_flight) continue;
         if (!are_several(setting.type)) return d;

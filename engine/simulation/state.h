@@ -49,6 +49,7 @@ struct Setting {
     View<const Int, 3> amount;   // (node, tier, amounts); no tiers where `Node::demand` tells all
     View<const Goods, 1> goods;  // (node,) none where all go together
     View<const Int, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
+    View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
     const VehicleType& type;
     View<const Int, 2> drive;           // (node, node) ms
     View<const Int, 2> fly;             // (node, node) ms

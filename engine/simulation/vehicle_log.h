@@ -25,6 +25,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .amount = instance.amount[b],
         .goods = instance.goods[b],
         .max_time_aboard = instance.max_time_aboard[b],
+        .no_launch = instance.no_launch[b],
         .type = type,
         .drive = durations[type.travel],
         .fly = durations[type.drone_travel],

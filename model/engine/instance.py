@@ -60,6 +60,7 @@ class Instance(NamedTuple):
     goods: Records  # (problem, node), or (problem, 0)
     setup: Records  # (problem, node), or (problem, 0)
     max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
+    no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
     type: Records  # (problem, row); trucks first, as many as `size` says
     rate: Records  # (problem, row)
     reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
@@ -111,6 +112,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
     apart = any(problem.incompatible_goods for problem in problems)
+    forbidden = any(problem.forbids_launches for problem in problems)
     instance = Instance(
         size=np.zeros(rows, dtype_of("tandem_size")),
         node=np.zeros((rows, variants, nodes, 1 + gaps), dtype_of("tandem_node")),
@@ -120,6 +122,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
         setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0),
                        dtype_of("tandem_setup")),
         max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
+        no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
         type=np.zeros((rows, types), dtype_of("tandem_vehicle_type")),
         rate=np.zeros((rows, types), dtype_of("tandem_rate")),
         reload=np.zeros((rows, types, nodes), np.bool_),
@@ -176,6 +179,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
             changes = len(kind.speed_profile.times)
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
+    if problem.forbids_launches:
+        instance.no_launch[row, :problem.num_nodes] = [
+            not problem.may_launch_at(node) for node in range(problem.num_nodes)]
     _pack_compatibility(instance, row, problem, kinds)
 
 

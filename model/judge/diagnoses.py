@@ -253,6 +253,13 @@ def _batteries(attempt: Attempt) -> Diagnosis:
                      _with_type(attempt, replace(vehicle_type, drones=drones)))
 
 
+def _launch(attempt: Attempt) -> Diagnosis:
+    place, *others = attempt.problem.depots
+    allowed = replace(attempt.problem, depots=(replace(place, launch=True), *others))
+    return Diagnosis("LAUNCH", f"No drone takes off at {place.id}, by its launch.",
+                     f"fits if drones may take off at {place.id}", allowed)
+
+
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
     late = _up_to_tenth(_halt(attempt).ready - customer.latest, MS_PER_MINUTE)
@@ -372,6 +379,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "ENDURANCE": _endurance,
     "ENERGY": _energy,
     "TRIP_DISTANCE": _trip_distance,
+    "LAUNCH": _launch,
     "MAX_STOPS": _stops,
     "MAX_SORTIES": _sorties,
     "BATTERIES": _batteries,

@@ -74,6 +74,8 @@ def _why(problem: Problem, solution: Solution, index: int, setting: Setting, unt
              if any(_carries(drones, problem.customer_at(node)) for drones in kind.drone_types)]
     if not light:
         return Idle(index, "CAPACITY", "No order is light enough for its drones.")
+    if not _launch_stops(problem, route):
+        return Idle(index, "LAUNCH", "Its drones may take off at none of its stops.")
     near = _near(problem, kind, route, light)
     if not near:
         return Idle(index, "RANGE", "Nobody whose order its drones can carry is within reach of "
@@ -109,13 +111,19 @@ def _carries(drones: DroneType, customer: Customer) -> bool:
             and all(map(le, customer.taken_in, drones.capacity)))
 
 
+def _launch_stops(problem: Problem, route: Route) -> list[int]:
+    """Return the nodes of a route's stops where drones may take off."""
+    return [stop.node for trip in route.trips for stop in trip.stops
+            if problem.may_launch_at(stop.node)]
+
+
 def _near(problem: Problem, kind: VehicleType, route: Route,
           nodes: list[int]) -> list[tuple[int, int]]:
     """Return those of some customers who are within reach of a route's stops, the nearest first.
 
     With the shortest flight each, from a stop to the customer and to a stop.
     """
-    stops = np.array([stop.node for trip in route.trips for stop in trip.stops])
+    stops = np.array(_launch_stops(problem, route))
     ways: dict[int, int] = {}
     for drones in kind.drone_types:
         light = [node for node in nodes if _carries(drones, problem.customer_at(node))]

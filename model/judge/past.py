@@ -202,7 +202,8 @@ def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: lis
     flight = problem.travel[kind.drone_type(sortie.drone).travel].duration
     ends = len(nodes) if sortie.recovery_start is None else known_stops
     landings = [index for index in range(sortie.launch_stop, ends)
-                if flight.item(visits[-1].node, nodes[index]) < UNREACHABLE]
+                if flight.item(visits[-1].node, nodes[index]) < UNREACHABLE
+                and problem.may_launch_at(nodes[index])]
     if not landings or flight.item(nodes[sortie.launch_stop], visits[0].node) == UNREACHABLE:
         return None
     landing = landings[-1]

@@ -227,6 +227,10 @@ def _sortie_violations(
         message = (f"payload {amounts(problem, payload)} exceeds "
                    f"{amounts(problem, drones.capacity)}")
         yield Violation("PAYLOAD", message, path)
+    for what, stop in (("takes off", sortie.launch_stop), ("is recovered", sortie.recovery_stop)):
+        node = trip.stops[stop].node
+        if not problem.may_launch_at(node):
+            yield Violation("LAUNCH", f"no drone {what} at {problem.place_at(node).id}", path)
     flight = airborne_duration(problem, drones, trip, sortie)
     if flight > drones.endurance:
         message = f"{seconds(flight)} in the air, endurance is {seconds(drones.endurance)}"

@@ -198,6 +198,8 @@ class Screen:
         legs = self._legs_of(drones.travel)
         for launch in range(first_stop - 1, last + 1):
             begin = trip.stops[launch]
+            if not self._problem.may_launch_at(begin.node):
+                continue
             arrival = (begin.ready + launch_duration(drones, not trip.sorties)
                        + legs.there[begin.node])
             too_late = 0
@@ -206,6 +208,8 @@ class Screen:
             furthest = launch if waits else min(launch + SPANS - 1, last)
             for recovery in range(launch, furthest + 1):
                 end = trip.stops[recovery]
+                if not self._problem.may_launch_at(end.node):
+                    continue
                 duration, cost = self._flight(drones, begin.node, end.node)
                 if duration >= UNREACHABLE:
                     continue

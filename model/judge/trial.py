@@ -222,7 +222,7 @@ def _launch_places(
     found = 0
     for index in near[np.argsort(loops[near], kind="stable")].tolist():
         host = problem.customers[index]
-        if index + first == node or host.served_by == "drone":
+        if index + first == node or host.served_by == "drone" or not host.launch:
             continue
         if host.skills <= skills and problem.allows(kind, index + first):
             yield index + first

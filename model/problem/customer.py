@@ -17,6 +17,7 @@ class Depot:
     kind: DepotKind = "depot"
     """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
     site: int | None = None  # places with equal numbers are one place
+    launch: bool = True  # drones may take off, and be recovered, there
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +42,7 @@ class Customer:
     gaps: tuple[tuple[int, int], ...] = ()
     """Between several windows: last arrival in one, first start of service in the next."""
     pickup: tuple[int, ...] = ()  # (dimension,) parts taken in, to where the trip ends; (): nothing
+    launch: bool = True  # drones may take off, and be recovered, from a truck there
 
     def __post_init__(self) -> None:
         for amount in self.demand:

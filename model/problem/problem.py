@@ -137,6 +137,21 @@ class Problem:
         """Tell whether any parcel may be aboard for so long and no longer."""
         return any(customer.max_time_aboard is not None for customer in self.customers)
 
+    @cached_property
+    def forbids_launches(self) -> bool:
+        """Tell whether drones may not take off, nor be recovered, somewhere."""
+        return not (all(depot.launch for depot in self.depots)
+                    and all(customer.launch for customer in self.customers))
+
+    def may_launch_at(self, node: int) -> bool:
+        """Tell whether drones may take off, and be recovered, at a node."""
+        return self.place_at(node).launch
+
+    def place_at(self, node: int) -> Depot | Customer:
+        """Return the depot or customer at a node."""
+        first = self.num_depots
+        return self.depots[node] if node < first else self.customers[node - first]
+
     def setup_between(self, origin: int, to: int) -> int:
         """Return how long whoever comes from one node to serve at another sets up there."""
         first = self.num_depots

@@ -81,10 +81,9 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     types = [replace(kind, start=start.get(index, kind.start))
              for index, kind in enumerate((*plain.values(), *(own.kind for own in workers)))]
     carriers = {node: own for own in workers for node in own.aboard}
+    starts = [_start(problem, node, types[kind].id) for kind, node in places.items()]
     left = replace(
-        problem,
-        depots=(*problem.depots, *(Depot(f"start of {types[kind].id}", site=_site(problem, node))
-                                   for kind, node in places.items())),
+        problem, depots=(*problem.depots, *starts),
         customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
@@ -128,9 +127,10 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
     return table
 
 
-def _site(problem: Problem, node: int) -> int | None:
-    """Return what tells a node's place from others, if anything does."""
-    return (problem.depots[node] if node < problem.num_depots else problem.customer_at(node)).site
+def _start(problem: Problem, node: int, vehicle: str) -> Depot:
+    """Return the place where a vehicle is as one where it begins."""
+    place = problem.place_at(node)
+    return Depot(f"start of {vehicle}", site=place.site, launch=place.launch)
 
 
 def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],

@@ -54,7 +54,7 @@ def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: i
     """Tell whether a flight may end at `to`, and endurance and energy suffice if nobody waits."""
     flight = trip.flights[index]
     drones = kind.drone_type(flight.drone)
-    if not in_range(problem, drones, to, flight.customer):
+    if not (problem.may_launch_at(to) and in_range(problem, drones, to, flight.customer)):
         return False
     if flight_duration(problem, kind, trip, index, to) > drones.endurance:
         return False

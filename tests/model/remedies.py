@@ -29,6 +29,10 @@ def applied(problem: Problem, reason: Reason, node: int) -> Problem:
         table = problem.may_serve.copy()
         table[reason.vehicle_type, node - problem.num_depots] = True
         return replace(problem, may_serve=table)
+    if found := re.fullmatch("fits if drones may take off at (.+)", remedy):
+        return replace(problem, depots=tuple(
+            replace(depot, launch=depot.launch or depot.id == found[1])
+            for depot in problem.depots))
     found = re.fullmatch("served if unassigned_cost were above (.+)", remedy)
     assert found, remedy
     return replace(problem, unassigned_cost=float(found[1]) + 0.01)

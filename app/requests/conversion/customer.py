@@ -34,4 +34,5 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int],
         goods=frozenset(stated.goods),
         setup_duration=thousandths(stated.setup_duration),
         site=site,
+        launch=stated.launch,
     )

@@ -81,6 +81,12 @@ class PlacedRequest:
         return tuple(depots if self.nowhere is None else [*depots, NOWHERE])
 
     @property
+    def launches(self) -> list[bool]:
+        """Whether drones may take off, by depot."""
+        stated = [depot.launch for depot in self.request.depots]
+        return stated + [True] * (len(self.depots) - len(stated))
+
+    @property
     def names(self) -> list[tuple[str, str]]:
         """The kind and the id of each place, in their order."""
         depots = [(depot.kind, depot.id) for depot in self.depots if depot != NOWHERE]

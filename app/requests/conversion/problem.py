@@ -45,8 +45,9 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
                                                   decimals)
     return Problem(
-        depots=tuple([replace(depot, site=site)
-                      for depot, site in zip(depots, sites, strict=False)]),
+        depots=tuple([replace(depot, site=site, launch=launch)
+                      for depot, site, launch in zip(depots, sites, placed.launches, strict=False)
+                      ]),
         customers=customers,
         vehicle_types=vehicle_types,
         travel=travels.built(),

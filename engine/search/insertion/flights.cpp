@@ -2,6 +2,7 @@
 
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
 #include "search/insertion/listing.h"
@@ -64,6 +65,7 @@ public:
     // Lists those from stop `launch`.
     void offer_from(Int launch) const {
         const Stop& from = stops_[launch];
+        if (!is_launch_place(data_.no_launch, from.node)) return;
         const Leg out = leg_from(inward_, from.node);
         // Most stops are so far away that nothing else needs to be looked at.
         if (flown_cost(rate_, out.distance) - early_ >= best_) return;
@@ -84,6 +86,7 @@ public:
             const Leg home = leg_to(onward_, to.node);
             const double flown = flown_cost(rate_, out.distance + home.distance);
             if (flown + late - early_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
+            if (!is_launch_place(data_.no_launch, to.node)) continue;
             if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
                                               stops_[recovery + 1].latest) {
                 continue;

@@ -6,6 +6,7 @@
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/shift.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/evaluate.h"
@@ -199,7 +200,8 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
         cost -= now.early[slot];
         if (unreachable(std::max(out.duration, home.duration)) || cost >= best.cost ||
             !data.can(row, 1, node) || !may_begin(data, k, node) ||
-            !in_range(data, data.type[row], depot, node)) {
+            !in_range(data, data.type[row], depot, node) ||
+            !is_launch_place(data.no_launch, depot)) {
             continue;
         }
         for (Int p = -1; p < route.length; ++p) {

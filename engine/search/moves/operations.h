@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/leg.h"
 #include "rules/rates.h"
 #include "rules/shift.h"
@@ -43,7 +44,8 @@ inline double loop_cost(const ProblemData& data, Int k, Int node, Int customer) 
     const Rate& rate = data.rate[k];
     const auto [flight, distance] =
         way_by_air(data, type, data.place.by_air(type)[customer], node, customer, node);
-    if (!data.strategy.loops || !in_range(data, type, node, customer) || !flight.can_serve()) {
+    if (!data.strategy.loops || !is_launch_place(data.no_launch, node) ||
+        !in_range(data, type, node, customer) || !flight.can_serve()) {
         return infinite_cost;
     }
     const Int duration = flight.duration();

@@ -61,7 +61,10 @@ public:
         Operation best{infinite_cost, 0, no_flight};
         if (j == length_ - 1 || drives_[line_[j].node]) {
             drive_to(j, best);
-            if (data_.strategy.crossings && !waits_for_drones(type_)) cross_to(j, best);
+            if (data_.strategy.crossings && !waits_for_drones(type_) &&
+                is_launch_place(data_.no_launch, line_[j].node)) {
+                cross_to(j, best);
+            }
         }
         line_[j].before = best.before;
         line_[j].flight = best.flight;
@@ -87,7 +90,9 @@ private:
         const LegRow inward = legs_to(data_.back, type_.drone_travel, here.node);
         SplitScratch::WaysOut& out = out_to(place);
         for (Int back = 1; back < std::min(longest_operation, place + 1); ++back) {
-            const Leg way = leg_from(inward, line_[place - back].node);
+            const Int from = line_[place - back].node;
+            Leg way = leg_from(inward, from);
+            if (!is_launch_place(data_.no_launch, from)) way.duration = unreachable_leg;
             out.duration[at(longest_operation - 1 - back)] = static_cast<double>(way.duration);
             out.distance[at(longest_operation - 1 - back)] = static_cast<double>(way.distance);
         }

@@ -4,6 +4,7 @@
 
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/shift.h"
 #include "search/route/batteries.h"
 
@@ -215,6 +216,7 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int 
     while (true) {
         const Int index = next_operation(truck, sorties, count, p, node, sums);
         if (index < 0) break;
+        if (!is_launch_place(truck.data.no_launch, node)) return false;
         Sortie& sortie = sorties[index];
         const DroneData drone_data = truck.drone_data(sortie);
         const bool allowed = sortie.state == sortie_flies

@@ -70,6 +70,7 @@ struct ProblemData {
     View<const Goods, 1> goods;                   // (node,) none where all go together
     View<const Setup, 1> setup;                   // (node,) none where nobody sets up
     View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
+    View<const bool, 1> no_launch;                // (node,) none where drones may take off anywhere
     View<const VehicleType, 1> type;              // (row,)
     View<const Rate, 1> rate;                     // (row,) per mm and per ms
     View<const Evaluation, 1> evaluation;         // (row,)
@@ -106,6 +107,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.goods,
             from.setup,
             from.max_time_aboard,
+            from.no_launch,
             from.type,
             from.rate,
             from.evaluation,

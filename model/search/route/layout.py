@@ -68,6 +68,7 @@ class ProblemData(NamedTuple):
     goods: Records  # (node,), none where all go together
     setup: Records  # (node,), none where nobody sets up
     max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
+    no_launch: BoolArray  # (node,) no drone takes off there; none where any may
     type: Records  # (row,)
     rate: Records  # (row,), per mm and per ms
     evaluation: Records  # (row,)

@@ -26,6 +26,17 @@ test('the number of a drone tells its type, over a list of them', () => {
   assert.equal(dronesOfSortie({ drones: null }, { drone: 'a/drone-1' }), null);
 });
 
+test('drones may take off at a depot once its remedy is applied', () => {
+  const request = {
+    depots: [{ id: 'hub', launch: false }, { id: 'yard', launch: false }],
+    customers: [{ id: 'ann' }],
+    fleet: [{ id: 'truck' }],
+  };
+  const reason = { vehicle_type: 'truck', remedy: 'fits if drones may take off at hub' };
+  const { depots } = applyRemedy(request, 'ann', reason);
+  assert.deepEqual(depots.map(({ launch }) => launch), [true, false]);
+});
+
 test('drones of all types are counted', () => {
   assert.equal(droneCount(truck), 3);
   assert.equal(droneCount({ drones: large }), 1);

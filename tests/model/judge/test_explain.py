@@ -84,6 +84,19 @@ def test_reason_of_a_drone(code, on_drones, message, remedy, tiny_problem, custo
     assert reason_for_d(problem) == Reason(0, code, message, remedy)
 
 
+def test_no_drone_may_take_off(tiny_problem, customers, truck, drones):
+    *others, d = [replace(customer, launch=False) for customer in customers]
+    problem = tiny_problem(*others, replace(d, served_by="drone"),
+                           truck=replace(truck, drones=drones))
+    (depot,) = problem.depots
+    problem = replace(problem, depots=(replace(depot, launch=False),))
+    reason = reason_for_d(problem)
+    assert reason == Reason(0, "LAUNCH", f"No drone takes off at {depot.id}, by its launch.",
+                            f"fits if drones may take off at {depot.id}")
+    helped = applied(problem, reason, 4)
+    assert reason_for_d(helped).code == "SEARCH"
+
+
 def test_no_flight_leads_there(tiny_problem, customers, truck, drones):
     *others, d = customers
     problem = tiny_problem(*others, replace(d, served_by="drone"),

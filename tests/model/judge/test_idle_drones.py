@@ -18,12 +18,14 @@ MINUTE = 60_000
 @pytest.fixture
 def street(tiny_problem, customers, truck, drones):
     """Return a problem of one truck with a drone, changed as is stated."""
-    def changed(on_drones=None, on_truck=None, on_customers=None):
+    def changed(on_drones=None, on_truck=None, on_customers=None, on_depot=None):
         flying = replace(drones, **(on_drones or {}))
         carrier = replace(truck, **{"count": 1, "cost_per_km": 1.0, "drones": flying}
                           | (on_truck or {}))
-        return tiny_problem(*[replace(each, **(on_customers or {})) for each in customers],
-                            truck=carrier)
+        problem = tiny_problem(*[replace(each, **(on_customers or {})) for each in customers],
+                               truck=carrier)
+        return replace(problem, depots=tuple(replace(depot, **(on_depot or {}))
+                                             for depot in problem.depots))
     return changed
 
 
@@ -51,6 +53,7 @@ def test_flight_that_would_save_is_told(street):
     ("RANGE", {"on_drones": {"endurance": 5 * MINUTE}}),  # the service alone takes as long
     ("SORTIES", {"on_truck": {"max_sorties": 0}}),
     ("SORTIES", {"on_drones": {"batteries": 0}}),
+    ("LAUNCH", {"on_customers": {"launch": False}, "on_depot": {"launch": False}}),
 ])
 def test_what_hinders_all_flights_is_told(street, code, changes):
     assert why(street(**changes)).code == code

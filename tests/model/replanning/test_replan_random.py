@@ -20,6 +20,7 @@ from tests.model.tiny import (
     with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
     with_table, with_turnaround,
 )
+from tests.model.tiny_launches import with_few_launch_places
 from training.instances import VARIANTS, generate
 
 pytestmark = pytest.mark.slow
@@ -271,7 +272,7 @@ def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("change", [
     with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once,
-    with_ranges, with_few_airborne])
+    with_ranges, with_few_airborne, with_few_launch_places])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],

@@ -9,6 +9,7 @@ from tests.model.tiny import (
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
     with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
 )
+from tests.model.tiny_launches import with_few_launch_places
 
 
 def all_rules(rng: np.random.Generator) -> Problem:
@@ -109,6 +110,13 @@ def all_rules_setups(rng: np.random.Generator) -> Problem:
 
 def all_rules_limits_aboard(rng: np.random.Generator) -> Problem:
     return with_limits_aboard(rng, all_rules(rng))
+
+
+def all_rules_few_launch_places(rng: np.random.Generator) -> Problem:
+    while True:
+        problem = with_few_launch_places(rng, all_rules(rng))
+        if problem.forbids_launches and any(kind.drones for kind in problem.vehicle_types):
+            return problem
 
 
 def all_rules_at_once(rng: np.random.Generator) -> Problem:

@@ -17,7 +17,8 @@ from model.solution import Solution
 from tests.model.search.exhaustive import cheapest_cost
 from tests.model.search.mixed_rules import (
     all_rules, all_rules_at_once, all_rules_begun, all_rules_both_ways, all_rules_drone_types,
-    all_rules_elsewhere, all_rules_few_airborne, all_rules_goods_apart, all_rules_in_range,
+    all_rules_elsewhere, all_rules_few_airborne, all_rules_few_launch_places,
+    all_rules_goods_apart, all_rules_in_range,
     all_rules_limits_aboard, all_rules_of_duty, all_rules_on_batteries, all_rules_open,
     all_rules_open_reloading, all_rules_own_durations, all_rules_reloading, all_rules_setups,
     all_rules_several_windows, all_rules_swapping,
@@ -227,6 +228,13 @@ def swapped_batteries(rng: np.random.Generator) -> Problem:
     return street_problem(rng, one_by_truck(rng), truck)
 
 
+def few_launch_places(rng: np.random.Generator) -> Problem:
+    """Return a truck with one drone, for which half of the places are barred."""
+    problem = one_drone(rng)
+    return replace(problem, customers=tuple(
+        replace(customer, launch=bool(rng.random() < 0.5)) for customer in problem.customers))
+
+
 def small_and_large_drones(rng: np.random.Generator) -> Problem:
     """One drone is cheap and lifts half of the parcels, the other is slow to launch."""
     small = replace(DRONES, id="small", capacity=(2000,), recovery_duration=0)
@@ -285,7 +293,7 @@ KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
     timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries,
-    small_and_large_drones, near_sorties, one_of_two_airborne)
+    small_and_large_drones, near_sorties, one_of_two_airborne, few_launch_places)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -333,7 +341,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
     all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
     all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping,
-    all_rules_in_range, all_rules_few_airborne],
+    all_rules_in_range, all_rules_few_airborne, all_rules_few_launch_places],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

@@ -23,6 +23,7 @@ from tests.model.tiny import (
     with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
     with_table, with_turnaround,
 )
+from tests.model.tiny_launches import with_few_launch_places
 
 pytestmark = pytest.mark.slow
 
@@ -127,12 +128,18 @@ def ranges_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return drone_types_among_all(rng, with_ranges(rng, problem))
 
 
+def few_launch_places_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    problem = with_some(rng, problem, with_gaps, with_energy, with_drone_types, with_reloads)
+    return with_few_launch_places(rng, problem)
+
+
 @pytest.mark.parametrize("change", [
     with_table, with_places, with_beginnings, with_gaps, with_energy, with_open_ends, with_reloads,
     with_open_reloads, with_duty, with_own_durations, with_goods, with_setups, with_limits_aboard,
     with_turnaround, swapping_among_all, charging_often, charging_among_all, with_drone_types,
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
-    with_few_airborne, few_airborne_among_all])
+    with_few_airborne, few_airborne_among_all, with_few_launch_places,
+    few_launch_places_among_all])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):

@@ -918,6 +918,7 @@ export default {
     lands: 'Landet',
     late_cost_per_hour: 'Kosten zu spät je Stunde',
     latest: 'Spätestens',
+    launch: 'Drohnenstarts',
     launch_duration: 'Startdauer',
     load_dimensions: 'Lademaße',
     location: 'Ort',
@@ -1072,6 +1073,7 @@ export default {
       unassigned_cost:
         'Was es kostet, diesen Kunden auszulassen. Leer: wie für alle, siehe „Flotte“.',
       vehicles: 'Welche Fahrzeuge kommen dürfen. Leer: alle.',
+      launch: 'Ob Drohnen dort von einem Fahrzeug starten und wieder landen dürfen.',
       info: 'Was der Fahrer wissen soll, je eine Zeile: Adresse, Telefon, Hinweise.',
     },
     TimeWindowInput: {
@@ -1094,6 +1096,7 @@ export default {
       location: 'Wo es ist: Länge und Breite oder eine Adresse; auf einer Ebene x und y.',
       location_index:
         'Zeile dieses Orts in den Wegetabellen, ab 0; nötig, wenn das Problem solche mitbringt.',
+      launch: 'Ob Drohnen hier starten und landen dürfen.',
     },
     PlaceInput: {
       location: 'Wo es ist: Länge und Breite oder eine Adresse; auf einer Ebene x und y.',
@@ -1467,6 +1470,7 @@ export default {
     MAX_AIRBORNE: 'Zu viele Drohnen wären in der Luft.',
     TRUCK_WAITS: 'Das Fahrzeug führe weiter, während eine Drohne unterwegs ist.',
     MAX_SORTIES: 'Die Fahrt hätte zu viele Flüge.',
+    LAUNCH: 'Dort darf keine Drohne starten.',
     SORTIES: 'Es wären zu viele Flüge.',
     STOPS: 'Es wären zu viele Stopps.',
     RELEASE: 'Das Paket ist noch nicht da.',
@@ -1841,6 +1845,7 @@ export default {
   remedy: {
     mayServe: 'passt, wenn {{name}} ihn bedienen darf',
     vehicle: 'passt mit einem Fahrzeug mehr',
+    launch: 'passt, wenn Drohnen bei {{name}} starten dürfen',
     trip: 'passt, wenn {{name}} noch einmal fahren könnte',
     price: 'würde bedient, wenn Auslassen mehr als {{number}} kostete',
     itsPrice: 'würde bedient, wenn ihn auszulassen mehr als {{number}} kostete',
@@ -2004,6 +2009,7 @@ export default {
     KIND: 'Kein Kunde darf von seinen Drohnen beliefert werden.',
     CAPACITY: 'Kein Auftrag ist leicht genug für seine Drohnen.',
     RANGE: 'Niemand, dessen Auftrag seine Drohnen tragen, ist von seinen Stopps aus zu erreichen.',
+    LAUNCH: 'An keinem seiner Stopps dürfen Drohnen starten.',
     SORTIES: 'Es darf keine starten.',
     LOST: 'Seine Drohnen sind verloren.',
     UNAVAILABLE: 'Es ist ausgefallen.',

@@ -900,6 +900,7 @@ export default {
     lands: 'Lands',
     late_cost_per_hour: 'Late cost per hour',
     latest: 'Latest',
+    launch: 'Launches',
     launch_duration: 'Launch duration',
     load_dimensions: 'Load dimensions',
     location: 'Location',
@@ -1054,6 +1055,7 @@ export default {
       release_time: 'When the parcel is at the depot; no trip leaves with it before.',
       unassigned_cost: 'What leaving this customer out costs. Empty: as for all, see Fleet.',
       vehicles: 'Which vehicles may come. Empty: all.',
+      launch: 'Whether drones may take off from a truck there and be recovered.',
       info: 'What the driver is to know, a line each: address, phone, notes.',
     },
     TimeWindowInput: {
@@ -1076,6 +1078,7 @@ export default {
       location_index:
         'Row of this place in the tables of legs, from 0; needed where the problem ' +
         'brings such tables.',
+      launch: 'Whether drones may take off here and be recovered.',
     },
     PlaceInput: {
       location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',
@@ -1416,6 +1419,7 @@ export default {
     MAX_AIRBORNE: 'Too many drones would be in the air.',
     TRUCK_WAITS: 'The truck would drive on while a drone is out.',
     MAX_SORTIES: 'The trip would have too many flights.',
+    LAUNCH: 'No drone may take off there.',
     SORTIES: 'There would be too many flights.',
     STOPS: 'There would be too many stops.',
     RELEASE: 'The parcel is not there yet.',
@@ -1783,6 +1787,7 @@ export default {
   remedy: {
     mayServe: 'fits if {{name}} may serve it',
     vehicle: 'fits with one more vehicle',
+    launch: 'fits if drones may take off at {{name}}',
     trip: 'fits if {{name}} could make another trip',
     price: 'served if unassigned_cost were above {{number}}',
     itsPrice: 'served if its unassigned_cost were above {{number}}',
@@ -1942,6 +1947,7 @@ export default {
     KIND: 'No customer may be served by its drones.',
     CAPACITY: 'No order is light enough for its drones.',
     RANGE: 'Nobody whose order its drones can carry is within reach of its stops.',
+    LAUNCH: 'Drones may take off at none of its stops.',
     SORTIES: 'It may launch none.',
     LOST: 'Its drones are lost.',
     UNAVAILABLE: 'It is broken.',

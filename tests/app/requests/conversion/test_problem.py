@@ -304,6 +304,15 @@ def test_leaving_a_customer_out_costs_more_than_any_detour(smallest: Request) ->
     assert problem_of(smallest | {"unassigned_cost": 3}).unassigned_cost == 3
 
 
+def test_drones_may_take_off_anywhere_unless_a_place_says_otherwise(smallest: Request) -> None:
+    assert not problem_of(smallest).forbids_launches
+    smallest["depots"][0]["launch"] = smallest["customers"][1]["launch"] = False
+    smallest["fleet"][0] |= {"start_location": [0, 0], "end": "open"}
+    problem = problem_of(smallest)
+    assert [depot.launch for depot in problem.depots] == [False, True, True]
+    assert [customer.launch for customer in problem.customers] == [True, False]
+
+
 def test_whoever_must_be_served_costs_more_than_all_others(smallest: Request) -> None:
     alone = problem_of(smallest)
     smallest["customers"][1]["unassigned_cost"] = 500

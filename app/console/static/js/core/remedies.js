@@ -117,6 +117,7 @@ const CHANGES = [
     (request, { type }, id) =>
       setIn(request, [...dronesAt(request, type, id), 'turnaround', 'batteries'], 1),
   ],
+  [/^fits if drones may take off at (.+)$/, allowLaunches],
   [
     new RegExp(`^fits if .+ could work ${NUMBER} minutes? longer$`),
     (request, { type }, more) =>
@@ -144,6 +145,13 @@ function allowType(request, { type, customer }) {
   return others.length
     ? setIn(request, [...customer, 'vehicles', 'forbidden'], others)
     : removeIn(request, [...customer, 'vehicles']);
+}
+
+/** Let drones take off at a depot. */
+function allowLaunches(request, _, id) {
+  const depots = request.depots.map((depot) =>
+    depot.id === id ? { ...depot, launch: true } : depot);
+  return { ...request, depots };
 }
 
 /** Return where the drones that a remedy names are stated. */

@@ -31,6 +31,7 @@ const SAID = [
   ['overtime', `fits if ${NAME} could work ${TIME} more overtime`],
   ['stop', `fits if ${NAME} could make 1 stop`],
   ['sortie', `fits if ${NAME} could launch 1 sortie`],
+  ['launch', `fits if drones may take off at ${NAME}`],
   ['carried', `fits if ${NAME} carried 1 battery(?: of .+)?`],
   ['works', `fits if ${NAME} could work ${TIME} longer`],
 ].map(([name, pattern]) => ({ name, pattern: new RegExp(`^${pattern}$`) }));
