@@ -7,12 +7,11 @@ from typing import Any
 
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.road_lines import Line, RoadLines, encoded
-from app.requests.conversion.ground import Detours, Ground
+from app.requests.conversion.ground import Ground
 from app.requests.conversion.launches import drones_named
 from app.requests.conversion.leg_origins import LegOrigin
 from app.requests.conversion.places import PlacedRequest
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
-from app.schemas.request import PlanRequest
 from model.problem import FloatArray
 
 Data = dict[str, Any]
@@ -42,15 +41,10 @@ class Geometry:
         self._locations: list[tuple[float, float]] | None = (
             [(float(x), float(y)) for x, y in ground.locations]
             if all(place.location is not None for place in ground.places) else None)
-        self._detours = self._detours_of(request, ground)
+        self._detours = {drones.altitude: ground.detours(drones.altitude)
+                         for kind in request.fleet for drones in kind.drone_types
+                         if drones.profile not in self._matrices}
         self._roads = RoadLines(roads, {origin.profile for origin in legs if origin.by == "roads"})
-
-    def _detours_of(self, request: PlanRequest, ground: Ground) -> Detours | None:
-        """Return where flights bend; None: they are straight."""
-        flown = {drones.profile for kind in request.fleet for drones in kind.drone_types}
-        if not request.airspace.no_fly or flown <= self._matrices:
-            return None
-        return ground.detours()
 
     def add(self, reply: Data, until: float) -> None:
         """Add the lines of all legs to a reply. In place.
@@ -97,15 +91,16 @@ class Geometry:
             yield self._line(start, end)
 
     def _flown(self, nodes: Sequence[int], drones: DronesInput, until: float) -> Iterator[Line]:
-        if self._detours is None or drones.profile in self._matrices:
+        detours = self._detours.get(drones.altitude)
+        if detours is None or drones.profile in self._matrices:
             yield from self._straight(nodes)
             return
         speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
         for start, end in pairwise(nodes):
-            if not self._detours.ways.blocked[start, end]:
+            if not detours.ways.blocked[start, end]:
                 yield self._line(start, end)
             elif time.perf_counter() < until:
-                yield self._line(start, end, self._detours.bends(start, end, speed))
+                yield self._line(start, end, detours.bends(start, end, speed))
             else:
                 yield None
 

@@ -10,6 +10,7 @@ from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.carried import Info, carry, info_of
+from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
 from app.plans.permits import Permits
@@ -69,6 +70,7 @@ class Task:
     far: FarPlans | None = None  # where legs are estimated until a plan drives them
     places: Located | None = None
     permits: Permits = field(default_factory=Permits)
+    closures: Closures | None = None
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -140,7 +142,7 @@ class Task:
         until = time.perf_counter() + allowed
         reply = plan_reply(self.problem, options, result, self.reasons, until)
         for left in reply["unassigned"]:
-            self.permits.name(left["id"], left["reasons"])
+            self.name_hindrances(left["id"], left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
         if self.places is not None and self.places.found:
@@ -150,6 +152,12 @@ class Task:
             reply["replan"] = replan_reply(self.problem, self.replanning, result.solution)
         self.telling.tell(PlanReply, reply)
         return {**self.telling.stated, **reply}
+
+    def name_hindrances(self, customer: str, reasons: Iterable[Data]) -> None:
+        """Have reasons why a customer is left out name vehicles and zones. In place."""
+        self.permits.name(customer, reasons)
+        if self.closures is not None:
+            self.closures.name(customer, reasons)
 
     def read(self, reply: Data) -> Solution:
         """Return the plan of an earlier reply to this task."""
@@ -189,24 +197,25 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     places = located(PlacedRequest(request), roads.addresses, preparing)
     placed, request = places.placed, places.placed.request
     if ground is None or places.found:
-        ground = Ground(placed, preparing)
+        ground = Ground(placed, preparing, roads.zones)
     travels = Travels(placed, preparing, ground, roads)
     problem = problem_of(placed, travels)
     legs = travels.origins()
     geometry = Geometry(placed, ground, roads, legs) if request.options.geometry else None
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
-    replan, permits = request.replan, Permits.of(request)
+    replan, permits, closures = request.replan, Permits.of(request), Closures(placed, ground)
     if replan is None:
         estimates = travels.estimates()
         far = None if estimates is None else FarPlans(problem, estimates)
-        return Task(problem, None, *beside, far, places, permits)
+        return Task(problem, None, *beside, far, places, permits, closures)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
-        return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits)
+        return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
+                    closures=closures)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",

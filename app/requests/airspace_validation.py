@@ -5,7 +5,9 @@ from itertools import islice
 import numpy as np
 
 from app.requests.draft import Draft, Errors, error_at, point_errors
+from app.requests.conversion.zones import reading_of
 from app.schemas.fields import Location, point_of
+from app.schemas.request import AirspaceInput
 from model.travel.airspace import Ring, invalid_polygon_reason
 from model.travel.matrices import LocalProjection
 from model.travel.obstacles import count_crossings
@@ -18,8 +20,11 @@ MAX_AIRSPACE_CROSSINGS = 10_000
 
 
 def airspace_errors(draft: Draft) -> Errors:
-    """Say what is wrong with no-fly areas."""
-    if draft.airspace is None or not draft.airspace.no_fly:
+    """Say what is wrong with no-fly areas and zones."""
+    if draft.airspace is None:
+        return
+    yield from _zone_errors(draft, draft.airspace)
+    if not draft.airspace.no_fly:
         return
     corners = sum(map(len, draft.airspace.no_fly))
     if corners > MAX_AIRSPACE_CORNERS:
@@ -36,6 +41,23 @@ def airspace_errors(draft: Draft) -> Errors:
     rings = _rings_m(draft, draft.airspace.no_fly)
     invalid = [error for index, ring in enumerate(rings) for error in _ring_errors(index, ring)]
     yield from invalid or _crossing_errors(rings)
+
+
+def _zone_errors(draft: Draft, airspace: AirspaceInput) -> Errors:
+    if airspace.zones and draft.coordinate_system == "planar":
+        yield error_at("ZONES_ON_PLANE", ("airspace", "zones"),
+                       "Zones lie on the globe: state coordinate_system geographic, or areas as "
+                       "no_fly.")
+        return
+    for index, stated in enumerate(airspace.zones):
+        for fault in reading_of(stated).faults:
+            yield error_at("ZONE_UNREADABLE", ("airspace", "zones", index, "data", *fault.path),
+                           fault.message)
+    ground = airspace.ground
+    if ground is not None and ground.highest < ground.lowest:
+        yield error_at("OUT_OF_RANGE", ("airspace", "ground", "highest"),
+                       f"The highest ground is below the lowest, {ground.lowest:g} m: raise it, or "
+                       "swap the two.")
 
 
 def _rings_m(draft: Draft, no_fly: list[list[Location]]) -> list[Ring]:

@@ -9,6 +9,7 @@ from app.schemas.errors import ALONE, LISTED
 from app.schemas.fields import Count, Demand, Duration, Input, Metres, Money, Name, Speed
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
+DEFAULT_ALTITUDE_M = 100.0
 
 MAX_DRONE_TYPES = 8
 """Most types of drones on a truck."""
@@ -88,6 +89,11 @@ class DronesInput(Input):
         1, ge=1, le=100, description="Most customers on one flight."
     )
     costs: DroneCostsInput = Field(DroneCostsInput(), description="What flying costs.")
+    altitude: Annotated[float, Field(ge=0, le=10_000)] = Field(
+        DEFAULT_ALTITUDE_M,
+        description="Metres above the ground at which they fly, which decides which `zones` of the "
+        "airspace they meet.",
+    )
     energy: EnergyInput | None = Field(
         None,
         description="What flights take of the battery, beside `endurance`. Null: nothing is known.",

@@ -74,6 +74,8 @@ ErrorCode = Literal[
     "POLYGON_CROSSES_ITSELF",
     "POLYGON_WITHOUT_AREA",
     "TOO_MANY_CORNERS",
+    "ZONES_ON_PLANE",
+    "ZONE_UNREADABLE",
     "TOO_MANY_LEGS",
     "TOO_MUCH_WORK",
     "UNKNOWN_POLICY",
@@ -127,7 +129,9 @@ IN_WORDS, IN_PLACE, ALONE, LISTED = "(word)", "(place)", "(one)", "(list)"
 AS_NUMBER, AS_TEXT = "(number)", "(text)"
 """Tags of values that may be one or the other; no part of a path."""
 
-TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, AS_NUMBER, AS_TEXT})
+TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, AS_NUMBER, AS_TEXT, "(ed269)", "(ed318)",
+                  "(geojson)", "(kml)", "(Polygon)", "(MultiPolygon)", "(Point)",
+                  "(GeometryCollection)"})
 
 _TYPE_NAMES = {
     "float_type": "a JSON number",

@@ -177,6 +177,8 @@ class ExplainReply(_Reply):
         description="Limits that bind at his stop, those that cost most first.")
     reasons: list[ReasonReply] = Field(
         description="If he is left out: why, by vehicle type, as `POST /plan` tells it.")
+    zones: list[str] = Field(
+        [], description="Published zones in which he is, where no drone lands, in words.")
     drones: DronesReply | None = Field(description="What drones save. Null: it was not asked.")
     idle_drones: list[IdleDronesReply] | None = Field(
         None, description="Why drones fly nothing, by vehicle in use. Null: it was not asked.")

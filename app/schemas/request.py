@@ -21,10 +21,16 @@ from app.schemas.limits import (
 from app.schemas.plan import PlanInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
+from app.schemas.airspace import Zones
 from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE
 
 MAX_VEHICLE_TYPES = 100
-MAX_POLYGON_POINTS = 500
+MAX_NO_FLY = 10_000
+MAX_POLYGON_POINTS = 100_000
+MAX_ZONE_FILES = 100
+MAX_CLEARED = 10_000
+
+Height = Annotated[float, Field(ge=-500, le=9000)]
 
 Polygon = Annotated[list[Location], Field(min_length=3, max_length=MAX_POLYGON_POINTS)]
 
@@ -62,13 +68,38 @@ class WindInput(Input):
     )
 
 
+class GroundHeightInput(Input):
+    """Between which heights the ground lies."""
+
+    lowest: Height = Field(description="Metres above the sea of the lowest ground.")
+    highest: Height = Field(description="Metres above the sea of the highest ground.")
+
+
 class AirspaceInput(Input):
     """What changes flights that are computed from locations."""
 
-    no_fly: Annotated[list[Polygon], Field(max_length=200)] = Field(
+    no_fly: Annotated[list[Polygon], Field(max_length=MAX_NO_FLY)] = Field(
         [],
         description="Polygons that drones fly around, each a list of at least three corners in the "
         "coordinates of `location`.",
+    )
+    zones: Annotated[list[Zones], Field(max_length=MAX_ZONE_FILES)] = Field(
+        [],
+        description="Zones as authorities publish them, beside `no_fly`, for geographic locations. "
+        "One that is in force during the plan and reaches the drones' `altitude` is flown around, "
+        "if it is prohibited or asks for an authorisation, or is conditional.",
+    )
+    cleared: Annotated[list[Name], Field(max_length=MAX_CLEARED)] = Field(
+        [], description="Identifiers of zones that don't block, such as those one has leave for."
+    )
+    conditional: Literal["block", "allow"] = Field(
+        "block", description="Whether zones that are conditional block flights."
+    )
+    ground: GroundHeightInput | None = Field(
+        None,
+        description="Between which heights above the sea the ground lies that drones fly over, so "
+        "that limits above the sea can be compared with `altitude`. Null: unknown, and such a zone "
+        "blocks unless it lies above any ground there is.",
     )
     wind: WindInput = Field(WindInput(), description="Wind, the same everywhere and always.")
 

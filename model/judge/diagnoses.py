@@ -20,6 +20,9 @@ from model.problem import (
 from model.solution import Stop, Visit
 
 
+NO_FLIGHT = "No flight leads there from the depot and back."
+
+
 class Diagnosis(NamedTuple):
     """A broken rule in words, and the problem changed so that it is kept."""
 
@@ -129,7 +132,7 @@ def _pickup_order(attempt: Attempt) -> Diagnosis:
 
 
 def _unreachable(attempt: Attempt) -> Diagnosis:
-    return Diagnosis("RANGE", "No flight leads there from the depot and back.")
+    return Diagnosis("RANGE", NO_FLIGHT)
 
 
 def _endurance(attempt: Attempt) -> Diagnosis:

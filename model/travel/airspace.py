@@ -30,6 +30,8 @@ class Airspace:
     no_fly: tuple[Ring, ...] = ()  # corners in metres, closing point optional
     wind_speed_kmh: float = 0.0
     wind_direction_deg: float = 0.0  # blows FROM there, clockwise from north: 270 is a west wind
+    zones: tuple[Polygon, ...] = ()  # more areas, in metres, which may have holes
+    low_zones: tuple[Polygon, ...] = ()  # flown over, but nobody takes off or lands in them
 
     def __post_init__(self) -> None:
         for index, ring in enumerate(self.no_fly):
@@ -40,6 +42,16 @@ class Airspace:
             raise ValueError(f"wind_speed_kmh: {self.wind_speed_kmh!r} is not allowed")
         if not np.isfinite(self.wind_direction_deg):
             raise ValueError(f"wind_direction_deg: {self.wind_direction_deg!r} is not allowed")
+
+    @property
+    def is_free(self) -> bool:
+        """Tell whether all flights are straight."""
+        return not (self.no_fly or self.zones or self.low_zones)
+
+    @cached_property
+    def obstacles(self) -> Obstacles:
+        """The areas, merged."""
+        return obstacles_of(self.no_fly, self.zones, self.low_zones)
 
     def wind(self, airspeed_kmh: float) -> Wind:
         """Return what the wind does to drones of a speed through the air."""
@@ -100,7 +112,7 @@ class Flights:
     def __init__(self, points_m: FloatArray, airspace: Airspace, straight_m: FloatArray,
                  pause: Pause = go_on) -> None:
         self._points = points_m
-        self._airspace = airspace
+        self.airspace = airspace
         self._straight_m = straight_m
         self._pause = pause
 
@@ -114,25 +126,20 @@ class Flights:
         """
         if not 0 < airspeed_kmh < float("inf"):
             raise ValueError(f"airspeed_kmh: {airspeed_kmh!r} is not allowed")
-        wind = self._airspace.wind(airspeed_kmh)
+        wind = self.airspace.wind(airspeed_kmh)
         if wind.is_calm:
             return Legs(self._shortest_m, self._shortest_m / wind.airspeed)
         return self._quickest(wind)
 
     @cached_property
-    def obstacles(self) -> Obstacles:
-        """The no-fly areas, merged."""
-        return obstacles_of(self._airspace.no_fly)
-
-    @cached_property
     def ways(self) -> Ways:
         """The ways around areas, whatever the speed."""
-        return find_ways(self._points, self.obstacles, self._pause)
+        return find_ways(self._points, self.airspace.obstacles, self._pause)
 
     @cached_property
     def _shortest_m(self) -> FloatArray:
         """The distances without wind, whatever the speed."""
-        if not self._airspace.no_fly:
+        if self.airspace.is_free:
             return self._straight_m
         # At a metre a second, durations are distances.
         shortest = self._straight_m.copy()
@@ -146,6 +153,6 @@ class Flights:
             y = self._points[:, 1] - self._points[rows, 1, None]
             legs.duration[rows] = wind.durations(x, y, legs.distance[rows])
             legs.distance[rows][np.isinf(legs.duration[rows])] = np.inf
-        if self._airspace.no_fly:
+        if not self.airspace.is_free:
             self.ways.replace_blocked(legs, wind, self._pause)
         return legs

@@ -31,19 +31,23 @@ class Obstacles(NamedTuple):
     parts: BaseGeometry  # what no flight may meet
     edges: FloatArray  # (edge, 4) x and y of both ends of the parts' edges
     corners: Corners  # outside the parts
+    low: BaseGeometry  # where nobody takes off or lands
 
     def hold(self, points: FloatArray) -> BoolArray:
-        """Mark the (point, 2) points that lie in a part."""
-        return _inside(self.parts, points)
+        """Mark the (point, 2) points that can't be flown to: they lie in a part, or in what is low.
+        """
+        return _inside(self.parts, points) | _inside(self.low, points)
 
 
-def obstacles_of(rings: Sequence[Sequence[tuple[float, float]]]) -> Obstacles:
-    """Merge areas, each given by its corners."""
-    areas = shapely.union_all([Polygon(ring) for ring in rings])
+def obstacles_of(rings: Sequence[Sequence[tuple[float, float]]],
+                 zones: Sequence[Polygon] = (), low: Sequence[Polygon] = ()) -> Obstacles:
+    """Merge areas, given by their corners or as polygons; `low` ones are flown over."""
+    areas = shapely.union_all([*[Polygon(ring) for ring in rings], *zones])
     parts = _blocking_parts(areas)
     corners = _corners(areas)
     free = ~_inside(parts, corners.place)
-    return Obstacles(parts, _edges(parts), Corners(*(places[free] for places in corners)))
+    return Obstacles(parts, _edges(parts), Corners(*(places[free] for places in corners)),
+                     shapely.union_all(list(low)))
 
 
 def count_crossings(rings: Sequence[Sequence[tuple[float, float]]]) -> int:

@@ -9,6 +9,7 @@ from types import MappingProxyType
 import numpy as np
 
 from app.maps.addresses.addresses import NO_ADDRESSES, Addresses
+from app.maps.airspace.zone import Zone
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.caching import DECIMALS, TableCache, part_of
 from app.maps.roads.engine import Block, RoadEngine, RoadRoute, RoadTable
@@ -36,14 +37,18 @@ class Roads:
         Most places of a request of which plans have all legs from the start.
     addresses
         The geocoders that the service has beside them.
+    zones
+        Those of the airspace that hold for all requests.
     """
 
     def __init__(self, engines: Mapping[str, RoadEngine], cache: TableCache | None = None,
                  origins: Mapping[str, str] = MappingProxyType({}),
                  starts: tuple[Callable[[], None], ...] = (),
                  full_up_to: float = FULL_UP_TO,
-                 addresses: Addresses = NO_ADDRESSES) -> None:
+                 addresses: Addresses = NO_ADDRESSES,
+                 zones: tuple[Zone, ...] = ()) -> None:
         self.addresses = addresses
+        self.zones = zones
         self._engines = engines
         self._origins = origins
         self._cache = TableCache() if cache is None else cache
@@ -61,7 +66,8 @@ class Roads:
 
     def with_all_legs(self) -> "Roads":
         """Return the same roads for who asks what legs nobody drives yet would come to."""
-        return Roads(self._engines, self._cache, self._origins, self._starts, inf)
+        return Roads(self._engines, self._cache, self._origins, self._starts, inf,
+                     zones=self.zones)
 
     def start(self) -> None:
         """Get ready in the background. In place."""

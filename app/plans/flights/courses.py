@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 
 import numpy as np
-from shapely import LineString, Polygon
+from shapely import LineString
 
 from app.plans.flights.flight import Flight, Place, Ring, WayPoint
 from app.requests.conversion.energy import climb_duration
@@ -19,9 +19,6 @@ from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
-
-ALTITUDE_M = 100.0
-"""Height above the launch at which drones fly."""
 
 DECIMALS = 7
 """Of degrees: MAVLink counts ten-millionths, which are a centimetre."""
@@ -124,27 +121,28 @@ class _Courses:
         self._request: PlanRequest = placed.request
         self._places = placed.places
         self._ground = ground
-        self._airspace = ground.airspace
         self._at = {node: index for index, node in enumerate(flown)}
         self._points = ground.points_m[flown]
-        self._detours: Detours | None = (
-            ground.detours_among(flown) if self._airspace.no_fly else None)
-        self._zones: list[tuple[Polygon, Ring]] = [
-            (Polygon(planar), _closed(stated)) for planar, stated
-            in zip(self._airspace.no_fly, self._request.airspace.no_fly, strict=True)]
+        altitudes = {sortie.drones.altitude for sortie in sorties}
+        self._detours: dict[float, Detours] = {
+            altitude: ground.detours_among(flown, altitude) for altitude in altitudes
+            if ground.has_areas(altitude)}
+        self._zones = {altitude: ground.closed_areas(altitude) for altitude in altitudes}
         day = self._request.day
         self._plan_start: datetime | None = None if day is None else day.start.astimezone(UTC)
 
     def flight(self, flown: _Sortie) -> Flight:
         """Return the flight of a sortie."""
+        altitude = flown.drones.altitude
         way_points = tuple(self._way_points(flown))
         line = LineString(self._ground.planar(np.array([point.place for point in way_points])))
         return Flight(
             vehicle=flown.route.vehicle, drone=flown.sortie.drone, number=flown.number,
-            altitude=ALTITUDE_M,
+            altitude=altitude,
             lands=flown.drones.energy is None or flown.drones.energy.lands,
             way_points=way_points, recovery_time=flown.sortie.recovery_time,
-            zones=tuple(ring for zone, ring in self._zones if zone.distance(line) <= NEARBY_M),
+            zones=tuple(_closed(ring) for zone, ring in self._zones[altitude]
+                        if zone.distance(line) <= NEARBY_M),
             plan_start=self._plan_start)
 
     def _way_points(self, flown: _Sortie) -> Iterator[WayPoint]:
@@ -172,12 +170,12 @@ class _Courses:
 
     def _leg(self, drones: DronesInput, start: int, end: int) -> _Leg:
         """Return the flight from node to node; there is always a way around zones, or it raises."""
-        speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
-        corners = np.stack([self._points[self._at[start]], *self._bends(start, end, speed),
+        speed = _airspeed(drones)
+        corners = np.stack([self._points[self._at[start]], *self._bends(drones, start, end),
                             self._points[self._at[end]]])
         x, y = np.diff(corners, axis=0).T
         lengths = np.hypot(x, y)
-        seconds = self._airspace.wind(speed).durations(x, y, lengths)
+        seconds = self._ground.airspace(drones.altitude).wind(speed).durations(x, y, lengths)
         if drones.profile in (self._request.matrices or {}):
             total = self._matrix_seconds(drones.profile, start, end)
             seconds = lengths / max(lengths.sum(), 1.0) * total
@@ -190,10 +188,10 @@ class _Courses:
                   for lon, lat in self._ground.stated(corners[1:-1])]
         return _Leg([*places, self._place(end)], speeds, passed.tolist(), total)
 
-    def _bends(self, start: int, end: int, speed: float) -> FloatArray:
+    def _bends(self, drones: DronesInput, start: int, end: int) -> FloatArray:
         """Return the (corner, 2) planar metres where a flight bends."""
         a, b = self._at[start], self._at[end]
-        detours = self._detours
+        detours, speed = self._detours.get(drones.altitude), _airspeed(drones)
         if detours is None or not detours.ways.blocked[a, b]:
             return np.empty((0, 2))
         bends = self._ground.planar(detours.bends(a, b, speed))
@@ -231,10 +229,14 @@ def _bends(leg: _Leg, leaving: float, arrival: float) -> Iterator[WayPoint]:
         yield WayPoint("bend", place, None, speed, leaving + share * (arrival - leaving))
 
 
-def _closed(ring: Sequence[Place]) -> Ring:
+def _closed(ring: FloatArray) -> Ring:
     """Return a ring whose last corner is its first."""
     corners = tuple((float(x), float(y)) for x, y in ring)
     return corners if corners[0] == corners[-1] else (*corners, corners[0])
+
+
+def _airspeed(drones: DronesInput) -> float:
+    return drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
 
 
 def _refused(code: ErrorCode, path: str, message: str) -> InvalidRequestError:

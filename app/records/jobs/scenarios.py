@@ -159,7 +159,7 @@ def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
         If the work is stopped.
     """
     errors: list[InputError] = []
-    ground = Ground(PlacedRequest(base), preparing)
+    ground = Ground(PlacedRequest(base), preparing, roads.zones)
     for position in range(len(scenarios)):
         preparing.pause()
         scenario = scenarios.scenario(position)
@@ -167,7 +167,7 @@ def validate(base: PlanRequest, scenarios: Scenarios, policies: Collection[str],
             request = apply(base, scenario, policies, bounds)
             placed = PlacedRequest(request)
             if not ground.is_that_of(placed):
-                ground = Ground(placed, preparing)
+                ground = Ground(placed, preparing, roads.zones)
             check_replan(request, preparing, ground, roads)
         except InvalidRequestError as error:
             errors += [_named(item, scenario) for item in error.errors]

@@ -5,11 +5,16 @@ from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
+import shapely
+from shapely import Polygon
+from shapely.geometry.base import BaseGeometry
 
+from app.maps.airspace.zone import Zone
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.rounding import ROUNDINGS
 from app.requests.conversion.work import sights_seconds
+from app.requests.conversion.zones import Met, Part, ZonesMet, span_of
 from app.schemas.fields import point_of
 from model.problem import FloatArray, Points
 from model.problem.distances import EXACT
@@ -20,8 +25,8 @@ from model.travel.matrices import (
     points_of,
     straight_distances,
 )
-from model.travel.obstacles import obstacles_of
 from model.travel.ways import Ways, find_ways
+from model.travel.zones import WIDER_M, dissolved, holding, within_reach
 
 
 class Detours(NamedTuple):
@@ -41,10 +46,14 @@ class Detours(NamedTuple):
 class Ground:
     """Where a request's places and no-fly areas are, however its fleet travels."""
 
-    def __init__(self, placed: PlacedRequest, preparing: Preparing = UNHURRIED) -> None:
+    def __init__(self, placed: PlacedRequest, preparing: Preparing = UNHURRIED,
+                 published: Sequence[Zone] = ()) -> None:
         self._request = placed.request
         self._preparing = preparing
         self.places = placed.places
+        self.zones = ZonesMet(placed.request, published)
+        self._airspaces: dict[Met, Airspace] = {}
+        self._flights: dict[Met, Flights] = {}
 
     def is_that_of(self, placed: PlacedRequest) -> bool:
         """Tell whether a request has its places and areas at the same points."""
@@ -53,6 +62,7 @@ class Ground:
             (mine.coordinate_system, mine.planar_unit, mine.planar_rounding, mine.airspace)
             == (request.coordinate_system, request.planar_unit, request.planar_rounding,
                 request.airspace)
+            and self.zones.span == span_of(request)
             and [place.location for place in self.places]
             == [place.location for place in placed.places])
 
@@ -99,25 +109,47 @@ class Ground:
             return self.legs_m
         return planar_distances(self.points_m, self._preparing.pause)
 
-    @cached_property
-    def flights(self) -> Flights:
-        """Flights of drones of any speed."""
-        flights = Flights(self.points_m, self.airspace, self.distances_m, self._preparing.pause)
-        obstacles = flights.obstacles
-        self._preparing.expect(sights_seconds(
-            len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
-        return flights
+    def has_areas(self, altitude: float) -> bool:
+        """Tell whether there is anything that drones at an altitude may not fly through."""
+        return bool(self._request.airspace.no_fly) or any(self.zones.at(altitude))
 
-    def detours(self) -> Detours:
-        """Return where flights bend, of a request with no-fly areas."""
-        return Detours(self.flights.ways, self.stated(self.flights.obstacles.corners.place),
-                       self.airspace)
+    def flights(self, altitude: float) -> Flights:
+        """Return the flights of drones of any speed at an altitude."""
+        met = self.zones.at(altitude)
+        if met not in self._flights:
+            airspace = self.airspace(altitude)
+            obstacles = airspace.obstacles
+            self._preparing.expect(sights_seconds(
+                len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
+            self._flights[met] = Flights(self.points_m, airspace, self.distances_m,
+                                         self._preparing.pause)
+        return self._flights[met]
 
-    def detours_among(self, nodes: Sequence[int]) -> Detours:
+    def detours(self, altitude: float) -> Detours | None:
+        """Return where flights bend; None: they are straight."""
+        if not self.has_areas(altitude):
+            return None
+        flights = self.flights(altitude)
+        return Detours(flights.ways, self.stated(flights.airspace.obstacles.corners.place),
+                       flights.airspace)
+
+    def detours_among(self, nodes: Sequence[int], altitude: float) -> Detours:
         """Return where flights between a few of the places bend, numbered as they are listed."""
-        obstacles = obstacles_of(self.airspace.no_fly)
-        ways = find_ways(self.points_m[nodes], obstacles, self._preparing.pause)
-        return Detours(ways, self.stated(obstacles.corners.place), self.airspace)
+        airspace = self.airspace(altitude)
+        ways = find_ways(self.points_m[nodes], airspace.obstacles, self._preparing.pause)
+        return Detours(ways, self.stated(airspace.obstacles.corners.place), airspace)
+
+    def closed_areas(self, altitude: float) -> list[tuple[Polygon, FloatArray]]:
+        """Return all that may not be flown through, in planar metres as it was published.
+
+        With each, the (corner, 2) ring around it as the request states places.
+        """
+        rings = [np.array(ring, dtype=np.float64) for ring in self._request.airspace.no_fly]
+        parts = self.zones.at(altitude).around
+        return [*((Polygon(self.planar(ring)), ring) for ring in rings),
+                *zip(self._projected(parts),
+                     (shapely.get_coordinates(part.volume.area.exterior) for part in parts),
+                     strict=True)]
 
     def stated(self, points_m: FloatArray) -> FloatArray:
         """Return (place, 2) planar metres as the request states places."""
@@ -129,13 +161,46 @@ class Ground:
         return (self._projection.project(points) if self.is_geographic
                 else points * self._request.planar_unit)
 
-    @cached_property
-    def airspace(self) -> Airspace:
-        """Its areas and its wind, in planar metres."""
+    def zones_at(self, node: int, altitude: float) -> list[Part]:
+        """Return the zones that keep drones at an altitude from a place."""
+        return self._met_by(shapely.Point(self.points_m[node]), altitude, (True, True))
+
+    def zones_between(self, start: int, end: int, altitude: float) -> list[Part]:
+        """Return the zones that a straight flight between two places would meet, from its start."""
+        line = shapely.LineString(self.points_m[[start, end]])
+        return self._met_by(line, altitude, (True, False))
+
+    def _met_by(self, what: BaseGeometry, altitude: float,
+                looked_at: tuple[bool, bool]) -> list[Part]:
+        parts = [part for met, asked in zip(self.zones.at(altitude), looked_at, strict=True)
+                 if asked for part in met]
+        areas = self._projected(parts)
+        near = shapely.STRtree(areas).query(what, predicate="dwithin", distance=WIDER_M)
+        start = shapely.Point(what.coords[0])
+        return [parts[number] for number in sorted(
+            near.tolist(), key=lambda number: (areas[number].distance(start), number))]
+
+    def airspace(self, altitude: float) -> Airspace:
+        """Return what bends or slows flights at an altitude, in planar metres."""
+        met = self.zones.at(altitude)
+        if met not in self._airspaces:
+            self._airspaces[met] = self._airspace_with(met)
+        return self._airspaces[met]
+
+    def _airspace_with(self, met: Met) -> Airspace:
         stated = self._request.airspace
         rings = [self.planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
+        around, over = self._projected(met.around), self._projected(met.over)
+        near = within_reach(around, self.points_m)
         return Airspace(
             no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
             wind_speed_kmh=stated.wind.speed_kmh,
             wind_direction_deg=stated.wind.direction_deg,
+            zones=dissolved([around[number] for number in near]),
+            low_zones=tuple(over[number] for number in holding(over, self.points_m)),
         )
+
+    def _projected(self, parts: Sequence[Part]) -> list[Polygon]:
+        """Return the areas of zones on the plane."""
+        areas = np.array([part.volume.area for part in parts], dtype=object)
+        return list(shapely.transform(areas, self._projection.project)) if len(areas) else []

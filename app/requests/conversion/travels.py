@@ -43,6 +43,7 @@ class _Key(NamedTuple):
     climb: int = 0  # ms more for each leg
     flown: bool = False  # which matters where some end nowhere
     estimated_kmh: float = 0.0  # where roads may not be known
+    altitude: float = 0.0  # which matters where there are zones
 
 
 STRAIGHT = _Key("drive", "", DEFAULT_DRONE_SPEED_KMH)
@@ -65,7 +66,7 @@ class Travels:
         self._placed = placed
         self._request = placed.request
         self._preparing = preparing
-        self._ground = ground or Ground(placed, preparing)
+        self._ground = ground or Ground(placed, preparing, roads.zones)
         self._roads = roads
         self._road_legs: dict[str, RoadLegs] = {}
         self._places = placed.places
@@ -223,10 +224,11 @@ class Travels:
         speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
         if self._matrix(drones.profile) is not None:
             key = self._driving_at(drones.profile, 1.0)
-        elif not airspace.no_fly and not airspace.wind.speed_kmh:
+        elif not airspace.wind.speed_kmh and not self._ground.has_areas(drones.altitude):
             key = self._driving_at(drones.profile, speed)._replace(climb=climb)
         else:
-            key = _Key("flight", "", speed, climb)
+            altitude = drones.altitude if self._ground.zones else 0.0
+            key = _Key("flight", "", speed, climb, altitude=altitude)
         return key._replace(flown=self._nowhere is not None)
 
     def _driving_at(self, profile: str, speed: float) -> _Key:
@@ -278,7 +280,8 @@ class Travels:
             return self._build_on_roads(key)
         if key.means == "drive":
             return truck_travel(self._ground.legs_m, key.speed, self._preparing.pause)
-        return flight_travel(*self._ground.flights.legs(key.speed), self._preparing.pause)
+        legs = self._ground.flights(key.altitude).legs(key.speed)
+        return flight_travel(*legs, self._preparing.pause)
 
     def _build_on_roads(self, key: _Key) -> Travel:
         legs = self._legs_on_roads(key.profile)

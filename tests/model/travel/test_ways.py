@@ -134,7 +134,7 @@ def test_bends_lie_on_the_way_that_legs_measure(
     for start, end in itertools.permutations(range(len(points)), 2):
         if not flights.ways.blocked[start, end]:
             continue
-        bends = flights.obstacles.corners.place[flights.ways.bends(start, end, wind)]
+        bends = airspace.obstacles.corners.place[flights.ways.bends(start, end, wind)]
         assert (len(bends) > 0) == np.isfinite(legs.distance[start, end])
         if len(bends):
             steps = np.diff(np.concatenate((points[[start]], bends, points[[end]])), axis=0)

@@ -1448,6 +1448,7 @@ export default {
       'Die Hälfte der Wege einer Tabelle hätte ein unwahrscheinliches Tempo: Prüfen ' +
       'Sie die Einheiten.',
     VEHICLE: 'Kein Fahrzeug dieses Typs darf ihn bedienen.',
+    AIRSPACE: 'Es liegt in einer Zone oder hinter einer, durch die Drohnen nicht fliegen dürfen.',
     CAPACITY: 'Die Ladekapazität reicht nicht.',
     PAYLOAD: 'Für eine Drohne ist es zu viel.',
     TIME_WINDOW: 'Das Zeitfenster wird verpasst.',

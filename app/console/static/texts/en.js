@@ -1397,6 +1397,7 @@ export default {
     SPEED_UNLIKELY: 'Hardly any vehicle is this slow or fast.',
     MATRIX_UNITS: 'Half of the legs in a table are driven at an unlikely speed: check its units.',
     VEHICLE: 'No vehicle of this type may serve it.',
+    AIRSPACE: 'It lies in a zone, or behind one, that drones may not fly through.',
     CAPACITY: 'It holds too little.',
     PAYLOAD: 'It is too much for a drone.',
     TIME_WINDOW: 'The window is missed.',

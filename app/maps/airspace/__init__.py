@@ -1,0 +1,1 @@
+"""Zones of the airspace as authorities publish them."""

@@ -1,0 +1,65 @@
+"""Zones of the airspace on the plane: cut to what matters, merged, with fewer corners."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from shapely import GeometryCollection, MultiPolygon, Polygon
+from shapely.geometry.base import BaseGeometry
+
+from model.problem import FloatArray, IntArray
+
+EDGE_M = 0.5
+"""How far the edge of an area may lie beside what was published, as that is straight in degrees."""
+
+SIMPLER_M = 2.0
+"""How far a corner may lie beside the edge that replaces it."""
+
+LONGEST_MITRE = 2.0
+"""By how much a corner may be moved farther than edges are."""
+
+WIDER_M = LONGEST_MITRE * (SIMPLER_M + EDGE_M) + SIMPLER_M
+"""How far what is flown around may reach beyond what was published."""
+
+
+def within_reach(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
+    """Return the indices of the areas that shortest flights between (point, 2) points may meet.
+
+    A shortest way around some areas lies within the convex hull of its ends and of those areas. So
+    once a hull meets no others, these don't matter.
+    """
+    tree = shapely.STRtree(areas)
+    hull = shapely.MultiPoint(points).convex_hull
+    found = tree.query(hull, predicate="intersects")
+    while True:
+        hull = GeometryCollection([hull, *(areas[index] for index in found)]).convex_hull
+        more = tree.query(hull, predicate="intersects")
+        if len(more) == len(found):
+            return np.sort(found)
+        found = more
+
+
+def holding(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
+    """Return the indices of the areas in which any of (point, 2) points lies."""
+    tree = shapely.STRtree(areas)
+    _, found = tree.query(shapely.points(points), predicate="intersects")
+    return np.unique(found)
+
+
+def dissolved(areas: Sequence[Polygon]) -> tuple[Polygon, ...]:
+    """Return areas that hold all those given: merged, and with fewer corners."""
+    if not areas:
+        return ()
+    merged = shapely.union_all([shapely.make_valid(area) for area in areas])
+    simpler = _wider(merged.simplify(SIMPLER_M), SIMPLER_M + EDGE_M)
+    # What is simplified may lose what is thin.
+    return tuple(_polygons(simpler if simpler.covers(merged) else _wider(merged, EDGE_M)))
+
+
+def _wider(area: BaseGeometry, by: float) -> BaseGeometry:
+    return area.buffer(by, join_style="mitre", mitre_limit=LONGEST_MITRE)
+
+
+def _polygons(geometry: BaseGeometry) -> list[Polygon]:
+    parts = geometry.geoms if isinstance(geometry, MultiPolygon) else (geometry,)
+    return [part for part in parts if isinstance(part, Polygon) and not part.is_empty]

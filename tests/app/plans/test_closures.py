@@ -1,0 +1,161 @@
+"""Zones in requests: who is flown to, around what, and what those left out are told."""
+
+import json
+from typing import Any
+
+import httpx
+import pytest
+
+from app.requests.conversion.problem import to_problem
+from app.requests.reading import read_request
+from tests.app.maps.airspace.published import circle, ed269, ed318, geojson, layer, volume, zone
+from tests.app.plans.asking import planned
+
+DEPOT, BEHIND = [24.90, 60.17], [24.96, 60.17]
+WALL = [[24.92, 60.15], [24.94, 60.15], [24.94, 60.19], [24.92, 60.19]]
+WALL_AREA = {"type": "Polygon", "coordinates": [WALL]}
+STRAIGHT_M = 3317.6
+
+
+def asked(*zones: dict[str, Any], altitude: float = 100, **more: Any) -> dict[str, Any]:
+    """Return a request of a customer behind a wall, whom a drone is to serve."""
+    stated = ("cleared", "conditional", "ground")
+    airspace: dict[str, Any] = {name: more.pop(name) for name in stated
+                                if name in more}
+    return {
+        "coordinate_system": "geographic",
+        "depots": [{"id": "hub", "location": DEPOT}],
+        "customers": [{"id": "behind", "location": BEHIND, "demand": [1], "served_by": "drone"}],
+        "fleet": [{"id": "truck", "count": 1, "capacity": [9], "shift": {"latest": 28_800},
+                   "drones": {"count": 1, "capacity": [9], "altitude": altitude}}],
+        "airspace": {"zones": list(zones), **airspace}, "options": {"time_limit": 0}} | more
+
+
+def flown(client: httpx.Client, request: dict[str, Any]) -> float:
+    """Return the metres flown to the customer and back."""
+    plan = planned(client, request)
+    return float(plan["summary"]["drone_distance"])
+
+
+def wall(**changed: Any) -> dict[str, Any]:
+    return volume(horizontalProjection=WALL_AREA, **changed)
+
+
+def test_a_zone_is_flown_around(client: httpx.Client) -> None:
+    free = flown(client, asked())
+    assert free == pytest.approx(2 * STRAIGHT_M, rel=1e-3)
+    # At the nearest two corners, 2,224 m north or south of the straight line.
+    around = 2 * (2 * (1105.6**2 + 2224**2) ** 0.5 + 1105.9)
+    assert flown(client, asked(ed269(zone(wall())))) == pytest.approx(around, rel=3e-3)
+
+
+@pytest.mark.parametrize(("stated", "more"), [
+    (ed269(zone(wall(upperLimit=80))), {}),
+    (ed269(zone(wall(lowerLimit=120))), {}),
+    (ed269(zone(wall(lowerLimit=120, uomDimensions="FT"))), {"altitude": 30}),
+    (ed269(zone(wall(), restriction="NO_RESTRICTION")), {}),
+    (ed269(zone(wall(), restriction="CONDITIONAL")), {"conditional": "allow"}),
+    (ed269(zone(wall())), {"cleared": ["FIN0001"]}),
+    (ed318(WALL_AREA | {"layer": layer(9000, 10_000, reference="AMSL")}), {}),
+    (ed318(WALL_AREA | {"layer": layer(300, 900, reference="AMSL")}),
+     {"ground": {"lowest": 0, "highest": 150}}),
+    (ed269(zone(wall(), applicability=[{"permanent": "NO",
+                                        "endDateTime": "2026-11-25T00:00:00Z"}])),
+     {"plan_start": "2026-11-26T08:00:00Z"}),
+])
+def test_a_zone_that_does_not_count_is_flown_through(
+        client: httpx.Client, stated: dict[str, Any], more: dict[str, Any]) -> None:
+    assert flown(client, asked(stated, **more)) == pytest.approx(2 * STRAIGHT_M, rel=1e-3)
+
+
+@pytest.mark.parametrize(("stated", "more"), [
+    (ed269(zone(wall(upperLimit=80))), {"altitude": 80}),
+    (ed269(zone(wall(lowerLimit=120, upperLimit=500, uomDimensions="FT"))), {"altitude": 40}),
+    (ed269(zone(wall(), restriction="CONDITIONAL")), {}),
+    (ed269(zone(wall(), restriction="REQ_AUTHORISATION")), {"cleared": ["FIN0002"]}),
+    (geojson(WALL_AREA), {"altitude": 5000}),
+    (ed318(WALL_AREA | {"layer": layer(300, 900, reference="AMSL")}), {}),
+    (ed318(WALL_AREA | {"layer": layer(300, 900, reference="AMSL")}),
+     {"ground": {"lowest": 0, "highest": 210}}),
+    (ed269(zone(wall(), applicability=[{"permanent": "NO",
+                                        "endDateTime": "2026-11-26T09:00:00Z"}])),
+     {"plan_start": "2026-11-26T08:00:00Z"}),
+])
+def test_a_zone_that_counts_is_flown_around(
+        client: httpx.Client, stated: dict[str, Any], more: dict[str, Any]) -> None:
+    assert flown(client, asked(stated, **more)) > 2.5 * STRAIGHT_M
+
+
+def test_drones_at_several_altitudes_meet_different_zones() -> None:
+    request = asked(ed269(zone(wall(lowerLimit=90))))
+    high = request["fleet"][0]["drones"] | {"id": "high"}
+    request["fleet"][0]["drones"] = [high, high | {"id": "low", "altitude": 60}]
+    problem = to_problem(read_request(json.dumps(request).encode(), None))
+    around, through = (problem.travel[drones.travel].arrays()[1][0, 1] / 1000
+                       for drones in problem.vehicle_types[0].drone_types)
+    assert through == pytest.approx(STRAIGHT_M, rel=1e-3)
+    assert around > 1.5 * STRAIGHT_M
+
+
+@pytest.mark.parametrize("upper", [150, 40])
+def test_who_lies_in_a_zone_is_told_which_and_whose(client: httpx.Client, upper: int) -> None:
+    stated = ed269(zone(circle(400, BEHIND, upperLimit=upper)))
+    (left,) = planned(client, asked(stated))["unassigned"]
+    (reason,) = left["reasons"]
+    assert reason["code"] == "AIRSPACE"
+    assert reason["message"] == (
+        f"It lies in the zone Harbour (FIN0001), where flying is prohibited from the ground to "
+        f"{upper} m above the ground. Its authority: Port, tower@port.example.")
+    assert reason["remedy"] == "fits if a truck may serve it"
+
+
+def test_who_lies_behind_a_zone_is_told_which(client: httpx.Client) -> None:
+    outer = [[24.95, 60.16], [24.97, 60.16], [24.97, 60.18], [24.95, 60.18]]
+    inner = [[24.955, 60.165], [24.965, 60.165], [24.965, 60.175], [24.955, 60.175]]
+    ring = ed269(zone(volume(
+        horizontalProjection={"type": "Polygon", "coordinates": [outer, inner]})))
+    (left,) = planned(client, asked(ring))["unassigned"]
+    (reason,) = left["reasons"]
+    assert reason["code"] == "AIRSPACE"
+    assert reason["message"].startswith(
+        "No flight leads there from the depot around the zone Harbour (FIN0001), ")
+
+
+def test_a_depot_in_a_zone_is_told(client: httpx.Client) -> None:
+    (left,) = planned(client, asked(ed269(zone(circle(400, DEPOT)))))["unassigned"]
+    assert left["reasons"][0]["message"].startswith("The depot lies in the zone Harbour")
+
+
+def test_explain_lists_the_zones_around_a_customer(client: httpx.Client) -> None:
+    request = asked(ed269(zone(circle(400, BEHIND), restriction="REQ_AUTHORISATION")))
+    request["customers"][0]["served_by"] = "either"
+    plan = planned(client, request)
+    reply = client.post("/explain", json={"problem": request, "plan": plan,
+                                          "customer": "behind"}).json()
+    assert reply["zones"] == [
+        "the zone Harbour (FIN0001), where flying takes an authorisation from the ground to 120 m "
+        "above the ground. Its authority: Port, tower@port.example."]
+
+
+BOWTIE = [[24.90, 60.20], [24.92, 60.21], [24.92, 60.20], [24.90, 60.21]]
+
+
+@pytest.mark.parametrize(("changes", "code", "path"), [
+    ({"coordinate_system": "planar"}, "ZONES_ON_PLANE", "$.airspace.zones"),
+    ({"zones": [ed269(zone(wall(lowerVerticalReference="FL")))]}, "UNKNOWN_VALUE",
+     "$.airspace.zones[0].data.features[0].geometry[0].lowerVerticalReference"),
+    ({"zones": [geojson({"type": "Polygon", "coordinates": [BOWTIE]})]}, "ZONE_UNREADABLE",
+     "$.airspace.zones[0].data.features[0].geometry.coordinates"),
+    ({"zones": [{"format": "openair", "data": ""}]}, "UNKNOWN_VALUE", "$.airspace.zones[0]"),
+    ({"zones": [{"format": "kml", "data": "hello"}]}, "ZONE_UNREADABLE",
+     "$.airspace.zones[0].data"),
+    ({"ground": {"lowest": 5, "highest": 4}}, "OUT_OF_RANGE", "$.airspace.ground.highest"),
+])
+def test_what_is_wrong_with_zones_is_told(client: httpx.Client, changes: dict[str, Any],
+                                          code: str, path: str) -> None:
+    request = asked(ed269(zone(wall())))
+    for name, value in changes.items():
+        (request if name in request else request["airspace"])[name] = value
+    reply = client.post("/plan", json=request)
+    assert reply.status_code == 422
+    assert (code, path) in {(error["code"], error["path"]) for error in reply.json()["errors"]}
