@@ -1,6 +1,6 @@
 """A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
 
 
@@ -109,6 +109,14 @@ def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
 
     for route in routes:
         yield Route(*vehicle(route.vehicle_type, route.vehicle), tuple(map(trip, route.trips)))
+
+
+def with_handling(stops: Sequence[Stop], launch: int, recovery: int) -> tuple[Stop, ...]:
+    """Return the stops of a trip that departs after a launch and arrives before a recovery."""
+    first, *others, last = stops
+    landing = last.arrival - recovery
+    return (replace(first, departure=first.departure + launch), *others,
+            replace(last, arrival=landing, service_start=landing))
 
 
 @dataclass(frozen=True, slots=True)

@@ -65,7 +65,9 @@ typedef struct tandem_goods {
    drones' powers are known at so many `points`, by weight; none if no battery limits them; aboard
    they gain a `charge`, from what each has at first. It picks up in any order, or after all that a
    trip delivers, which is something, or was before the trip begins here; what else it carries in
-   the first dimension. `rules/drone_types.h` says which rows tell of which drones. */
+   the first dimension. `rules/drone_types.h` says which rows tell of which drones. Of one that
+   flies by itself, what is said of drones holds for its trips; its legs hold launches and
+   recoveries. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -107,6 +109,7 @@ typedef struct tandem_vehicle_type {
     int64_t climb_duration;
     int64_t descent_duration;
     int64_t charge;
+    int64_t flies;
     int64_t pickup_order;
     int64_t carried;
     int64_t capacity[9];

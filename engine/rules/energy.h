@@ -92,14 +92,19 @@ inline Int after_leg(const VehicleType& type, Int left, Int weight, Int duration
     return left;
 }
 
+// The power of hovering with so much aboard.
+inline Int power_hovering(const VehicleType& type, Int weight) {
+    return power_at(type, type.hover, weight);
+}
+
 // What is left after hovering with so much aboard.
 inline Int after_hovering(const VehicleType& type, Int left, Int weight, Int duration) {
-    return discharge(left, power_at(type, type.hover, weight), duration);
+    return discharge(left, power_hovering(type, weight), duration);
 }
 
 // How long a drone can hover with so much aboard; `far` if for ever.
 inline Int longest_hover(const VehicleType& type, Int left, Int weight) {
-    const Int power = power_at(type, type.hover, weight);
+    const Int power = power_hovering(type, weight);
     return power == 0 ? far : floor_quotient(left, power);
 }
 

@@ -137,7 +137,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Room room = room_of(open);
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
-    const bool trying = some_limited(setting.max_time_aboard) || order_is_open(setting, vehicle);
+    const bool trying = holds_count(setting) || order_is_open(setting, vehicle);
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {

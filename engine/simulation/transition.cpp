@@ -144,10 +144,11 @@ bool hold_trip(OpenVehicle& open, Int release) {
 // Hold the trip until no parcel is too long aboard; false if that can't be.
 bool keep_fresh(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
-    if (!some_limited(setting.max_time_aboard)) return true;
+    if (!holds_count(setting)) return true;
     bool held = true;
     Int excess = most_excess(setting, log);
     while (excess > 0) {
+        if (excess == far) return false;
         const Int start = log.trip[log.count.trips - 1].start + excess;
         // Drones that don't last then may do if the trip is held even longer.
         held = hold_trip(open, start);

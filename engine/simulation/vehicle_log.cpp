@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "rules/drone_types.h"
 #include "rules/energy.h"
@@ -50,11 +51,62 @@ Int charged_takeoff(const Setting& setting, const VehicleLog& log, Int index, In
     return takeoff;
 }
 
+// The stops of a trip, up to the last that is logged.
+struct Stops {
+    Int first;
+    Int behind;
+};
+
+Stops stops_of(const VehicleLog& log, Int trip) {
+    const bool is_last = trip + 1 == log.count.trips;
+    return {log.trip[trip].first_stop, is_last ? log.count.stops : log.trip[trip + 1].first_stop};
+}
+
+// What a trip takes of who flies by itself, whose stops are reached when `arrival_at` says.
+template <class ArrivalAt>
+FlownTrip follow_trip(const Setting& setting, const VehicleLog& log, Int trip,
+                      const ArrivalAt& arrival_at) {
+    const auto [first, behind] = stops_of(log, trip);
+    const auto served = [&](Int index) { return log.stop[index].node >= setting.num_depots; };
+    Int weight = 0;
+    for (Int index = first; index < behind; ++index) {
+        if (served(index)) weight += weight_brought(setting.node_by_air[log.stop[index].node]);
+    }
+    FlownTrip flown(setting.type, weight);
+    for (Int index = first + 1; index < behind; ++index) {
+        const Int node = log.stop[index].node;
+        const Int duration = setting.drive(log.stop[index - 1].node, node);
+        if (served(index)) {
+            const Windows place = setting.node_by_air[node];
+            flown.fly_to(place, duration, index == first + 1, place.waiting(arrival_at(index)));
+        } else {
+            flown.fly_home(duration, index == first + 1);
+        }
+    }
+    return flown;
+}
+
+// With what a vehicle that flies by itself comes to a trip, by the log, and since when.
+Charge charge_before(const Setting& setting, const VehicleLog& log, Int trip) {
+    const VehicleType& type = setting.type;
+    Charge charge = first_charge(type, 0);
+    for (Int before = 0; before < trip; ++before) {
+        const auto [first, behind] = stops_of(log, before);
+        const FlownTrip flown =
+            follow_trip(setting, log, before, [&](Int index) { return log.stop[index].arrival; });
+        const Int there = charged(type, charge.kept, charge.since, log.stop[first].leave);
+        charge = {there - (battery_of(type) - flown.left()), log.stop[behind - 1].leave};
+    }
+    return charge;
+}
+
 // Times trips anew, as `retime` says if it writes, else as `costs_nothing` does.
 template <bool writes>
 class Replay {
 public:
-    Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {}
+    Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {
+        if (bounds_trips(setting.type)) arrivals_.resize(log.count.stops);
+    }
 
     bool run(Int first_trip, Int start) {
         op_ = log_.trip[first_trip].first_op;
@@ -64,18 +116,39 @@ public:
                 start = std::max(log_.trip[trip].release, leave_ + setting_.type.reload_duration);
             }
             if (!run_trip(trip, start)) return false;
+            if (bounds_trips(setting_.type) && !lasts(trip, start)) return false;
         }
         return lasting_ && (writes || leave_ <= log_.stop[log_.count.stops - 1].leave);
     }
 
 private:
+    // Whether a trip that was begun at `start` lasts in the air; when writing, that is noted.
+    bool lasts(Int trip, Int start) {
+        const VehicleType& type = setting_.type;
+        const FlownTrip flown = follow_trip(setting_, log_, trip, [&](Int index) {
+            return arrivals_[static_cast<std::size_t>(index)];
+        });
+        bool done =
+            leave_ - start <= longest_in_air(type) && (!is_limited(type) || flown.left() >= 0);
+        if (charges_between_trips(type)) {
+            if (trip == 0 || !charge_) charge_ = charge_before(setting_, log_, trip);
+            const Int there = charged(type, charge_->kept, charge_->since, start);
+            charge_ = Charge{there - (battery_of(type) - flown.left()), leave_};
+            done = done && charge_->kept >= 0;
+        }
+        if constexpr (writes) {
+            lasting_ = lasting_ && done;
+            return true;
+        }
+        return done;
+    }
+
     bool run_trip(Int trip, Int start) {
         first_ = log_.trip[trip].first_stop;
         launched_ = 0;
         departure_ = far;
         if constexpr (writes) log_.trip[trip].start = start;
-        const bool is_last = trip + 1 == log_.count.trips;
-        const Int behind = is_last ? log_.count.stops : log_.trip[trip + 1].first_stop;
+        const Int behind = stops_of(log_, trip).behind;
         for (Int index = first_; index < behind; ++index) {
             const Int node = log_.stop[index].node;
             const Int arrival =
@@ -88,6 +161,7 @@ private:
 
     bool run_stop(Int index, Int arrival) {
         LoggedStop& stop = log_.stop[index];
+        if (!arrivals_.empty()) arrivals_[static_cast<std::size_t>(index)] = arrival;
         Int service_start = arrival;
         leave_ = index == first_ ? leaves_first(setting_.type, arrival) : arrival;
         if (stop.node >= setting_.num_depots) {
@@ -219,6 +293,9 @@ private:
     Int first_ = 0;
     Int launched_ = 0;
     Int departure_ = far;
+    // Of who flies by itself: when each stop is reached, and how the battery is after a trip.
+    std::vector<Int> arrivals_;
+    std::optional<Charge> charge_;
     // At the stop: when the crew is free, and when it is from what takes time.
     Int free_ = 0;
     Int busy_ = 0;
@@ -234,7 +311,10 @@ bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int 
     return Replay<false>(setting, log).run(first_trip, start);
 }
 
-Int most_excess(const Setting& setting, const VehicleLog& log) {
+namespace {
+
+// By how much a parcel is too long aboard on the last trip; at most 0 if none is.
+Int excess_of_parcels(const Setting& setting, const VehicleLog& log) {
     const Int first = log.trip[log.count.trips - 1].first_stop;
     const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
     Int departure = log.stop[first].leave;
@@ -252,6 +332,33 @@ Int most_excess(const Setting& setting, const VehicleLog& log) {
     for (const LoggedSortie& sortie : sorties) {
         if (sortie.launch_stop >= first) look_at(sortie.node, sortie.start);
     }
+    return most;
+}
+
+// By how much later the last trip has to begin at least to last in the air.
+Int excess_in_air(const Setting& setting, const VehicleLog& log) {
+    const VehicleType& type = setting.type;
+    const Int trip = log.count.trips - 1;
+    const auto [first, behind] = stops_of(log, trip);
+    const Int start = log.stop[first].leave;
+    Int most = log.stop[behind - 1].leave - start - longest_in_air(type);
+    if (!is_limited(type)) return most;
+    const FlownTrip flown =
+        follow_trip(setting, log, trip, [&](Int index) { return log.stop[index].arrival; });
+    most = std::max(most, flown.excess());
+    if (charges_between_trips(type) && flown.left() >= 0) {
+        const Charge before = charge_before(setting, log, trip);
+        most = std::max(most, time_charged(type, before.kept, before.since, flown.left()) - start);
+    }
+    return most;
+}
+
+}  // namespace
+
+Int most_excess(const Setting& setting, const VehicleLog& log) {
+    Int most = -far;
+    if (some_limited(setting.max_time_aboard)) most = excess_of_parcels(setting, log);
+    if (bounds_trips(setting.type)) most = std::max(most, excess_in_air(setting, log));
     return most;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "rules/clock.h"
+#include "rules/flown_trip.h"
 #include "rules/window.h"
 #include "simulation/state.h"
 
@@ -65,7 +66,13 @@ bool retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
 // later end than logged, and no parcel too long aboard. Writes trial times of sorties alone.
 bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
 
-// By how much a parcel is too long aboard on the last trip; at most 0 if none is.
+// Whether trips may have to be held back.
+inline bool holds_count(const Setting& setting) {
+    return some_limited(setting.max_time_aboard) || bounds_trips(setting.type);
+}
+
+// By how much later the last trip has to begin, so that no parcel is too long aboard, and nobody
+// who flies by itself too long in the air; at most 0 if it needn't, `far` if that doesn't help.
 Int most_excess(const Setting& setting, const VehicleLog& log);
 
 // The latest start of a trip that costs nothing; `known` is one that costs nothing.

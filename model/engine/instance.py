@@ -17,7 +17,8 @@ from model.engine.nearest import write_nearest
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
 from model.engine.variants import (
-    Variant, Way, durations_of, index_of, variant_of, ways_of, write_legs,
+    Variant, Way, durations_of, index_of, variant_of, way_of, ways_of, weighed_variant_of,
+    write_legs,
 )
 from model.problem import (
     MAX_DIMENSIONS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray, IntArray,
@@ -44,7 +45,6 @@ WORK_RATES = "time", "overtime"
 """The rates per hour of what a vehicle's work costs."""
 
 NO_PROFILE = -1
-NO_DRONES = (0,) * 10
 
 AMOUNTS = 2 * DIMENSIONS_PER_TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
@@ -163,6 +163,8 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
         _pack_customers(instance, row, problem, durations)
     for index, (kind, part_of, drone_row) in enumerate(kinds):
         variants = [variant_of(each, problem, durations) for each in (kind, kind.drones)]
+        if kind.flies:
+            variants[1] = weighed_variant_of(kind, problem, durations)
         instance.type[row, index] = _type_row(kind, ways, drone_row, *variants)
         charge_left = problem.vehicle_types[part_of].charge_left
         if charge_left:
@@ -251,9 +253,9 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
     drones = kind.drones
     load = kind.initial_load or (0,) * len(kind.capacity)
     free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
-    energy = None if drones is None else drones.energy
+    energy = kind.energy if drones is None else drones.energy
     room = MAX_TIERS * DIMENSIONS_PER_TIER
-    travel = index_of(ways, kind.travel, kind.speed_profile is None)
+    travel = index_of(ways, way_of(kind, True))
     return (
         kind.count, travel, kind.depot, kind.begins_at, kind.ends_at,
         _changes_ends(kind), kind.earliest, kind.busy_until,
@@ -261,10 +263,10 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
         _most_sorties(kind), kind.most_airborne, int(kind.truck_waits), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
-        *(NO_DRONES if drones is None else _drones(drones, ways)), variant, drone_variant,
-        *battery_row(energy), _pickup_order(kind), load[0], _padded(free, room),
-        _padded(() if drones is None else drones.capacity, room), *powers_row(energy),
-        full_row(energy, MOST_DRONES))
+        *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
+        drone_variant, *battery_row(energy), int(kind.flies), _pickup_order(kind), load[0],
+        _padded(free, room), _padded(() if drones is None else drones.capacity, room),
+        *powers_row(energy), full_row(energy, MOST_DRONES))
 
 
 def _overtime_rate(kind: VehicleType) -> float:
@@ -308,12 +310,20 @@ def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
 
 
 def _drones(drones: DroneType, ways: Sequence[Way]) -> tuple[int, ...]:
-    out, home = (index_of(ways, drones.travel, sets_up) for sets_up in (True, False))
-    straight = out if drones.max_range is None else index_of(ways, drones.straight, False)
+    out, home = (index_of(ways, Way(drones.travel, sets_up)) for sets_up in (True, False))
+    straight = out if drones.max_range is None else index_of(ways, Way(drones.straight, False))
     relaunch = drones.launch_duration + drones.swap_duration
     return (drones.count, out, home, drones.endurance, int(drones.endurance_includes_waiting),
             relaunch if drones.has_launched else drones.launch_duration, relaunch,
             drones.recovery_duration, straight, _limit(drones.max_range))
+
+
+def _itself(kind: VehicleType, travel: int) -> tuple[int, ...]:
+    """Return what is said of drones, of a vehicle that has none; it may fly by itself."""
+    if not kind.flies:
+        return (0,) * 10
+    return (0, travel, travel, kind.endurance, 1, kind.launch_duration, kind.launch_duration,
+            kind.recovery_duration, travel, UNLIMITED)
 
 
 def _worked(kind: VehicleType) -> int:
@@ -344,7 +354,8 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem,
             goods = instance.goods[row, customers]
             fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0
         if index == part_of:
-            instance.can_drive[row, index, customers] = fits & by_truck & (kind.max_stops != 0)
+            served = fits & (by_drone if kind.flies else by_truck)
+            instance.can_drive[row, index, customers] = served & (kind.max_stops != 0)
         can_launch = _most_sorties(kind) > 0 and problem.vehicle_types[part_of].max_sorties != 0
         if kind.drones is not None and can_launch and (index != part_of or drone_row == NO_ROW):
             payload = instance.type[row, index].payload[dimensions]

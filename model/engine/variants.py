@@ -20,10 +20,12 @@ load weighs."""
 
 
 class Way(NamedTuple):
-    """Legs of one travel, to whose durations setups are added or not."""
+    """Legs of one travel, to whose durations setups, launches and recoveries are added or not."""
 
     travel: int  # index into Problem.travel
     sets_up: bool
+    launch: int = 0  # ms more from depots, of who flies by itself
+    recovery: int = 0  # ms more to depots
 
 
 def durations_of(problem: Problem) -> dict[Variant, IntArray]:
@@ -36,6 +38,9 @@ def durations_of(problem: Problem) -> dict[Variant, IntArray]:
             if _has_own_table(served):
                 each = _served_by(served, problem)
                 found.setdefault((each.tobytes(), _weighs(served)), each)
+        if kind.energy is not None:
+            each = _served_by(kind, problem)
+            found.setdefault((each.tobytes(), kind.energy.dimension), each)
     return found
 
 
@@ -64,13 +69,28 @@ def variant_of(kind: VehicleType | DroneType | None, problem: Problem,
     return list(durations).index((_served_by(kind, problem).tobytes(), _weighs(kind)))
 
 
+def weighed_variant_of(kind: VehicleType, problem: Problem,
+                       durations: dict[Variant, IntArray]) -> int:
+    """Return the number of the table by which the battery of who flies by itself is limited."""
+    if kind.energy is None:
+        return 0
+    return list(durations).index((_served_by(kind, problem).tobytes(), kind.energy.dimension))
+
+
+def way_of(kind: VehicleType, sets_up: bool) -> Way:
+    """Return the legs by which vehicles of a type travel, with setups where any are told apart."""
+    return Way(kind.travel, sets_up and kind.speed_profile is None, kind.launch_duration,
+               kind.recovery_duration)
+
+
 def ways_of(problem: Problem) -> list[Way]:
     """Return all ways to travel that legs are needed of."""
     if not has_setups(problem):
-        return [Way(travel, False) for travel in range(len(problem.travel))]
+        plain = dict.fromkeys(Way(travel, False) for travel in range(len(problem.travel)))
+        return list(plain | dict.fromkeys(way_of(kind, False) for kind in problem.vehicle_types))
     ways: dict[Way, None] = {}
     for kind in problem.vehicle_types:
-        ways[Way(kind.travel, kind.speed_profile is None)] = None
+        ways[way_of(kind, True)] = None
         for drones in kind.drone_types:
             ways |= {Way(drones.travel, True): None, Way(drones.travel, False): None}
             if drones.max_range is not None:
@@ -83,16 +103,15 @@ def are_stated(problem: Problem, ways: Sequence[Way]) -> bool:
     setup = max([customer.setup_duration for customer in problem.customers], default=0)
     for way in ways:
         travel = problem.travel[way.travel]
-        if travel.narrow() is None or (
-                way.sets_up and travel.longest()[0] + setup > LONGEST_NARROW):
+        more = way.launch + way.recovery + (setup if way.sets_up else 0)
+        if travel.narrow() is None or (more and travel.longest()[0] + more > LONGEST_NARROW):
             return False
     return True
 
 
-def index_of(ways: Sequence[Way], travel: int, sets_up: bool) -> int:
-    """Return which legs are those of a travel, with setups if any are told apart."""
-    way = Way(travel, sets_up)
-    return ways.index(way if way in ways else Way(travel, False))
+def index_of(ways: Sequence[Way], way: Way) -> int:
+    """Return which legs are those of a way, with setups if any are told apart."""
+    return ways.index(way if way in ways else way._replace(sets_up=False))
 
 
 def write_legs(problem: Problem, ways: Sequence[Way], setup: Records, duration: IntArray,
@@ -107,3 +126,5 @@ def write_legs(problem: Problem, ways: Sequence[Way], setup: Records, duration: 
             if way.sets_up:
                 elsewhere = setup["site"][part, None] != setup["site"][:nodes]
                 duration[index, part, :nodes] += elsewhere * setup["setup_duration"][:nodes]
+        duration[index, :problem.num_depots, :nodes] += way.launch
+        duration[index, :nodes, :problem.num_depots] += way.recovery

@@ -168,7 +168,7 @@ def _customer_limits(bench: Bench) -> Iterator[Limit]:
     if customer.max_time_aboard is not None:
         slack = None
         if trip is not None and halt is not None:
-            slack = max(0, -excess_aboard(problem, trip, halt))
+            slack = max(0, -excess_aboard(problem, _kind_of(bench), trip, halt))
         enough = min(customer.max_time_aboard + MS_PER_MINUTE, MAX_QUANTITY)
         yield Limit("max_time_aboard", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, replace(customer, max_time_aboard=enough)))
@@ -190,6 +190,14 @@ def _trip_of(bench: Bench) -> Trip | None:
     found = bench.found
     return (None if found is None
             else bench.plan.solution.routes[found.route].trips[found.place.trip])
+
+
+def _kind_of(bench: Bench) -> VehicleType:
+    """Return the type of the vehicle that serves the customer."""
+    found = bench.found
+    if found is None:
+        raise ValueError(f"customer {bench.node}: not in the plan")
+    return bench.problem.vehicle_types[found.place.vehicle.type]
 
 
 def _type_limits(bench: Bench, kind: int) -> Iterator[Limit]:

@@ -4,9 +4,9 @@ Shares nothing with simulator and search, so that it can judge both.
 """
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from itertools import chain
+from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
@@ -167,6 +167,9 @@ def _unreadable(problem: Problem, route: Route, path: str) -> Iterator[Violation
             yield Violation("DEPOT", "a trip begins and ends at the depot", trip_path)
             continue
         yield from _unreadable_stops(problem, trip, trip_path)
+        if vehicle_type.flies:
+            legs = pairwise([stop.node for stop in trip.stops])
+            yield from _unreachable(problem, vehicle_type, legs, trip_path)
         if vehicle_type.drones is None and trip.sorties:
             yield Violation("COUNT", "sorties of a vehicle without drones", trip_path)
         elif vehicle_type.drones is not None:
@@ -204,9 +207,16 @@ def _unreadable_sortie(
             unknown = True
             message = f"node {visit.node} is no customer"
             yield Violation("UNKNOWN_NODE", message, f"{path}.visits[{index}]")
-    travel = problem.travel[drones.travel]
-    for leg in flight_legs(trip, sortie):
-        if unknown or not all(0 <= node < problem.num_nodes for node in leg):
+    if not unknown:
+        yield from _unreachable(problem, drones, flight_legs(trip, sortie), path)
+
+
+def _unreachable(problem: Problem, flyer: DroneType | VehicleType,
+                 legs: Iterable[tuple[int, int]], path: str) -> Iterator[Violation]:
+    """Which of some legs can't be flown, up to one from or to a node that isn't there."""
+    travel = problem.travel[flyer.travel]
+    for leg in legs:
+        if not all(0 <= node < problem.num_nodes for node in leg):
             return
         if UNREACHABLE in (travel.duration.item(*leg), travel.distance.item(*leg)):
             yield Violation("UNREACHABLE", f"no flight from node {leg[0]} to {leg[1]}", path)

@@ -306,7 +306,8 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
 
 def _time_aboard(attempt: Attempt) -> Diagnosis:
     customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
-    excess = _up_to_tenth(excess_aboard(attempt.problem, trip, _halt(attempt)), MS_PER_MINUTE)
+    too_long = excess_aboard(attempt.problem, attempt.vehicle_type, trip, _halt(attempt))
+    excess = _up_to_tenth(too_long, MS_PER_MINUTE)
     enough = (customer.max_time_aboard or 0) + excess
     changed = replace(customer, max_time_aboard=min(enough, MAX_QUANTITY))
     return Diagnosis(

@@ -1,4 +1,4 @@
-"""What sorties take of a drone's battery. Energies in µJ, plain Python integers."""
+"""What flights take of a drone's battery. Energies in µJ, plain Python integers."""
 
 from bisect import bisect_right
 from collections.abc import Sequence
@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from model.judge.launches import launch_begins
 from model.problem import DroneType, Energy, Problem, VehicleType
-from model.solution import Sortie, Trip, Visit
+from model.solution import Sortie, Stop, Trip, Visit
 
 
 class Rest(NamedTuple):
@@ -78,10 +78,11 @@ def sortie_energy(problem: Problem, drones: DroneType, energy: Energy, trip: Tri
                          sortie.recovery_start)
 
 
-def flight_energy(problem: Problem, drones: DroneType, energy: Energy, path: Sequence[int],
-                  visits: Sequence[Visit], launch_time: int, recovery_start: int) -> int:
+def flight_energy(problem: Problem, flyer: DroneType | VehicleType, energy: Energy,
+                  path: Sequence[int], visits: Sequence[Visit | Stop], launch_time: int,
+                  recovery_start: int) -> int:
     """Return what a flight takes, by the nodes where it begins, comes and ends."""
-    duration = problem.travel[drones.travel].duration
+    duration = problem.travel[flyer.travel].duration
     aboard = weights_aboard(problem, energy, path[1:-1])
     node, time, taken = path[0], launch_time, 0
     for visit, weight in zip(visits, aboard, strict=False):

@@ -1,23 +1,25 @@
 """How long parcels are aboard before their customers are served."""
 
-from model.problem import Problem
+from model.problem import Problem, VehicleType
 from model.solution import Stop, Trip, Visit
 
 
-def first_departure(trip: Trip) -> int:
-    """Return when truck or drone first leaves the depot."""
+def first_departure(kind: VehicleType, trip: Trip) -> int:
+    """Return when truck or drone first leaves the depot; by itself, when its launch begins."""
+    if kind.flies:
+        return trip.stops[0].arrival
     take_offs = [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == 0]
     return min([trip.stops[0].departure, *take_offs])
 
 
-def excess_aboard(problem: Problem, trip: Trip, halt: Stop | Visit) -> int:
+def excess_aboard(problem: Problem, kind: VehicleType, trip: Trip, halt: Stop | Visit) -> int:
     """Return by how much a customer's parcel is too long aboard."""
     limit = problem.customer_at(halt.node).max_time_aboard
-    return 0 if limit is None else halt.service_start - first_departure(trip) - limit
+    return 0 if limit is None else halt.service_start - first_departure(kind, trip) - limit
 
 
-def most_excess(problem: Problem, trip: Trip) -> int:
+def most_excess(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return by how much a parcel is too long aboard at most; 0 if none is."""
     halts: list[Stop | Visit] = [
         *trip.stops[1:-1], *(visit for sortie in trip.sorties for visit in sortie.visits)]
-    return max([0, *(excess_aboard(problem, trip, halt) for halt in halts)])
+    return max([0, *(excess_aboard(problem, kind, trip, halt) for halt in halts)])

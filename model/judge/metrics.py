@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from model.judge.clock import opening
 from model.judge.energy import sortie_energy
+from model.judge.flown_trips import trip_energy
 from model.judge.freshness import first_departure
 from model.judge.loads import highest, sortie_loads, trip_loads
 from model.problem import MM_PER_KM, MS_PER_HOUR, DroneType, Problem, VehicleType
@@ -33,6 +34,7 @@ class TripMetrics:
     duration: int  # ms from the first departure or take-off to the end
     stop_loads: tuple[tuple[int, ...], ...]  # (stop, dimension) on the truck when it leaves
     sorties: tuple[SortieMetrics, ...]
+    energy: int | None = None  # µJ of one that flies by itself; as for sorties
 
 
 @dataclass(frozen=True)
@@ -93,9 +95,10 @@ def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> Tri
         load_rate=max(map(_rate, most, vehicle_type.capacity)),
         distance=sum(legs),
         load_distance=sum(aboard[0] * leg for aboard, leg in zip(loads, legs, strict=False)),
-        duration=trip.stops[-1].departure - first_departure(trip),
+        duration=trip.stops[-1].departure - first_departure(vehicle_type, trip),
         stop_loads=tuple(loads),
         sorties=_measure_sorties(problem, vehicle_type, trip),
+        energy=trip_energy(problem, vehicle_type, trip),
     )
 
 
@@ -155,7 +158,7 @@ def measure_route(
     vehicle_type = problem.vehicle_types[route.vehicle_type]
     begin = vehicle_type.works_since
     if begin is None:
-        begin = first_departure(route.trips[0])
+        begin = first_departure(vehicle_type, route.trips[0])
     end = route.trips[-1].stops[-1].departure
     working = end - begin
     over = overtime(vehicle_type, end, working)

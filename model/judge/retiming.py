@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from model.judge.check import JudgedRoute, judge_route
 from model.judge.clock import closing
+from model.judge.flown_trips import charged_start
 from model.judge.past import KnownTrip, Past, Vehicle
 from model.judge.places import halts
 from model.judge.timing import (
@@ -90,7 +91,8 @@ class _Timer:
         for number, (trip, start) in enumerate(zip(self._decision.trips, starts, strict=True)):
             known = self._known_trip(number)
             if known is None:
-                begin = max(ready, self._free_from(trip), 0 if start is None else start)
+                charged = charged_start(self._problem, self._type, timed, trip.nodes)
+                begin = max(ready, self._free_from(trip), charged, 0 if start is None else start)
                 timed.append(self._from(trip, begin, start is not None))
             else:
                 timed.append(resume_trip(self._problem, self._type, trip, known, self._past.now))

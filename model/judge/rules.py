@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.judge.energy import charges, sortie_energy
+from model.judge.flown_trips import airborne, trip_charges
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
@@ -91,7 +92,9 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         yield Violation("RELEASE", message, path)
     yield from _halt_violations(problem, kind, trip.stops[1:-1], f"{path}.stops", 1)
     if problem.limits_time_aboard:
-        yield from _aboard_violations(problem, timed)
+        yield from _aboard_violations(problem, vehicle_type, timed)
+    if vehicle_type.flies and airborne(trip) > vehicle_type.endurance:
+        yield _endurance_violation(airborne(trip), vehicle_type.endurance, path)
     if vehicle_type.drones is not None and trip.sorties:
         yield from _drone_busy(timed)
         yield from _airborne_violations(vehicle_type, timed)
@@ -135,7 +138,7 @@ def _halt_violations(
         if not problem.allows(kind, halt.node):
             message = f"{vehicle_type.id} may not serve customer {customer.id}"
             yield Violation("VEHICLE", message, f"{path}[{index}]")
-        way = "truck" if isinstance(halt, Stop) else "drone"
+        way = "truck" if isinstance(halt, Stop) and not vehicle_type.flies else "drone"
         if customer.served_by not in (way, "either"):
             message = f"customer {customer.id} is served by {customer.served_by} only"
             yield Violation("SERVED_BY", message, f"{path}[{index}]")
@@ -161,7 +164,8 @@ def _goods_violations(problem: Problem, trips: list[TimedTrip], scope: str,
             yield Violation("GOODS", message, path)
 
 
-def _aboard_violations(problem: Problem, timed: TimedTrip) -> Iterator[Violation]:
+def _aboard_violations(problem: Problem, kind: VehicleType,
+                       timed: TimedTrip) -> Iterator[Violation]:
     """Parcels that are too long aboard before their customers are served."""
     trip, path = timed.trip, timed.path
     halts: list[tuple[str, Stop | Visit]] = [
@@ -170,7 +174,7 @@ def _aboard_violations(problem: Problem, timed: TimedTrip) -> Iterator[Violation
               for index, sortie in enumerate(trip.sorties)
               for number, visit in enumerate(sortie.visits)]
     for place, halt in halts:
-        excess = excess_aboard(problem, trip, halt)
+        excess = excess_aboard(problem, kind, trip, halt)
         if excess > 0:
             customer = problem.customer_at(halt.node)
             yield Violation("TIME_ABOARD", f"the parcel of {customer.id} is {seconds(excess)} too "
@@ -233,8 +237,7 @@ def _sortie_violations(
             yield Violation("LAUNCH", f"no drone {what} at {problem.place_at(node).id}", path)
     flight = airborne_duration(problem, drones, trip, sortie)
     if flight > drones.endurance:
-        message = f"{seconds(flight)} in the air, endurance is {seconds(drones.endurance)}"
-        yield Violation("ENDURANCE", message, path)
+        yield _endurance_violation(flight, drones.endurance, path)
     if drones.max_range is not None:
         yield from _range_violations(problem, drones, trip, sortie, path)
 
@@ -257,6 +260,16 @@ def farthest(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie, no
                for stop in (sortie.launch_stop, sortie.recovery_stop))
 
 
+def _endurance_violation(flight: int, endurance: int, path: str) -> Violation:
+    return Violation("ENDURANCE", f"{seconds(flight)} in the air, endurance is "
+                     f"{seconds(endurance)}", path)
+
+
+def _energy_violation(taken: int, charge: int, path: str) -> Violation:
+    return Violation("ENERGY", f"takes {watt_hours(taken)}, {watt_hours(max(0, charge))} are there",
+                     path)
+
+
 def _energy_violations(problem: Problem, vehicle_type: VehicleType,
                        timed: TimedTrip) -> Iterator[Violation]:
     """Sorties that take more than there is, beside the reserve, as they are launched."""
@@ -269,8 +282,7 @@ def _energy_violations(problem: Problem, vehicle_type: VehicleType,
             continue
         taken = sortie_energy(problem, drones, energy, trip, sortie)
         if taken > charge:
-            message = f"takes {watt_hours(taken)}, {watt_hours(max(0, charge))} are there"
-            yield Violation("ENERGY", message, f"{timed.path}.sorties[{index}]")
+            yield _energy_violation(taken, charge, f"{timed.path}.sorties[{index}]")
 
 
 def airborne_duration(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie) -> int:
@@ -307,7 +319,12 @@ def route_violations(
     problem: Problem, vehicle_type: VehicleType, trips: list[TimedTrip], metrics: RouteMetrics,
     path: str, has_begun: bool = False,
 ) -> Iterator[Violation]:
-    """What trips break together: goods, where they begin and end, shift, reloading, work."""
+    """What trips break together: goods, where they begin and end, batteries, shift, work."""
+    there = trip_charges(problem, vehicle_type, [timed.trip for timed in trips])
+    for timed, charge in zip(trips, there, strict=False):
+        taken = timed.metrics.energy
+        if taken is not None and taken > charge:
+            yield _energy_violation(taken, charge, timed.path)
     yield from _goods_violations(problem, trips, "vehicle", path)
     yield from _place_violations(vehicle_type, trips, has_begun)
     ready, over = vehicle_type.earliest, allowed_overtime(vehicle_type)

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
-from model.judge.freshness import most_excess
+from model.judge.flown_trips import charged_start, excess_of
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownStop, KnownTrip
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
@@ -264,16 +264,16 @@ def schedule_trip(
     """Return a trip with its times.
 
     Without a start of its own it begins once `ready`, or later if that keeps parcels from being
-    aboard too long.
+    aboard too long, or who flies by itself from waiting too long in the air.
     """
     trip = _schedule_trip(problem, vehicle_type, decision, ready)
-    if decision.start is not None or not problem.limits_time_aboard:
+    if decision.start is not None or not (problem.limits_time_aboard or vehicle_type.flies):
         return trip
-    excess = most_excess(problem, trip)
+    excess = excess_of(problem, vehicle_type, trip)
     while excess > 0:
         later = replace(decision, start=trip.stops[0].arrival + excess)
         held = _schedule_trip(problem, vehicle_type, later, ready)
-        left = most_excess(problem, held)
+        left = excess_of(problem, vehicle_type, held)
         if left >= excess:
             break
         trip, excess = held, left
@@ -298,7 +298,9 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
         node = following
         start = departure = arrival
         if index == 0:
-            departure = max(arrival, vehicle_type.busy_until)
+            departure = max(arrival, vehicle_type.busy_until) + vehicle_type.launch_duration
+        if index == last:
+            departure = arrival + vehicle_type.recovery_duration
         if 0 < index < last:
             customer = customers[node - first]
             start = service_start(customer, arrival + setup)
@@ -371,10 +373,11 @@ def schedule(problem: Problem, decision: RouteDecision) -> Route:
     if not 0 <= decision.vehicle_type < len(problem.vehicle_types):
         raise ValueError(f"route vehicle_type: {decision.vehicle_type!r} is not allowed")
     vehicle_type = problem.vehicle_types[decision.vehicle_type]
-    trips = []
+    trips: list[Trip] = []
     ready = vehicle_type.earliest
     for trip in decision.trips:
         _require_known(problem, vehicle_type, trip)
+        ready = max(ready, charged_start(problem, vehicle_type, trips, trip.nodes))
         trips.append(schedule_trip(problem, vehicle_type, trip, ready))
         ready = trips[-1].stops[-1].departure + vehicle_type.reload_duration
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))

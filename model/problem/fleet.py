@@ -78,12 +78,12 @@ class DroneType:
 
 @dataclass(frozen=True)
 class VehicleType:
-    """`count` equal trucks, with their drones if `drones` is set."""
+    """`count` equal trucks, with their drones if `drones` is set, or drones that fly themselves."""
 
     id: str
     count: int
     capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
-    travel: int  # index into Problem.travel
+    travel: int  # index into Problem.travel; of flights if it flies
     depot: int = 0  # home depot, a node: where a trip may end and the next begin
     fixed_cost: float = 0.0  # per vehicle used
     cost_per_km: float = 0.0
@@ -117,6 +117,11 @@ class VehicleType:
     works_since: int | None = None  # its work counts from then; None: from its departure
     part_of: str | None = None  # id of the type of which these are some vehicles; None: all
     numbers: tuple[int, ...] = ()  # of these there, from 0, ascending; (): all
+    flies: bool = False  # by itself, from depots: served by it is served by drone
+    endurance: int = UNLIMITED  # of one that flies: ms from a trip's take-off to its landing
+    launch_duration: int = 0  # of one that flies, as each trip begins
+    recovery_duration: int = 0  # of one that flies, as each trip ends
+    energy: Energy | None = None  # of one that flies: what a trip may take of the battery
     co2_kg_per_km: float | None = None  # of the truck, for replies alone
     co2_kg_per_kwh: float | None = None  # of the energy that its drones use
 
@@ -140,7 +145,21 @@ class VehicleType:
         require(self.max_airborne != 0, f"vehicle type {self.id} max_airborne", self.max_airborne)
         require(self.drones is not None or not self.more_drones,
                 f"vehicle type {self.id} more_drones", self.more_drones)
+        self._require_flight()
         self._require_beginning()
+
+    def _require_flight(self) -> None:
+        """Raise `ValueError` unless what is said of flights makes sense."""
+        name = f"vehicle type {self.id}"
+        require_quantity(f"{name} endurance", self.endurance, UNLIMITED)
+        require_quantity(f"{name} launch_duration", self.launch_duration)
+        require_quantity(f"{name} recovery_duration", self.recovery_duration)
+        is_said = (self.endurance != UNLIMITED or self.launch_duration > 0
+                   or self.recovery_duration > 0 or self.energy is not None)
+        require(self.flies or not is_said, f"{name} flies", self.flies)
+        if self.flies:
+            require(self.drones is None, f"{name} drones", self.drones)
+            require(self.speed_profile is None, f"{name} speed_profile", self.speed_profile)
 
     def _require_beginning(self) -> None:
         """Raise `ValueError` unless what is said of a vehicle's only trip makes sense."""
@@ -148,7 +167,7 @@ class VehicleType:
             require_quantity(f"vehicle type {self.id} initial_load", load, most)
         since = self.works_since or 0
         require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
-        require(len(self.charge_left) in (0, self.num_drones),
+        require(len(self.charge_left) in (0, 1 if self.flies else self.num_drones),
                 f"vehicle type {self.id} charge_left", self.charge_left)
         require(self.max_trips == 1 or not self.has_begun, f"vehicle type {self.id} max_trips",
                 self.max_trips)

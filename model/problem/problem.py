@@ -61,7 +61,7 @@ class Problem:
                      customer.demand)
         for vehicle_type in self.vehicle_types:
             self._require_consistent(vehicle_type)
-        for used in {vehicle_type.travel for vehicle_type in self.vehicle_types}:
+        for used in {kind.travel for kind in self.vehicle_types if not kind.flies}:
             require(self.travel[used].reaches_all(), "travel", "unreachable leg")
         points = [each.straight.points.at for each in self.travel if each.straight is not None]
         require(all(np.array_equal(each, points[0], equal_nan=True) for each in points), "travel",
@@ -80,6 +80,9 @@ class Problem:
                  vehicle_type.initial_load)
         require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
                  vehicle_type.travel)
+        require(vehicle_type.energy is None
+                or vehicle_type.energy.dimension < self.num_dimensions, f"{name} energy",
+                vehicle_type.energy)
         for drones in vehicle_type.drone_types:
             require(len(drones.capacity) == self.num_dimensions, f"{name} drone capacity",
                      drones.capacity)

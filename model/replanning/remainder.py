@@ -166,7 +166,8 @@ def _customer_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept], n
     limit = customer.max_time_aboard
     if carrier is None or limit is None:
         return customer
-    departure = first_departure(kept[carrier.vehicle].route.trips[-1])
+    kind = problem.vehicle_types[carrier.vehicle.type]
+    departure = first_departure(kind, kept[carrier.vehicle].route.trips[-1])
     served = _served_by(customer, departure + limit)
     if served is not None:
         return served

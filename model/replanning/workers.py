@@ -119,7 +119,7 @@ def _home_in_time(kind: VehicleType, route: Kept) -> int:
     """Return when a vehicle that has begun to work would be home without overtime."""
     if kind.max_working_duration is None:
         return kind.latest
-    return min(kind.latest, first_departure(route.route.trips[0]) + kind.max_working_duration)
+    return min(kind.latest, first_departure(kind, route.route.trips[0]) + kind.max_working_duration)
 
 
 def _driven(problem: Problem, route: Kept) -> tuple[int, int]:

@@ -20,22 +20,26 @@ def evaluate(instance: Instance) -> Records:
     costly = np.any([rates[name] > 0 for name in WORK_RATES], axis=0)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
-    retimed = retimed | any_aboard(types, (types["charge"] > 0) & (types["drones"] > 0))
+    flies = types["flies"] > 0
+    retimed = retimed | any_aboard(types, (types["charge"] > 0) & ((types["drones"] > 0) | flies))
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
-    limited = instance.max_time_aboard.shape[1] > 0
+    # What may last too long, or take too much of a battery, as far as it isn't drones' alone.
+    bound = flies & ((types["endurance"] < UNLIMITED) | (types["points"] > 0))
+    waits = bool((place["window_earliest"] > 0).any())
+    limited = (instance.max_time_aboard.shape[1] > 0) | (bound & waits)
     held_back = early | ((retimed | limited) & timed)
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
     # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
     # one trip that waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
-    by_detour = ~(timed if release else timed & ~free) & ~priced
+    by_detour = ~(timed if release else timed & ~free) & ~priced & ~bound
     apart = instance.goods.shape[1] > 0
     farther = types["max_trip_distance"] < UNLIMITED
     by_distance = (by_detour & ~(timed | release | apart | farther)
-                   & (types["max_trips"] == 1) & (types["drones"] == 0))
+                   & (types["max_trips"] == 1) & (types["drones"] == 0) & ~flies)
     evaluation = np.zeros(len(types), dtype_of("tandem_evaluation"))
     for name, told in (("timed", timed), ("priced", priced), ("held_back", held_back),
                        ("retimed", retimed), ("by_detour", by_detour),

@@ -12,7 +12,7 @@ from model.engine.records import read_rows
 from model.problem import IntArray, Problem
 from model.simulation.actions import apply_route, close_vehicle, reset
 from model.simulation.state import NO_VEHICLE, State, VehicleLogs
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit, with_handling
 
 
 def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntArray) -> Solution:
@@ -49,11 +49,11 @@ def _close(problem: Problem, state: State, given: tuple[Packed, Packed]) -> list
     if vehicle.type == NO_VEHICLE or state.log.count["trips"][0] == 0:
         return []
     close_vehicle(*given, 0)
-    return [Route(vehicle.type, vehicle.index, _trips(problem, state.log))]
+    return [Route(vehicle.type, vehicle.index, _trips(problem, vehicle.type, state.log))]
 
 
-def _trips(problem: Problem, logs: VehicleLogs) -> tuple[Trip, ...]:
-    count, = read_rows(logs.count[:1])
+def _trips(problem: Problem, index: int, logs: VehicleLogs) -> tuple[Trip, ...]:
+    kind, (count,) = problem.vehicle_types[index], read_rows(logs.count[:1])
     firsts = logs.trip["first_stop"][0, : count.trips].tolist()
     stops: list[Stop] = []
     for node, ready, start, leave in logs.stop[0, : count.stops].tolist():
@@ -64,7 +64,8 @@ def _trips(problem: Problem, logs: VehicleLogs) -> tuple[Trip, ...]:
     for first, behind in zip(firsts, [*firsts[1:], count.stops], strict=True):
         flown = tuple(_sortie(problem, row, stops[row.launch_stop].node, first) for row in sorties
                       if first <= row.launch_stop < behind)
-        trips.append(Trip(tuple(stops[first:behind]), flown))
+        trips.append(Trip(with_handling(stops[first:behind], kind.launch_duration,
+                                        kind.recovery_duration), flown))
     return tuple(trips)
 
 

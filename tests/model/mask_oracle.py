@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import Rest, charges, first_rest, sortie_energy
-from model.judge.freshness import most_excess
+from model.judge.flown_trips import charged_start, excess_of
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff
@@ -77,12 +77,20 @@ def _timed_route(problem: Problem, vehicle: Vehicle, start: int | None = None) -
 def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
     """Return the vehicle with its trip held until no parcel is too long aboard, if that helps."""
     trip = vehicle.trips[-1]
-    excess = most_excess(problem, timed)
+    kind = problem.vehicle_types[vehicle.kind]
+
+    def excess_of_last(timed: Trip) -> int:
+        before = _timed_route(problem, replace(vehicle, trips=vehicle.trips[:-1])).trips
+        nodes = [stop.node for stop in timed.stops]
+        return max(excess_of(problem, kind, timed),
+                   charged_start(problem, kind, before, nodes) - timed.stops[0].arrival)
+
+    excess = excess_of_last(timed)
     while excess > 0:
         trip = replace(trip, begins=timed.stops[0].arrival + excess)
         vehicle = replace(vehicle, trips=(*vehicle.trips[:-1], trip))
         timed = _timed(problem, vehicle, trip)
-        left = most_excess(problem, timed)
+        left = excess_of_last(timed)
         if left >= excess:
             return None
         excess = left

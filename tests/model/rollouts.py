@@ -194,6 +194,10 @@ class Units:
             max_trip_distance=None if distance is None else self.length * distance,
             reload_duration=self.time * kind.reload_duration,
             service_durations=self.durations(kind.service_durations),
+            endurance=self.limit(kind.endurance),
+            launch_duration=self.time * kind.launch_duration,
+            recovery_duration=self.time * kind.recovery_duration,
+            energy=None if kind.energy is None else self.energy(kind.energy),
             speed_profile=None if profile is None else SpeedProfile(
                 tuple(self.time * change for change in profile.times), profile.factors),
             drones=None if kind.drones is None else self.drones(kind.drones))

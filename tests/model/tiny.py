@@ -129,27 +129,29 @@ def with_drones(kind: VehicleType, change: Callable[[DroneType], DroneType]) -> 
     return replace(kind, drones=first, more_drones=tuple(others))
 
 
-def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) -> Problem:
-    """Return a problem in which a share of the types has drones that a battery limits."""
+def draw_battery(rng: np.random.Generator, dimensions: int) -> Energy:
+    """Draw a battery, with powers at two or three weights."""
     def powers(points: int) -> tuple[int, ...]:
         low = _draw(rng, 0, 3, 1)
         return tuple(low + _draw(rng, 0, 4, 1) * (rng.random() < 0.6) for _ in range(points))
 
-    def battery(dimensions: int) -> Energy:
-        weights = ((0, 3), (0, 1, 2), (0, 2, 3))[int(rng.integers(3))]
-        points = len(weights)
-        cruise = tuple(1 + power for power in powers(points))
-        return Energy(
-            available=_draw(rng, 6, 50), usable_share=1.0, weights=weights, cruise=cruise,
-            hover=powers(points), climb=powers(points), descent=powers(points),
-            climb_duration=_draw(rng, 0, 1, MINUTE // 2),
-            descent_duration=_draw(rng, 0, 1, MINUTE // 2),
-            dimension=int(rng.integers(dimensions)), lands=bool(rng.random() < 0.5))
+    weights = ((0, 3), (0, 1, 2), (0, 2, 3))[int(rng.integers(3))]
+    points = len(weights)
+    cruise = tuple(1 + power for power in powers(points))
+    return Energy(
+        available=_draw(rng, 6, 50), usable_share=1.0, weights=weights, cruise=cruise,
+        hover=powers(points), climb=powers(points), descent=powers(points),
+        climb_duration=_draw(rng, 0, 1, MINUTE // 2),
+        descent_duration=_draw(rng, 0, 1, MINUTE // 2),
+        dimension=int(rng.integers(dimensions)), lands=bool(rng.random() < 0.5))
 
+
+def with_energy(rng: np.random.Generator, problem: Problem, share: float = 1.0) -> Problem:
+    """Return a problem in which a share of the types has drones that a battery limits."""
     def powered(drones: DroneType) -> DroneType:
         if rng.random() >= share:
             return drones
-        return replace(drones, energy=battery(problem.num_dimensions))
+        return replace(drones, energy=draw_battery(rng, problem.num_dimensions))
 
     return replace(problem, vehicle_types=tuple(
         with_drones(kind, powered) for kind in problem.vehicle_types))

@@ -86,7 +86,7 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     load_trips(data, route, stops, trips, sorties);
     clear_holds(route, stops, trips);
     if (!drive_forward(data, route, stops, sorties)) return false;
-    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties) &&
+    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties) &&
         !drive_forward(data, route, stops, sorties)) {
         return false;
     }

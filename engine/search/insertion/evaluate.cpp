@@ -5,6 +5,7 @@
 
 #include "guard.h"
 #include "rules/drone_types.h"
+#include "rules/flown_trip.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/shift.h"
@@ -13,6 +14,7 @@
 #include "search/route/block.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
+#include "search/route/flown_trips.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
@@ -60,7 +62,8 @@ Int copy_part(const Fleet& fleet, Int slot, Part part, Int to) {
 
 // Returns the stops of the blocks that a move changes.
 //
-// `held` tells that the trip will begin later, so that all from its beginning on changes.
+// `held` tells that the trip will begin later, so that all from its beginning on changes. Of one
+// who flies by itself, the whole trip has to be looked at.
 Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& move, bool held) {
     const View<const Stop, 1> stops = fleet.stop[slot];
     Int p = move.first, q = p + 1;
@@ -77,7 +80,9 @@ Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& 
         q = std::max(q, launch_changed(type, fleet.route[slot], fleet.sortie[slot], trip, p,
                                        move.kind == by_sortie));
     }
-    if (held) p = trip.first;
+    const bool whole = bounds_trips(type) && move.kind != new_trip;
+    if (held || whole) p = trip.first;
+    if (whole) q = std::max(q, trip.last);
     return {stops[p].block, stops[stops[q].block].last};
 }
 
@@ -100,6 +105,20 @@ struct PartTimes {
     Int depart;
     Int driven;
 };
+
+// Tells whether all trips last in the air that begin and end among some stops, whose legs are
+// known.
+bool trips_last(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    Int first = nowhere;
+    for (Int p = 0; p < route.length; ++p) {
+        if (stops[p].kind == start_stop) first = p;
+        if (stops[p].kind == end_stop && first >= 0 &&
+            !lasts_in_air(data, route.type, stops, first, p, nobody_added)) {
+            return false;
+        }
+    }
+    return true;
+}
 
 // Times the changed stops in slot `to`, which take the place of those from `first` on. Nothing if a
 // rule is broken.
@@ -146,9 +165,11 @@ std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, 
             gap = way.duration;
             driven += way.distance;
         }
+        stops[last].gap = gap;
         cum += gap;
         time += gap;
     }
+    if (bounds_trips(type) && !trips_last(data, route, stops)) return std::nullopt;
     return PartTimes{time, cum, depart, driven};
 }
 
@@ -322,6 +343,11 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
     }
     const Int time = place.end_of_service(arrival) + on.duration;
     if (time < behind.early) return infeasible;
+    if (bounds_trips(type)) {
+        const Trip& trip = fleet.trip(slot, here.trip);
+        const Added added{p, node, out.duration, on.duration};
+        if (!lasts_in_air(data, k, stops, trip.first, trip.last, added)) return infeasible;
+    }
     double cost = double(distance) * data.rate[k].distance;
     if (loads_cost(data, k)) {
         cost += load_more_behind(data, fleet, slot, p, node, out.distance, on.distance);

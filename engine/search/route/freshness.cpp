@@ -2,9 +2,11 @@
 
 #include <algorithm>
 
+#include "rules/flown_trip.h"
 #include "rules/load.h"
 #include "rules/start.h"
 #include "rules/window.h"
+#include "search/route/flown_trips.h"
 #include "search/route/rarer.h"
 #include "search/route/routes.h"
 
@@ -12,8 +14,8 @@ namespace tandem {
 namespace {
 
 // Return by how much a parcel is too long aboard on a timed trip; at most 0 if none is.
-Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                const Trip& trip, View<const Sortie, 1> sorties) {
+Int excess_of_parcels(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                      const Trip& trip, View<const Sortie, 1> sorties) {
     const Int departure = departure_of(data, route, stops, sorties, trip.first);
     const NodeTable places = data.place[0];
     Int most = -far;
@@ -33,6 +35,18 @@ Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1>
     return most;
 }
 
+// Return by how much later a timed trip has to begin at least; at most 0 if it needn't, `far` if
+// that doesn't help.
+Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                const Trip& trip, View<const Sortie, 1> sorties) {
+    Int most = -far;
+    if (time_aboard_counts(data)) most = excess_of_parcels(data, route, stops, trip, sorties);
+    if (bounds_trips(data.type[route.type])) {
+        most = std::max(most, excess_in_air(data, route, stops, trip));
+    }
+    return most;
+}
+
 }  // namespace
 
 Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
@@ -47,9 +61,16 @@ Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1
                         std::max(stop.arrival, std::max(stop.release, stop.hold)));
 }
 
+bool holds_count(const ProblemData& data, Int k) {
+    return time_aboard_counts(data) || bounds_trips(data.type[k]);
+}
+
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
-    if (!time_aboard_counts(data)) return false;
+    if (!holds_count(data, route.type)) return false;
+    if (charges_between_trips(data.type[route.type]) && lacks_charge(data, route, stops, trips)) {
+        return true;
+    }
     const View<const Trip, 1> made = trips.first(route.trips);
     return std::any_of(made.begin(), made.end(), [&](const Trip& trip) {
         return most_excess(data, route, stops, trip, sorties) > 0;
@@ -61,6 +82,7 @@ bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
     for (const Trip& trip : trips.first(route.trips)) {
         Int excess = most_excess(data, route, stops, trip, sorties);
         while (excess > 0) {
+            if (excess == far) return false;
             Stop& stop = stops[trip.first];
             stop.release = std::max(stop.arrival, stop.release) + excess;
             if (!drive_forward(data, route, stops, sorties)) return false;
@@ -69,7 +91,8 @@ bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
             excess = left;
         }
     }
-    return true;
+    return !charges_between_trips(data.type[route.type]) ||
+           charge_trips(data, route, stops, trips, sorties);
 }
 
 }  // namespace tandem

@@ -1,4 +1,5 @@
-// Trips held back so that nobody's parcel is aboard for too long.
+// Trips held back so that nobody's parcel is aboard, and nobody who flies by itself in the air, for
+// too long.
 #pragma once
 
 #include "search/route/layout.h"
@@ -9,13 +10,18 @@ namespace tandem {
 Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties, Int first);
 
-// Tell whether somebody's parcel is too long aboard on a timed route.
+// Tell whether trips of type `k` may have to be held back.
+bool holds_count(const ProblemData& data, Int k);
+
+// Tell whether somebody's parcel is too long aboard on a timed route, or a trip too long in the
+// air.
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties);
 
-// Let each trip of a timed route begin as soon as nobody's parcel is too long aboard.
+// Let each trip of a timed route begin as soon as nothing lasts too long, and its battery is
+// charged.
 //
-// In place; false if that helps nobody, or a rule is broken.
+// In place; false if that doesn't help, or a rule is broken.
 bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
                 View<const Trip, 1> trips, View<Sortie, 1> sorties);
 

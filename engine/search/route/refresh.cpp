@@ -113,7 +113,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     clear_holds(route, stops, trips);
     if (!drive_forward(data, route, stops, sorties)) return false;
-    if (time_aboard_counts(data) && !hold_trips(data, route, stops, trips, sorties)) {
+    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
         return false;
     }
     Int departure = first_departure(data, route, stops, sorties);

@@ -14,7 +14,7 @@ from model.search.route.layout import (
     CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
 from model.search.route.state import Searcher
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit, with_handling
 
 SPARE_SLOTS = 8
 STOPS_OPENED = 4
@@ -172,8 +172,10 @@ def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip
     setups = setups_of(data.setup, np.roll(rows["node"], 1), rows["node"].copy())
     halts = [_stop(*row) for row in zip(*columns, starts.tolist(), setups.tolist(), strict=True)]
     sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
+    kind = data.type[route.type]
+    handling = (kind.launch_duration, kind.recovery_duration) if kind.flies else (0, 0)
     return tuple(
-        Trip(tuple(halts[first:last + 1]),
+        Trip(with_handling(halts[first:last + 1], *handling),
              tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last))
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))

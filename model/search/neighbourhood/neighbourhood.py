@@ -84,7 +84,7 @@ def _legs(problem: Problem, returns: Sequence[bool], setup: Records, numbering: 
     stated: list[Way] = []
     for index, way in enumerate(ways):
         straight = problem.travel[way.travel].straight
-        if straight is None:
+        if straight is None or way.launch or way.recovery:
             law[index].table = len(stated)
             stated.append(way)
         else:
@@ -93,7 +93,8 @@ def _legs(problem: Problem, returns: Sequence[bool], setup: Records, numbering: 
                 point[axis] = at
     if len(setup):
         point["site"], point["setup_duration"] = setup["site"], setup["setup_duration"]
-    directions = 1 if all(returns[way.travel] and not way.sets_up for way in stated) else 2
+    directions = 1 if all(returns[way.travel] and not way.sets_up and way.launch == way.recovery
+                          for way in stated) else 2
     if are_stated(problem, ways):
         narrow = _tables(problem, stated, directions, setup, numbering.node, np.int32, pause)
         leg = narrow[0]
@@ -119,6 +120,7 @@ def _law(straight: StraightLegs, way: Way) -> tuple[int | float, ...]:
 def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Records,
             node: IntArray, kind: type[Whole], pause: Pause) -> NDArray[Whole]:
     """Return the legs that were stated, (direction, table, node, node, 2), in 32 or 64 bits."""
+    num_depots = problem.num_depots
     if not ways:
         return np.empty((1, 1, len(node), 0, 2), kind)
     legs = np.empty((directions, len(ways), len(node), len(node), 2), kind)
@@ -131,6 +133,8 @@ def _tables(problem: Problem, ways: Sequence[Way], directions: int, setup: Recor
             call(write, duration, distance, node, rows.start, legs[0, index, rows])
             if way.sets_up:
                 _add_setups(legs[0, index, rows, :, 0], setup, node[rows], node)
+        if way.launch or way.recovery:
+            _add_handling(legs[0, index, ..., 0], way, num_depots)
     for index in range(len(ways) if directions > 1 else 0):
         for rows in matrix_blocks(len(node), pause):
             legs[1, index, rows] = legs[0, index, :, rows].transpose(1, 0, 2)
@@ -143,6 +147,13 @@ def _add_setups(durations: NDArray[Whole], setup: Records, origin: IntArray, to:
     if durations.dtype == np.int32:
         elsewhere &= durations != NO_LEG
     durations += elsewhere * setup["setup_duration"][to]
+
+
+def _add_handling(durations: NDArray[Whole], way: Way, num_depots: int) -> None:
+    """Let legs last longer from depots by the launch, and to them by the recovery. In place."""
+    for part, more in ((durations[:num_depots], way.launch),
+                       (durations[:, :num_depots], way.recovery)):
+        part += (part != NO_LEG) * more if durations.dtype == np.int32 else more
 
 
 def _is_symmetric(travel: Travel, pause: Pause) -> bool:

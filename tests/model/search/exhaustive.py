@@ -158,8 +158,9 @@ def _trips(problem: Problem, kind: VehicleType, nodes: Nodes,
     for size in range(len(nodes) + 1 if kind.drones else 1):
         for flown in combinations(nodes, size):
             driven = [node for node in nodes if node not in flown]
+            barred = "truck" if kind.flies else "drone"
             if (any(problem.customer_at(node).served_by == "truck" for node in flown)
-                    or any(problem.customer_at(node).served_by == "drone" for node in driven)):
+                    or any(problem.customer_at(node).served_by == barred for node in driven)):
                 continue
             for order in permutations(driven):
                 stops = (ends[0], *order, ends[1])

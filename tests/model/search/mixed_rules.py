@@ -3,6 +3,7 @@
 import numpy as np
 
 from model.problem import Problem
+from tests.model.fliers import with_fliers
 from tests.model.permits import with_few_airborne, with_ranges
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
@@ -19,6 +20,16 @@ def all_rules(rng: np.random.Generator) -> Problem:
         if problem.num_customers <= 3 and not any(kind.speed_profile
                                                   for kind in problem.vehicle_types):
             return problem
+
+
+def all_rules_fliers(rng: np.random.Generator) -> Problem:
+    """Return problems some of whose vehicles fly by themselves, some mixed with other rules."""
+    while True:
+        problem = with_fliers(rng, all_rules(rng))
+        if any(kind.flies for kind in problem.vehicle_types):
+            changes = (with_gaps, with_pickups, with_setups, with_limits_aboard, with_duty)
+            change = changes[int(rng.integers(len(changes)))]
+            return change(rng, problem) if rng.random() < 0.4 else problem
 
 
 def all_rules_elsewhere(rng: np.random.Generator) -> Problem:

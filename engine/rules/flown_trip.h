@@ -1,0 +1,86 @@
+// Trips of vehicles that fly by themselves: how long they may last, and what they take of a
+// battery.
+//
+// Legs hold the launch where they leave a depot, and the recovery where they come to one.
+#pragma once
+
+#include <algorithm>
+
+#include "rules/energy.h"
+#include "rules/flight.h"
+#include "rules/load.h"
+#include "rules/window.h"
+
+namespace tandem {
+
+// Whether vehicles of a type fly by themselves.
+inline bool flies(const VehicleType& type) { return type.flies != 0; }
+
+// Whether a trip of such a vehicle may last too long, or take too much.
+inline bool bounds_trips(const VehicleType& type) {
+    return flies(type) && (endurance_of(type) < unlimited || is_limited(type));
+}
+
+// Whether its battery is charged between trips; else each begins with a full one.
+inline bool charges_between_trips(const VehicleType& type) {
+    return flies(type) && charges_aboard(type);
+}
+
+// How long a trip may last from the beginning of its launch to the end of its recovery.
+inline Int longest_in_air(const VehicleType& type) {
+    return recovery_end(type, take_off(type, endurance_of(type), 0));
+}
+
+// What a trip takes that is followed leg by leg, with so much aboard at first. Windows are those of
+// the table by which weights are told.
+class FlownTrip {
+public:
+    FlownTrip(const VehicleType& type, Int weight)
+        : type_(type), weight_(weight), left_(battery_of(type)) {}
+
+    // Fly to a customer, where service begins once it has `waited` for a window.
+    void fly_to(Windows place, Int duration, bool from_depot, Int waited) {
+        if (!is_limited(type_)) return;
+        left_ = after_leg(type_, left_, weight_, duration - launch_on(from_depot));
+        if (hovers_at_customers(type_)) {
+            left_ = after_hovering(type_, left_, weight_, place.service_duration());
+            strongest_ = std::max(strongest_, power_hovering(type_, weight_));
+            taken_waiting_ = std::min(endless, taken_waiting_ + taken_hovering(waited));
+        }
+        weight_ += weight_taken(place) - weight_brought(place);
+    }
+
+    void fly_home(Int duration, bool from_depot) {
+        if (!is_limited(type_)) return;
+        const Int flight = duration - launch_on(from_depot) - recovery_end(type_, 0);
+        left_ = after_leg(type_, left_, weight_, flight);
+    }
+
+    // What it leaves of a full battery; below 0 if it takes more than that holds.
+    Int left() const { return left_ < 0 ? empty_battery : left_ - taken_waiting_; }
+
+    // By how much later it has to begin at least to wait no longer than its battery lasts; at most
+    // 0 if that does, `far` if it wouldn't last without waiting.
+    Int excess() const {
+        if (left_ < 0) return far;
+        const Int over = taken_waiting_ - left_;
+        return over > 0 ? (over + strongest_ - 1) / strongest_ : 0;
+    }
+
+private:
+    static constexpr Int endless = Int{1} << 60;  // more than any battery holds
+
+    Int launch_on(bool from_depot) const { return from_depot ? launch_duration(type_, 0) : 0; }
+
+    Int taken_hovering(Int duration) const {
+        return endless - std::max(Int{0}, after_hovering(type_, endless, weight_, duration));
+    }
+
+    const VehicleType& type_;
+    Int weight_;
+    Int left_;  // without what waiting takes
+    Int taken_waiting_ = 0;
+    Int strongest_ = 0;  // power of hovering at a customer
+};
+
+}  // namespace tandem

@@ -1,0 +1,42 @@
+// Trips of vehicles that fly by themselves on a route: whether they last, and what they take.
+#pragma once
+
+#include "rules/flown_trip.h"
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// A customer who is put behind a stop, with how long the legs there and on take.
+struct Added {
+    Int behind;
+    Int node;
+    Int out;
+    Int on;
+};
+
+constexpr Added nobody_added = {nowhere, nowhere, 0, 0};
+
+// Return what is left of a trip from stop `first` to `last`, whose legs are known.
+//
+// `waits`: by the windows that are met when its stops are reached; else as if nobody waited.
+FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first,
+                      Int last, const Added& added, bool waits);
+
+// Tell whether a trip from stop `first` to `last` lasts, with somebody added, if nobody waits.
+bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first, Int last,
+                  const Added& added);
+
+// Return by how much later a timed trip has to begin at least to last; at most 0 if it does, `far`
+// if it can't.
+Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                  const Trip& trip);
+
+// Hold trips until their batteries are charged. In place; false if that can't be.
+bool charge_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                  View<const Trip, 1> trips, View<Sortie, 1> sorties);
+
+// Tell whether a timed trip begins before its battery is charged, if any does.
+bool lacks_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                  View<const Trip, 1> trips);
+
+}  // namespace tandem

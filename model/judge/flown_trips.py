@@ -1,0 +1,81 @@
+"""Trips of vehicles that fly by themselves: how long they last and what they take of a battery."""
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+from model.judge.energy import (
+    Rest, charge_after, first_rest, flight_energy, least_energy, power_at, time_charged,
+    weights_aboard,
+)
+from model.judge.freshness import most_excess
+from model.problem import Problem, VehicleType
+from model.solution import Trip
+
+
+def airborne(trip: Trip) -> int:
+    """Return how long a trip lasts from take-off to landing."""
+    return trip.stops[-1].arrival - trip.stops[0].departure
+
+
+def trip_energy(problem: Problem, kind: VehicleType, trip: Trip) -> int | None:
+    """Return what a trip takes; None where it is not known what flying takes."""
+    if kind.energy is None:
+        return None
+    path = [stop.node for stop in trip.stops]
+    return flight_energy(problem, kind, kind.energy, path, trip.stops[1:-1],
+                         trip.stops[0].departure, trip.stops[-1].arrival)
+
+
+def trip_charges(problem: Problem, kind: VehicleType, trips: Sequence[Trip]) -> list[int]:
+    """Return what each trip may take, by the battery as its launch begins; none without one."""
+    energy = kind.energy
+    if energy is None:
+        return []
+    found, rest = [], first_rest(kind, energy, 0)
+    for trip in trips:
+        found.append(charge_after(energy, rest, trip.stops[0].arrival))
+        taken = trip_energy(problem, kind, trip) or 0
+        rest = Rest(found[-1] - taken, trip.stops[-1].departure)
+    return found
+
+
+def charged_start(problem: Problem, kind: VehicleType, before: Sequence[Trip],
+                  nodes: Sequence[int]) -> int:
+    """Return when a trip may begin, for all that the battery lacks after those before.
+
+    With what it takes if nobody waits; at once where it never has so much. `nodes` are its stops.
+    """
+    energy = kind.energy
+    if energy is None or not energy.charge:
+        return 0
+    rest = first_rest(kind, energy, 0)
+    if before:
+        there = trip_charges(problem, kind, before)[-1]
+        taken = trip_energy(problem, kind, before[-1]) or 0
+        rest = Rest(there - taken, before[-1].stops[-1].departure)
+    duration = problem.travel[kind.travel].duration
+    legs = [duration.item(*leg) + problem.setup_between(*leg) for leg in pairwise(nodes)]
+    services = [kind.service_at(problem.customer_at(node)) for node in nodes[1:-1]]
+    return time_charged(energy, rest, least_energy(problem, energy, nodes[1:-1], legs, services))
+
+
+def excess_in_air(problem: Problem, kind: VehicleType, trip: Trip) -> int:
+    """Return by how much later a trip would have to begin to wait less in the air; 0: it may be.
+
+    However late it begins, it takes what it does without waiting.
+    """
+    excess = max(0, airborne(trip) - kind.endurance)
+    energy = kind.energy
+    if energy is None or energy.lands:
+        return excess
+    over = (trip_energy(problem, kind, trip) or 0) - energy.available
+    most = power_at(energy, energy.hover, max(weights_aboard(
+        problem, energy, [stop.node for stop in trip.stops[1:-1]])))
+    return max(excess, -(-over // most)) if most else excess
+
+
+def excess_of(problem: Problem, kind: VehicleType, trip: Trip) -> int:
+    """Return by how much a trip lasts too long, that may do less if it begins later; 0: it doesn't.
+    """
+    excess = most_excess(problem, kind, trip)
+    return max(excess, excess_in_air(problem, kind, trip)) if kind.flies else excess
