@@ -92,6 +92,7 @@ fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10
 	$(BIN)/python -m benchmarks.fuzz.vroom
 	$(BIN)/python -m benchmarks.fuzz.remedies
 	$(BIN)/python -m benchmarks.fuzz.replans
+	$(BIN)/python -m benchmarks.fuzz.flights
 	$(BIN)/python -m benchmarks.load.leavers
 
 settings: .venv/serving engine ## Write docs/operate/settings.md
