@@ -13,6 +13,7 @@ COMMANDS = {
     "database": "app.cli.database:database_cli",
     "roads": "app.cli.roads:roads_cli",
     "addresses": "app.cli.addresses:addresses_cli",
+    "airspace": "app.cli.airspace:airspace_cli",
     "plot": "app.cli.plot:plot",
     "flights": "app.cli.flights:flights",
     "import": "app.cli.importing:import_sheet",

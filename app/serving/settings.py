@@ -94,6 +94,11 @@ class Settings(BaseSettings):
         "nominatim:https://nominatim.example.org` (also `photon:` and `pelias:`). None: "
         "addresses are not looked up.",
     )
+    airspace: tuple[Path, ...] = Field(
+        (), description="Files of airspace zones that hold for all requests on the globe, as "
+        "ED-269, ED-318, GeoJSON or KML, as a JSON list such as `[\"/data/zones.json\"]`. They "
+        "are read as the service starts (`tandem airspace check`).",
+    )
     tile_url: str | None = Field(
         None,
         pattern=r"^https?://[^/]+/.*\{z\}.*",

@@ -5,7 +5,7 @@ from typing import Literal
 
 from shapely import Polygon
 
-from app.maps.airspace.applying import Period
+from app.maps.airspace.applying import ALWAYS, Period
 
 Reference = Literal["AGL", "AMSL", "WGS84"]
 Unit = Literal["M", "FT"]
@@ -98,6 +98,11 @@ class Zone:
     message: str | None = None
     authority: str | None = None
     periods: tuple[Period, ...] = ()  # in which it applies; none: always
+
+    @property
+    def is_timed(self) -> bool:
+        """Tell whether it applies at certain times alone."""
+        return bool(self.periods) and ALWAYS not in self.periods
 
     @property
     def title(self) -> str:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 from app.maps.addresses.addresses import NO_ADDRESSES
 from app.maps.addresses.opening import opened_addresses
+from app.maps.airspace.files import ZoneFileError, zones_in
 from app.maps.roads.building import BuildError, find_build
 from app.maps.roads.caching import TableCache
 from app.maps.roads.embedded import EmbeddedRoads
@@ -36,7 +37,11 @@ def opened_roads(settings: Settings) -> Iterator[Roads]:
         If a setting can't be read, or names what isn't there or prepared.
     """
     sources, addresses = _sources(settings), opened_addresses(settings)
-    if not sources and addresses is NO_ADDRESSES:
+    try:
+        zones = zones_in(settings.airspace)
+    except ZoneFileError as error:
+        raise SettingError(str(error), "TANDEM_AIRSPACE") from error
+    if not sources and addresses is NO_ADDRESSES and not zones:
         yield NO_ROADS
         return
     extracts = {source: _embedded(source) for source in sources.values()
@@ -46,7 +51,8 @@ def opened_roads(settings: Settings) -> Iterator[Roads]:
                   TableCache(settings.data_dir / CACHE, settings.roads_cache_bytes),
                   {profile: source.url for profile, source in sources.items()
                    if isinstance(source, Server)},
-                  tuple(engine.start for engine in extracts.values()), addresses=addresses)
+                  tuple(engine.start for engine in extracts.values()), addresses=addresses,
+                  zones=zones)
     try:
         yield roads
     finally:

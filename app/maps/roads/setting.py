@@ -23,8 +23,8 @@ HOW_TO_WRITE = ("write profile=extract or profile=server, several with commas be
 class SettingError(ValueError):
     """The setting can't be read, or names what isn't there."""
 
-    def __init__(self, message: str) -> None:
-        super().__init__(f"TANDEM_ROADS: {message}.")
+    def __init__(self, message: str, setting: str = "TANDEM_ROADS") -> None:
+        super().__init__(f"{setting}: {message.rstrip('.')}.")
 
 
 @dataclass(frozen=True)
