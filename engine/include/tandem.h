@@ -65,9 +65,9 @@ typedef struct tandem_goods {
    drones' powers are known at so many `points`, by weight; none if no battery limits them; aboard
    they gain a `charge`, from what each has at first. It picks up in any order, or after all that a
    trip delivers, which is something, or was before the trip begins here; what else it carries in
-   the first dimension. `rules/drone_types.h` says which rows tell of which drones. Of one that
-   flies by itself, what is said of drones holds for its trips; its legs hold launches and
-   recoveries. */
+   the first dimension. No drone is in the air while it storms. `rules/drone_types.h` says which
+   rows tell of which drones. Of one that flies by itself, what is said of drones holds for its
+   trips; its legs hold launches and recoveries. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -120,6 +120,9 @@ typedef struct tandem_vehicle_type {
     int64_t climb[24];
     int64_t descent[24];
     int64_t first_charge[256];
+    int64_t storms;
+    int64_t storm_from[16];
+    int64_t storm_until[16];
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
@@ -141,7 +144,7 @@ typedef struct tandem_evaluation {
     bool priced;    /* lateness, waiting or what is aboard cost, or all is timed again */
     bool held_back; /* trips must be held back before their cost is known */
     bool retimed;   /* all behind a change is timed again, since speed changes, who comes later may
-                       have to wait for another window, or drones are charged aboard */
+                       have to wait for another window, drones are charged aboard, or wait for calm */
     bool by_detour; /* an insertion costs what its detour does */
     bool by_distance; /* as that, with one trip of any distance, no releases and no drones */
 } tandem_evaluation;

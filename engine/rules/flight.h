@@ -31,6 +31,30 @@ inline bool limits_airborne(const VehicleType& type) { return type.max_airborne 
 // Whether a truck stands still while any of its drones is out.
 inline bool waits_for_drones(const VehicleType& type) { return type.truck_waits != 0; }
 
+// Whether there are hours in which no drone may be in the air.
+inline bool storms_sometime(const VehicleType& type) { return type.storms > 0; }
+
+// The first storm that isn't over at an instant, none behind the last.
+inline Int storm_behind(const VehicleType& type, Int time) {
+    Int storm = 0;
+    while (storm < type.storms && type.storm_until[storm] <= time) ++storm;
+    return storm;
+}
+
+// Until when a drone must be recovered that takes off at `takeoff`: when it storms next.
+inline Int calm_until(const VehicleType& type, Int takeoff) {
+    const Int storm = storm_behind(type, takeoff);
+    return storm < type.storms ? type.storm_from[storm] : far;
+}
+
+// When a drone takes off for calm that can at `takeoff`, and is back at `back` then: at once, or as
+// the next storm is over, if ever.
+inline Int calm_takeoff(const VehicleType& type, Int takeoff, Int back) {
+    const Int storm = storm_behind(type, takeoff);
+    if (storm == type.storms || back <= type.storm_from[storm]) return takeoff;
+    return type.storm_until[storm] < unlimited ? type.storm_until[storm] : takeoff;
+}
+
 // Whether it matters which launch is the first of a trip.
 inline bool launches_differ(const VehicleType& type) {
     return type.relaunch_duration != type.launch_duration;
@@ -58,9 +82,9 @@ inline Int recovery_end(const VehicleType& type, Int begin) {
 
 // When a drone takes off at the latest whose truck would leave at `leave` without it, if no window
 // holds it back. A usual launch is taken to be over by then, a swap to begin, and where it has to
-// be charged, nothing is known.
+// be charged, or to wait for calm, nothing is known.
 inline Int gone_by(const VehicleType& type, Int leave) {
-    if (charges_aboard(type)) return far;
+    if (charges_aboard(type) || storms_sometime(type)) return far;
     return launches_differ(type) ? take_off(type, leave, 1) : leave;
 }
 
@@ -124,7 +148,10 @@ struct Flight {
                                  std::max(weight_brought(place), weight_taken(place)));
         }
         while (true) {
-            const Int held = held_until(earliest_back(place, takeoff + out, home), limit);
+            Int held = held_until(earliest_back(place, takeoff + out, home), limit);
+            if (held <= takeoff && storms_sometime(type)) {
+                held = calm_takeoff(type, takeoff, place.end_of_service(takeoff + out) + home);
+            }
             if (held <= takeoff) return takeoff;
             takeoff = held;
         }

@@ -121,7 +121,7 @@ Int next_back(View<const Drone, 1> drones, Recovery place) {
 Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int free) {
     const DroneKind drone_kind = drone_kind_of(setting, drone.row);
     const Int begin = std::max(free, drone.back);
-    if (unreachable(drone.back) ||
+    if (unreachable(drone.back) || begin > calm_until(drone_kind.type, drone.takeoff) ||
         !within_endurance(drone_kind.type, drone.takeoff, drone.back, begin)) {
         return -1;
     }

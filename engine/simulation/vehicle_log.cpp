@@ -259,10 +259,14 @@ private:
             sortie.left = left;
             sortie.recovery_start = begin;
             sortie.recovery_end = end;
-            if (left < 0 || !within_endurance(drone_kind.type, takeoff, back, begin))
+            if (left < 0 || !within_endurance(drone_kind.type, takeoff, back, begin) ||
+                begin > calm_until(drone_kind.type, takeoff)) {
                 lasting_ = false;
+            }
         } else {
-            const bool lasts = begin - takeoff <= sortie.recovery_start - sortie.takeoff;
+            // In the same calm, so that all between is allowed as well.
+            const bool lasts = begin - takeoff <= sortie.recovery_start - sortie.takeoff &&
+                               begin <= calm_until(drone_kind.type, sortie.takeoff);
             if (left < 0 || !lasts) return std::nullopt;
         }
         return end;

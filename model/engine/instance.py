@@ -21,8 +21,8 @@ from model.engine.variants import (
     write_legs,
 )
 from model.problem import (
-    MAX_DIMENSIONS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray, IntArray,
-    Problem, VehicleType,
+    MAX_DIMENSIONS, MAX_STORMS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray,
+    IntArray, Problem, VehicleType,
 )
 
 DIMENSIONS_PER_TIER = 3
@@ -266,7 +266,8 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
         drone_variant, *battery_row(energy), int(kind.flies), _pickup_order(kind), load[0],
         _padded(free, room), _padded(() if drones is None else drones.capacity, room),
-        *powers_row(energy), full_row(energy, MOST_DRONES))
+        *powers_row(energy), full_row(energy, MOST_DRONES),
+        *_storm_rows(drones))
 
 
 def _overtime_rate(kind: VehicleType) -> float:
@@ -324,6 +325,13 @@ def _itself(kind: VehicleType, travel: int) -> tuple[int, ...]:
         return (0,) * 10
     return (0, travel, travel, kind.endurance, 1, kind.launch_duration, kind.launch_duration,
             kind.recovery_duration, travel, UNLIMITED)
+
+
+def _storm_rows(drones: DroneType | None) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
+    """Return how often it storms, from when, and until when."""
+    storms = () if drones is None else drones.storms
+    return (len(storms), _padded([begin for begin, _ in storms], MAX_STORMS),
+            _padded([end for _, end in storms], MAX_STORMS))
 
 
 def _worked(kind: VehicleType) -> int:

@@ -323,14 +323,7 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
             slack = _in_minutes(drones.endurance - flown)
         longer = min(drones.endurance + MS_PER_MINUTE, UNLIMITED)
         yield "endurance", "minute", slack, replace(drones, endurance=longer)
-    if drones.max_range is not None:
-        slack = None
-        if sortie is not None and trip is not None:
-            far = max(farthest(bench.problem, drones, trip, sortie, visit.node)
-                      for visit in sortie.visits)
-            slack = (drones.max_range - far) / MM_PER_KM
-        longer = min(drones.max_range + MM_PER_KM, MAX_QUANTITY)
-        yield "max_range", "km", slack, replace(drones, max_range=longer)
+    yield from _permit_limits(bench, drones, trip, sortie)
     if drones.batteries is not None:
         slack = None
         if trip is not None:
@@ -348,6 +341,21 @@ def _limits_of(bench: Bench, kind: VehicleType, index: int,
         more = _one_more(drones.capacity, dimension, 10**places)
         yield (_capacity_field("capacity", kind, dimension), "unit", slack,
                replace(drones, capacity=more))
+
+
+def _permit_limits(bench: Bench, drones: DroneType, trip: Trip | None,
+                   sortie: Sortie | None) -> Iterator[tuple[str, Unit, float | None, DroneType]]:
+    """Yield what permits ask of drones, one of whom flies a sortie of a trip, if any."""
+    if drones.max_range is not None:
+        slack = None
+        if sortie is not None and trip is not None:
+            far = max(farthest(bench.problem, drones, trip, sortie, visit.node)
+                      for visit in sortie.visits)
+            slack = (drones.max_range - far) / MM_PER_KM
+        longer = min(drones.max_range + MM_PER_KM, MAX_QUANTITY)
+        yield "max_range", "km", slack, replace(drones, max_range=longer)
+    if drones.storms:
+        yield "max_wind_kmh", "rule", None, replace(drones, storms=())
 
 
 def _energy_limits(bench: Bench, kind: VehicleType, drones: DroneType, trip: Trip | None,

@@ -165,6 +165,16 @@ def _max_range(attempt: Attempt) -> Diagnosis:
     )
 
 
+def _wind(attempt: Attempt) -> Diagnosis:
+    drones = _drones(attempt)
+    changed = replace(drones, storms=())
+    return Diagnosis(
+        "WIND",
+        f"The wind is too strong for a flight there and back, by max_wind_kmh{_of(drones)}.",
+        f"fits without max_wind_kmh{_of(drones)}",
+        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)))
+
+
 def _energy(attempt: Attempt) -> Diagnosis:
     drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
     energy = drones.energy
@@ -380,6 +390,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "PICKUP_ORDER": _pickup_order,
     "UNREACHABLE": _unreachable,
     "MAX_RANGE": _max_range,
+    "WIND": _wind,
     "ENDURANCE": _endurance,
     "ENERGY": _energy,
     "TRIP_DISTANCE": _trip_distance,

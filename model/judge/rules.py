@@ -9,6 +9,7 @@ from model.judge.flown_trips import airborne, trip_charges
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
+from model.judge.takeoff import storm_met
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
     MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType,
@@ -238,6 +239,8 @@ def _sortie_violations(
     flight = airborne_duration(problem, drones, trip, sortie)
     if flight > drones.endurance:
         yield _endurance_violation(flight, drones.endurance, path)
+    if storm_met(drones, sortie.launch_time, sortie.recovery_start) is not None:
+        yield Violation("WIND", "flies while the wind is too strong for it", path)
     if drones.max_range is not None:
         yield from _range_violations(problem, drones, trip, sortie, path)
 

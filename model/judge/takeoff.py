@@ -1,4 +1,4 @@
-"""When drones take off: held back for windows, or until their batteries are charged.
+"""When drones take off: held back for windows, for storms, or until their batteries are charged.
 
 A `path` is where a sortie is launched, its customers, and where it is recovered, as nodes.
 """
@@ -10,7 +10,7 @@ from model.judge.clock import opening
 from model.judge.energy import (
     Rest, charge_after, flight_energy, least_energy, longest_hold, time_charged,
 )
-from model.problem import DroneType, Problem
+from model.problem import UNLIMITED, DroneType, Problem
 from model.solution import Visit
 
 Path = tuple[int, ...]
@@ -29,8 +29,8 @@ def held_takeoff(problem: Problem, drones: DroneType, path: Path, soonest: int) 
     """Return when a drone takes off that can from `soonest` on.
 
     As early as the windows that it then meets let it be back within its endurance, and a full
-    battery if it hovers before them; at once where the flight is too long in any case, since
-    holding it back wouldn't help.
+    battery if it hovers before them, with no storm meanwhile; at once where the flight is too long
+    in any case, or a storm doesn't end, since holding it back wouldn't help.
     """
     takeoff, held = soonest, _held_until(problem, drones, path, soonest)
     while held > takeoff:
@@ -39,7 +39,7 @@ def held_takeoff(problem: Problem, drones: DroneType, path: Path, soonest: int) 
 
 
 def _held_until(problem: Problem, drones: DroneType, path: Path, takeoff: int) -> int:
-    """Return when the windows met from `takeoff` on let a drone be back within its limits."""
+    """Return when what is met from `takeoff` on lets a drone be back within its limits."""
     legs, services = _legs(problem, drones, path)
     time, back = takeoff, 0
     for node, leg, service in zip(path[1:-1], legs, services, strict=False):
@@ -50,7 +50,15 @@ def _held_until(problem: Problem, drones: DroneType, path: Path, takeoff: int) -
     if drones.energy is not None:
         hold = longest_hold(problem, drones.energy, path[1:-1], legs, services)
         limit = limit if hold is None else min(limit, hold)
-    return back + legs[-1] - limit if sum(legs) + sum(services) <= limit else takeoff
+    if sum(legs) + sum(services) <= limit and back + legs[-1] - limit > takeoff:
+        return back + legs[-1] - limit
+    storm = storm_met(drones, takeoff, time + legs[-1])
+    return takeoff if storm is None or storm[1] >= UNLIMITED else storm[1]
+
+
+def storm_met(drones: DroneType, takeoff: int, end: int) -> tuple[int, int] | None:
+    """Return from and until when it first storms while a drone is in the air, if ever."""
+    return next((storm for storm in drones.storms if takeoff < storm[1] and storm[0] < end), None)
 
 
 def charged_launch(problem: Problem, drones: DroneType, path: Path, rest: Rest | None) -> int:

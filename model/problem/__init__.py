@@ -2,7 +2,7 @@
 
 from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
 from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
-from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
+from model.problem.fleet import MAX_STORMS, DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem
 from model.problem.quantities import (
@@ -14,8 +14,9 @@ from model.problem.travel import Travel
 
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS", "MAX_POWER",
-    "MAX_QUANTITY", "MICROJOULES_PER_WH", "MM_PER_KM", "MOST_INCOMPATIBLE", "MS_PER_HOUR",
-    "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Customer", "Depot", "DepotKind",
+    "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM", "MOST_INCOMPATIBLE",
+    "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Customer", "Depot",
+    "DepotKind",
     "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Overtime",
     "Pickups", "Points", "Problem", "ServedBy", "SpeedProfile", "StraightLegs", "Travel",
     "UIntArray", "VehicleType",

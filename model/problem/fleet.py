@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import pairwise
 from typing import Literal
 
 from model.problem.customer import Customer
@@ -10,6 +11,9 @@ from model.problem.overtime import Overtime
 from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
 
 Pickups = Literal["any", "last"]
+
+MAX_STORMS = 16
+"""How often a day is too windy, at most."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +49,7 @@ class DroneType:
     max_customers_per_sortie: int = 1
     max_range: int | None = None  # mm to customers from where it is launched, and recovered
     straight: int = 0  # index into Problem.travel, whose distances tell that
+    storms: tuple[tuple[int, int], ...] = ()  # from and until when no flight may last, ascending
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0
     energy: Energy | None = None  # what a sortie may take of the battery; None: any
@@ -67,6 +72,10 @@ class DroneType:
         require_quantity("drone swap_duration", self.swap_duration)
         require_quantity("drone batteries", self.batteries or 0)
         require_quantity("drone max_range", self.max_range or 0)
+        require(len(self.storms) <= MAX_STORMS, "drone storms", len(self.storms))
+        instants = [instant for storm in self.storms for instant in storm]
+        for earlier, later in pairwise((-1, *instants)):
+            require(earlier < later <= UNLIMITED, "drone storms", self.storms)
         require_rate("drone cost_per_km", self.cost_per_km)
         require_rate("drone cost_per_hour", self.cost_per_hour)
 

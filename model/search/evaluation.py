@@ -22,6 +22,7 @@ def evaluate(instance: Instance) -> Records:
     retimed = types["speed_changes"] != NO_PROFILE
     flies = types["flies"] > 0
     retimed = retimed | any_aboard(types, (types["charge"] > 0) & ((types["drones"] > 0) | flies))
+    retimed = retimed | any_aboard(types, (types["storms"] > 0) & (types["drones"] > 0))
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)

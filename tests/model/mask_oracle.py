@@ -13,11 +13,11 @@ from model.judge.energy import Rest, charges, first_rest, sortie_energy
 from model.judge.flown_trips import charged_start, excess_of
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
-from model.judge.takeoff import charged_launch, held_takeoff
+from model.judge.takeoff import charged_launch, held_takeoff, storm_met
 from model.judge.timing import Operation, latest_release, schedule_trip
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
-from model.solution import Route, Solution, Stop, Trip, Visit
+from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 from tests.model.open_trip import (
     Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred,
 )
@@ -105,12 +105,18 @@ def _drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> boo
         problem, kind, trip)[index]
 
 
+def _in_storm(kind: VehicleType, launched: Sortie, recovered: Sortie) -> bool:
+    """Tell whether it storms from the take-off of a sortie to the recovery of another."""
+    drones = kind.drone_type(launched.drone)
+    return storm_met(drones, launched.launch_time, recovered.recovery_start) is not None
+
+
 def _cannot_be_flown(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
-    """Tell whether a sortie lasts too long, or begins too far from its customer."""
+    """Tell whether a sortie lasts too long, into a storm, or begins too far from its customer."""
     sortie = trip.sorties[index]
     drones = kind.drone_type(sortie.drone)
     return (drones.endurance < airborne_duration(problem, drones, trip, sortie)
-            or _drained(problem, kind, trip, index)
+            or _drained(problem, kind, trip, index) or _in_storm(kind, sortie, sortie)
             or not in_range(problem, drones, trip.stops[sortie.launch_stop].node,
                             sortie.visits[0].node))
 
@@ -297,6 +303,8 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
         for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
             longer = (flown.recovery_start - flown.launch_time
                       > sortie.recovery_start - sortie.launch_time)
+            if _in_storm(kind, sortie, flown):
+                return False
             if longer or not all(map(may_be, sortie.visits, flown.visits)):
                 return False
     return True

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.problem import MM_PER_KM, DroneType, Problem, Travel, VehicleType
+from model.problem import MM_PER_KM, UNLIMITED, DroneType, Problem, Travel, VehicleType
 from tests.model.tiny import MINUTE, with_drones
 
 
@@ -35,3 +35,18 @@ def with_few_airborne(rng: np.random.Generator, problem: Problem) -> Problem:
         return replace(kind, max_airborne=most, truck_waits=bool(rng.random() < 0.4))
 
     return replace(problem, vehicle_types=tuple(map(permitted, problem.vehicle_types)))
+
+
+def with_storms(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which most drones stay aboard while it storms, some in the end."""
+    def grounded(drones: DroneType) -> DroneType:
+        if rng.random() < 0.2:
+            return drones
+        instants = np.unique(rng.integers(0, 60, 2 * int(rng.integers(1, 4)))).tolist()
+        instants = [instant * MINUTE for instant in instants[:len(instants) // 2 * 2]]
+        if rng.random() < 0.2:
+            instants[-1:] = [UNLIMITED]
+        return replace(drones, storms=tuple(zip(instants[::2], instants[1::2], strict=True)))
+
+    return replace(problem, vehicle_types=tuple(
+        with_drones(kind, grounded) for kind in problem.vehicle_types))

@@ -173,6 +173,7 @@ class Units:
             service_duration=None if service is None else self.time * service,
             service_durations=self.durations(drones.service_durations),
             swap_duration=self.time * drones.swap_duration,
+            storms=tuple((self.time * begin, self.limit(end)) for begin, end in drones.storms),
             max_range=None if drones.max_range is None else self.length * drones.max_range,
             cost_per_km=self.money / self.length * drones.cost_per_km,
             cost_per_hour=self.money / self.time * drones.cost_per_hour,

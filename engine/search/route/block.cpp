@@ -26,17 +26,34 @@ Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node,
     return held_until(back + leg(drone_data.homeward, here, sortie.home).duration, sortie.limit);
 }
 
+// Return when a sortie is back for its recovery that leaves `node` at `takeoff`.
+Int back_at(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
+    Int time = takeoff, here = node;
+    for (Int index = 0; index < sortie.count; ++index) {
+        const Int next = sortie.nodes[index];
+        const Int flight = leg(drone_data.legs, here, next).duration;
+        time = drone_data.places[next].end_of_service(time + flight);
+        here = next;
+    }
+    return time + leg(drone_data.homeward, here, sortie.home).duration;
+}
+
 // Return when a sortie takes off at `node` that can at `takeoff`: then, or held back.
 Int soonest_takeoff(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
     takeoff = std::max(takeoff, sortie.held);
     if (charges_aboard(drone_data.type)) takeoff = std::max(takeoff, sortie.charged);
-    if (drone_data.places[0].are_single()) return takeoff;
-    Int held = held_by_windows(drone_data, sortie, node, takeoff);
-    while (held > takeoff) {
+    const bool single = drone_data.places[0].are_single();
+    const bool storms = storms_sometime(drone_data.type);
+    if (single && !storms) return takeoff;
+    while (true) {
+        Int held = single ? none : held_by_windows(drone_data, sortie, node, takeoff);
+        if (held <= takeoff && storms) {
+            held =
+                calm_takeoff(drone_data.type, takeoff, back_at(drone_data, sortie, node, takeoff));
+        }
+        if (held <= takeoff) return takeoff;
         takeoff = held;
-        held = held_by_windows(drone_data, sortie, node, takeoff);
     }
-    return takeoff;
 }
 
 // Let the truck arrive at the block from `first` to `last`. In place.
@@ -111,6 +128,12 @@ bool bring_home(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums
     bound_arrival(sums, lasting_within(endurance_of(type), {sortie.takeoff_d, sortie.takeoff_c},
                                        {counted_until(type, back.d, begin.d),
                                         counted_until(type, back.c, begin.c)}));
+    if (storms_sometime(type)) {
+        const Int calm = calm_until(type, sortie.takeoff);
+        if (begin.c > calm) return false;
+        sums.hi = std::min(sums.hi, calm - begin.d);
+        sums.dep = std::min(sums.dep, calm - begin.d);
+    }
     if (is_limited(type)) {
         const Interval hovering =
             lasting_within(longest_hover(type, sortie.left, sortie.taken), back, begin);

@@ -14,7 +14,7 @@ from model.problem import Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.street import served
-from tests.model.permits import with_few_airborne, with_ranges
+from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_late, draw_tiny, with_charging, with_duty, with_energy, with_goods, with_limits_aboard,
     with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
@@ -272,7 +272,7 @@ def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("change", [
     with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once,
-    with_ranges, with_few_airborne, with_few_launch_places])
+    with_ranges, with_few_airborne, with_few_launch_places, with_storms])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],

@@ -4,7 +4,7 @@ import numpy as np
 
 from model.problem import Problem
 from tests.model.fliers import with_fliers
-from tests.model.permits import with_few_airborne, with_ranges
+from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
@@ -66,6 +66,14 @@ def all_rules_drone_types(rng: np.random.Generator) -> Problem:
         problem = with_drone_types(rng, all_rules(rng))
         if any(kind.more_drones for kind in problem.vehicle_types):
             return problem
+
+
+def all_rules_in_storms(rng: np.random.Generator) -> Problem:
+    """Return problems some of whose drones stay aboard while it storms."""
+    while True:
+        problem = with_storms(rng, all_rules(rng))
+        if any(drones.storms for kind in problem.vehicle_types for drones in kind.drone_types):
+            return with_gaps(rng, problem) if rng.random() < 0.3 else problem
 
 
 def all_rules_few_airborne(rng: np.random.Generator) -> Problem:

@@ -17,7 +17,7 @@ from model.simulation.extract import extract
 from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, roll
 from tests.model.fliers import with_fliers
-from tests.model.permits import with_few_airborne, with_ranges
+from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
     with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
@@ -121,6 +121,10 @@ def drone_types_among_all(rng: np.random.Generator, problem: Problem) -> Problem
                      with_beginnings)
 
 
+def storms_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_storms(rng, few_airborne_among_all(rng, with_ranges(rng, problem)))
+
+
 def few_airborne_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_few_airborne(rng, drone_types_among_all(rng, problem))
 
@@ -145,7 +149,8 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     with_turnaround, swapping_among_all, charging_often, charging_among_all, with_drone_types,
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
-    few_launch_places_among_all, with_fliers, fliers_among_all])
+    few_launch_places_among_all, with_fliers, fliers_among_all, with_storms,
+    storms_among_all])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):
