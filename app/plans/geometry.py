@@ -11,7 +11,9 @@ from app.requests.conversion.ground import Ground
 from app.requests.conversion.launches import drones_named
 from app.requests.conversion.leg_origins import LegOrigin
 from app.requests.conversion.places import PlacedRequest
+from app.requests.conversion.winds import Winds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
 
 Data = dict[str, Any]
@@ -41,6 +43,7 @@ class Geometry:
         self._locations: list[tuple[float, float]] | None = (
             [(float(x), float(y)) for x, y in ground.locations]
             if all(place.location is not None for place in ground.places) else None)
+        self._winds = Winds(request)
         self._detours = {drones.altitude: ground.detours(drones.altitude)
                          for kind in request.fleet for drones in kind.drone_types
                          if drones.profile not in self._matrices}
@@ -68,15 +71,15 @@ class Geometry:
                 for sortie in trip["sorties"]:
                     drones = drones_named(kind, sortie["drone"])
                     if drones is not None:
-                        self._add_flights(sortie, nodes, drones, until)
+                        self._add_flights(sortie, nodes, kind, drones, until)
 
-    def _add_flights(self, sortie: Data, stops: Sequence[int], drones: DronesInput,
-                     until: float) -> None:
+    def _add_flights(self, sortie: Data, stops: Sequence[int], kind: VehicleTypeInput,
+                     drones: DronesInput, until: float) -> None:
         visits = sortie["customers"]
         nodes = [stops[sortie["launch_stop"]],
                  *(self._nodes["customer", visit["id"]] for visit in visits),
                  stops[sortie["recovery_stop"]]]
-        *lines, last = self._flown(nodes, drones, until)
+        *lines, last = self._flown(nodes, kind, drones, until)
         for visit, line in zip(visits, lines, strict=True):
             visit["geometry"] = line
         sortie["recovery_geometry"] = last
@@ -90,17 +93,19 @@ class Geometry:
         for start, end in pairwise(nodes):
             yield self._line(start, end)
 
-    def _flown(self, nodes: Sequence[int], drones: DronesInput, until: float) -> Iterator[Line]:
+    def _flown(self, nodes: Sequence[int], kind: VehicleTypeInput, drones: DronesInput,
+               until: float) -> Iterator[Line]:
         detours = self._detours.get(drones.altitude)
         if detours is None or drones.profile in self._matrices:
             yield from self._straight(nodes)
             return
+        winds = self._winds.flown(kind, drones)
         speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
         for start, end in pairwise(nodes):
             if not detours.ways.blocked[start, end]:
                 yield self._line(start, end)
             elif time.perf_counter() < until:
-                yield self._line(start, end, detours.bends(start, end, speed))
+                yield self._line(start, end, detours.bends(start, end, speed, winds))
             else:
                 yield None
 

@@ -14,6 +14,7 @@ from app.requests.fleet_validation import (
     depot_errors, drone_errors, energy_errors, shift_errors, speed_errors, turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
+from app.requests.wind_validation import wind_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.errors import InputError, json_path
 from app.schemas.fields import point_of
@@ -51,6 +52,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *energy_errors(draft),
         *turnaround_errors(draft),
         *airspace_errors(draft),
+        *wind_errors(draft),
         *_policy_errors(draft, policies),
         *_day_errors(draft),
         *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet)),

@@ -70,6 +70,11 @@ class DronesInput(Input):
         description="How far a customer of a sortie lies at most from where it is launched, and "
         "from where it is recovered: straight, in metres, whatever a matrix says. Null: no limit.",
     )
+    max_wind_kmh: Annotated[float, Field(ge=0, le=500)] | None = Field(
+        None,
+        description="Largest gusts in km/h, or wind where no gusts are stated, in which a drone "
+        "may be in the air: no flight lasts into an hour that has more. Null: any.",
+    )
     endurance_includes_waiting: bool = Field(
         True, description="Whether waiting for the truck at the recovery stop uses endurance."
     )

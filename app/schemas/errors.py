@@ -71,6 +71,8 @@ ErrorCode = Literal[
     "POWER_OR_PRESET",
     "CHARGE_WITHOUT_ENERGY",
     "SWAP_OR_CHARGE",
+    "WIND_HOURS",
+    "WIND_ORDER",
     "POLYGON_CROSSES_ITSELF",
     "POLYGON_WITHOUT_AREA",
     "TOO_MANY_CORNERS",
@@ -126,11 +128,12 @@ _CODES: dict[str, ErrorCode] = {
 }
 
 IN_WORDS, IN_PLACE, ALONE, LISTED = "(word)", "(place)", "(one)", "(list)"
+FORECAST = "(forecast)"
 AS_NUMBER, AS_TEXT = "(number)", "(text)"
 """Tags of values that may be one or the other; no part of a path."""
 
-TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, AS_NUMBER, AS_TEXT, "(ed269)", "(ed318)",
-                  "(geojson)", "(kml)", "(Polygon)", "(MultiPolygon)", "(Point)",
+TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, FORECAST, AS_NUMBER, AS_TEXT, "(ed269)",
+                  "(ed318)", "(geojson)", "(kml)", "(Polygon)", "(MultiPolygon)", "(Point)",
                   "(GeometryCollection)"})
 
 _TYPE_NAMES = {

@@ -22,6 +22,7 @@ from app.schemas.plan import PlanInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
 from app.schemas.airspace import Zones
+from app.schemas.wind import Wind, WindInput
 from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE
 
 MAX_VEHICLE_TYPES = 100
@@ -54,17 +55,6 @@ class MatrixInput(Input):
     distances: Table | None = Field(
         None,
         description="Distances in metres, `distances[from][to]`. Null: computed from locations.",
-    )
-
-
-class WindInput(Input):
-    """A steady wind, felt by drones alone."""
-
-    speed_kmh: Annotated[float, Field(ge=0, le=500)] = Field(0.0, description="Speed in km/h.")
-    direction_deg: Annotated[float, Field(ge=0, le=360)] = Field(
-        0.0,
-        description="Where the wind comes from in degrees clockwise from north (the y axis): "
-        "0 blows southwards, 90 westwards.",
     )
 
 
@@ -101,7 +91,11 @@ class AirspaceInput(Input):
         "that limits above the sea can be compared with `altitude`. Null: unknown, and such a zone "
         "blocks unless it lies above any ground there is.",
     )
-    wind: WindInput = Field(WindInput(), description="Wind, the same everywhere and always.")
+    wind: Wind = Field(
+        WindInput(),
+        description="Wind, the same everywhere: always, or by the hour in a list, or as "
+        "`open_meteo` tells it.",
+    )
 
 
 class IncompatibleGoodsInput(Input):

@@ -178,7 +178,9 @@ def hold_to_the_past(request: Data, plan: Data, replanned: Data) -> None:
 def is_calm(request: Data) -> bool:
     """Tell whether drones can fly from anywhere to anywhere."""
     airspace = request.get("airspace") or {}
-    wind = (airspace.get("wind") or {}).get("speed_kmh", 0)
+    stated = airspace.get("wind") or {}
+    hours = stated if isinstance(stated, list) else [stated]
+    wind = any(hour.get("speed_kmh", 0) for hour in hours)
     return not (request.get("matrices") or airspace.get("no_fly") or wind)
 
 

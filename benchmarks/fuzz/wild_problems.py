@@ -190,6 +190,7 @@ def _drones(rng: random.Random, dimensions: int) -> Data:
         "capacity": _amounts(rng, dimensions, (0, 1, 3, 10, 10, LONGEST)),
         **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 40, 120, 1000))),
         **_maybe(rng, 0.7, endurance=rng.choice((0, 60, 1200, 1800, LONGEST))),
+        **_maybe(rng, 0.2, max_wind_kmh=rng.choice((0, 20, 40, 500))),
         **_maybe(rng, 0.2, max_range=rng.choice((0, 500, 5e3, 2e4, LONGEST))),
         **_maybe(rng, 0.3, endurance_includes_waiting=rng.random() < 0.5),
         **_maybe(rng, 0.5, launch_duration=rng.choice((0, 30, 60, LONGEST)),
@@ -230,8 +231,18 @@ def _airspace(rng: random.Random, place: Callable[[], Point], system: str) -> Da
         areas.append([[x + size * math.cos(math.tau * corner / corners),
                        y + size * math.sin(math.tau * corner / corners)]
                       for corner in range(corners)])
-    return {"no_fly": areas, "wind": {"speed_kmh": rng.choice((0, 0, 0, 10, 60, 500)),
-                                      "direction_deg": rng.choice((0, 90, 123.4, 360))}}
+    if rng.random() < 0.8:
+        return {"no_fly": areas, "wind": _wind(rng)}
+    times = sorted(rng.sample((0, 1, 59.9, 600, 3600, 7200, 30000, 1e6, LONGEST),
+                              rng.randint(1, 5)))
+    return {"no_fly": areas, "wind": [
+        {"from": time, **_wind(rng), **_maybe(rng, 0.5, gust_kmh=rng.choice((0, 30, 500)))}
+        for time in times]}
+
+
+def _wind(rng: random.Random) -> Data:
+    return {"speed_kmh": rng.choice((0, 0, 0, 10, 60, 500)),
+            "direction_deg": rng.choice((0, 90, 123.4, 360))}
 
 
 def _options(rng: random.Random) -> Data:

@@ -18,7 +18,7 @@ from model.problem import FloatArray
 from model.travel.matrices import planar_distances
 from model.travel.obstacles import Obstacles, obstacles_of
 from model.travel.ways import Legs, Ways, find_ways
-from model.travel.wind import Wind
+from model.travel.wind import Breeze, Wind
 
 Ring = tuple[tuple[float, float], ...]
 
@@ -116,8 +116,11 @@ class Flights:
         self._straight_m = straight_m
         self._pause = pause
 
-    def legs(self, airspeed_kmh: float) -> Legs:
+    def legs(self, airspeed_kmh: float, winds: Sequence[Breeze] = ()) -> Legs:
         """Return the flights of drones of one speed through the air, for reading only.
+
+        Of several `winds`, each flight is that in which it takes longest; by default the
+        airspace's own.
 
         Raises
         ------
@@ -126,7 +129,19 @@ class Flights:
         """
         if not 0 < airspeed_kmh < float("inf"):
             raise ValueError(f"airspeed_kmh: {airspeed_kmh!r} is not allowed")
-        wind = self.airspace.wind(airspeed_kmh)
+        felt = [Wind.blowing(*breeze, airspeed_kmh) for breeze in winds]
+        first, *others = felt or [self.airspace.wind(airspeed_kmh)]
+        legs = self._in(first)
+        if others:
+            legs = Legs(*(each.copy() for each in legs))
+        for wind in others:
+            other = self._in(wind)
+            longer = other.duration > legs.duration
+            for worst, each in zip(legs, other, strict=True):
+                np.copyto(worst, each, where=longer)
+        return legs
+
+    def _in(self, wind: Wind) -> Legs:
         if wind.is_calm:
             return Legs(self._shortest_m, self._shortest_m / wind.airspeed)
         return self._quickest(wind)

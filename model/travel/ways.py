@@ -87,6 +87,13 @@ class Ways:
         """Return the corners, in their order, where the quickest flight between two nodes bends.
 
         None where there is no flight around obstacles.
+        """
+        return self.quickest(start, end, wind)[1]
+
+    def quickest(self, start: int, end: int, wind: Wind) -> tuple[float, IntArray]:
+        """Return the seconds of the quickest flight between two nodes, and where it bends.
+
+        Infinite where there is none around obstacles.
 
         References
         ----------
@@ -108,7 +115,7 @@ class Ways:
             corners = corners[sooner]
             time[corners] = ahead[corners] = time[corner] + durations[sooner]
             before[corners] = corner
-        return _traced(time + left, before)
+        return float((time + left).min(initial=np.inf)), _traced(time + left, before)
 
 
 def _traced(total: FloatArray, before: IntArray) -> IntArray:

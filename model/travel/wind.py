@@ -7,6 +7,10 @@ import numpy as np
 from model.problem import FloatArray
 
 
+Breeze = tuple[float, float]
+"""Speed in km/h, and where it blows from in degrees clockwise from north."""
+
+
 @dataclass(frozen=True)
 class Wind:
     """What the air does to one drone. Speeds in metres per second."""

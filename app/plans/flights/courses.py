@@ -12,6 +12,7 @@ from app.requests.conversion.energy import climb_duration
 from app.requests.conversion.ground import Detours, Ground
 from app.requests.conversion.launches import drones_named
 from app.requests.conversion.places import PlacedRequest
+from app.requests.conversion.winds import Winds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
 from app.schemas.errors import ErrorCode, InputError, InvalidRequestError
 from app.schemas.fields import point_of
@@ -19,6 +20,7 @@ from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
+from model.travel.wind import Breeze, Wind
 
 DECIMALS = 7
 """Of degrees: MAVLink counts ten-millionths, which are a centimetre."""
@@ -41,6 +43,7 @@ class _Sortie:
     trip: TripInput
     sortie: SortieInput
     drones: DronesInput
+    winds: tuple[Breeze, ...]  # of the hours of the shift; (): the steady one
     nodes: tuple[int, ...]
     number: int
 
@@ -92,16 +95,17 @@ def _sorties(placed: PlacedRequest, plan: PlanInput) -> Iterator[_Sortie]:
     """Yield all sorties, numbered by their drones in the order of take-off."""
     nodes = {name: node for node, name in enumerate(placed.names)}
     types = {kind.id: kind for kind in placed.request.fleet}
+    winds = Winds(placed.request)
     for route in plan.routes:
         found = [sortie for trip in route.trips
-                 for sortie in _sorties_of_trip(route, trip, types[route.type], nodes)]
+                 for sortie in _sorties_of_trip(route, trip, types[route.type], winds, nodes)]
         flown: dict[str, int] = {}
         for each in sorted(found, key=lambda each: each.sortie.launch_time):
             number = flown[each.sortie.drone] = flown.get(each.sortie.drone, 0) + 1
             yield replace(each, number=number)
 
 
-def _sorties_of_trip(route: RouteInput, trip: TripInput, kind: VehicleTypeInput,
+def _sorties_of_trip(route: RouteInput, trip: TripInput, kind: VehicleTypeInput, winds: Winds,
                      nodes: dict[tuple[str, str], int]) -> Iterator[_Sortie]:
     for sortie in trip.sorties:
         drones = drones_named(kind, sortie.drone)
@@ -110,7 +114,8 @@ def _sorties_of_trip(route: RouteInput, trip: TripInput, kind: VehicleTypeInput,
         launch, recovery = trip.stops[sortie.launch_stop], trip.stops[sortie.recovery_stop]
         names = [(launch.kind, launch.id), *(("customer", visit.id) for visit in sortie.customers),
                  (recovery.kind, recovery.id)]
-        yield _Sortie(route, trip, sortie, drones, tuple(nodes[name] for name in names), 0)
+        yield _Sortie(route, trip, sortie, drones, winds.flown(kind, drones),
+                      tuple(nodes[name] for name in names), 0)
 
 
 class _Courses:
@@ -152,12 +157,12 @@ class _Courses:
         leaving = sortie.launch_time
         yield WayPoint("launch", self._place(nodes[0]), launch.id, 0.0, leaving)
         for index, visit in enumerate(sortie.customers):
-            leg = self._leg(flown.drones, nodes[index], nodes[index + 1])
+            leg = self._leg(flown, nodes[index], nodes[index + 1])
             yield from _bends(leg, leaving, visit.arrival)
             leaving = visit.departure
             yield WayPoint("customer", leg.places[-1], visit.id, leg.speeds[-1], visit.arrival,
                            max(0.0, leaving - visit.arrival))
-        leg = self._leg(flown.drones, nodes[-2], nodes[-1])
+        leg = self._leg(flown, nodes[-2], nodes[-1])
         arrival = leaving + leg.seconds
         met = sortie.recovery_time - flown.drones.recovery_duration
         waiting = met - arrival if met - arrival >= SHORTEST_WAIT else 0.0
@@ -168,14 +173,26 @@ class _Courses:
         longitude, latitude = self._ground.locations[node]
         return float(longitude), float(latitude)
 
-    def _leg(self, drones: DronesInput, start: int, end: int) -> _Leg:
-        """Return the flight from node to node; there is always a way around zones, or it raises."""
+    def _leg(self, flown: _Sortie, start: int, end: int) -> _Leg:
+        """Return the flight from node to node, in the worst of several winds.
+
+        There is always a way around zones, or it raises.
+        """
+        winds: list[tuple[Breeze, ...]] = [(breeze,) for breeze in flown.winds]
+        legs = [self._leg_in(each, flown.drones, start, end) for each in winds or [()]]
+        return max(legs, key=lambda leg: leg.seconds)
+
+    def _leg_in(self, breeze: tuple[Breeze, ...], drones: DronesInput, start: int,
+                end: int) -> _Leg:
+        """Return the flight in one wind, the steady one if none is stated."""
         speed = _airspeed(drones)
-        corners = np.stack([self._points[self._at[start]], *self._bends(drones, start, end),
+        corners = np.stack([self._points[self._at[start]], *self._bends(drones, start, end, breeze),
                             self._points[self._at[end]]])
         x, y = np.diff(corners, axis=0).T
         lengths = np.hypot(x, y)
-        seconds = self._ground.airspace(drones.altitude).wind(speed).durations(x, y, lengths)
+        wind = Wind.blowing(*breeze[0], speed) if breeze else (
+            self._ground.airspace(drones.altitude).wind(speed))
+        seconds = wind.durations(x, y, lengths)
         if drones.profile in (self._request.matrices or {}):
             total = self._matrix_seconds(drones.profile, start, end)
             seconds = lengths / max(lengths.sum(), 1.0) * total
@@ -188,13 +205,14 @@ class _Courses:
                   for lon, lat in self._ground.stated(corners[1:-1])]
         return _Leg([*places, self._place(end)], speeds, passed.tolist(), total)
 
-    def _bends(self, drones: DronesInput, start: int, end: int) -> FloatArray:
+    def _bends(self, drones: DronesInput, start: int, end: int,
+               breeze: tuple[Breeze, ...]) -> FloatArray:
         """Return the (corner, 2) planar metres where a flight bends."""
         a, b = self._at[start], self._at[end]
         detours, speed = self._detours.get(drones.altitude), _airspeed(drones)
         if detours is None or not detours.ways.blocked[a, b]:
             return np.empty((0, 2))
-        bends = self._ground.planar(detours.bends(a, b, speed))
+        bends = self._ground.planar(detours.bends(a, b, speed, breeze))
         if len(bends) == 0:
             names = [getattr(self._places[node], "id", "a stop") for node in (start, end)]
             raise _refused("NO_WAY_AROUND", "$.problem.airspace", f"There is no way around the "

@@ -16,6 +16,7 @@ from app.requests.conversion.rounding import ROUNDINGS
 from app.requests.conversion.work import sights_seconds
 from app.requests.conversion.zones import Met, Part, ZonesMet, span_of
 from app.schemas.fields import point_of
+from app.schemas.wind import WindInput
 from model.problem import FloatArray, Points
 from model.problem.distances import EXACT
 from model.travel.airspace import Airspace, Flights
@@ -26,6 +27,7 @@ from model.travel.matrices import (
     straight_distances,
 )
 from model.travel.ways import Ways, find_ways
+from model.travel.wind import Breeze, Wind
 from model.travel.zones import WIDER_M, dissolved, holding, within_reach
 
 
@@ -36,11 +38,18 @@ class Detours(NamedTuple):
     corners: FloatArray  # (corner, 2) as the request states places
     airspace: Airspace
 
-    def bends(self, start: int, end: int, airspeed_kmh: float) -> FloatArray:
-        """Return the (place, 2) places where a flight from place to place bends, in their order."""
+    def bends(self, start: int, end: int, airspeed_kmh: float,
+              winds: Sequence[Breeze] = ()) -> FloatArray:
+        """Return the (place, 2) places where a flight from place to place bends, in their order.
+
+        Of several winds, in that in which it takes longest.
+        """
         if not self.ways.blocked[start, end]:
             return self.corners[:0]
-        return self.corners[self.ways.bends(start, end, self.airspace.wind(airspeed_kmh))]
+        felt = [Wind.blowing(*breeze, airspeed_kmh) for breeze in winds]
+        felt = felt or [self.airspace.wind(airspeed_kmh)]
+        worst = max(felt, key=lambda wind: self.ways.quickest(start, end, wind)[0])
+        return self.corners[self.ways.bends(start, end, worst)]
 
 
 class Ground:
@@ -189,13 +198,14 @@ class Ground:
 
     def _airspace_with(self, met: Met) -> Airspace:
         stated = self._request.airspace
+        steady = stated.wind if isinstance(stated.wind, WindInput) else WindInput()
         rings = [self.planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
         around, over = self._projected(met.around), self._projected(met.over)
         near = within_reach(around, self.points_m)
         return Airspace(
             no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
-            wind_speed_kmh=stated.wind.speed_kmh,
-            wind_direction_deg=stated.wind.direction_deg,
+            wind_speed_kmh=steady.speed_kmh,
+            wind_direction_deg=steady.direction_deg,
             zones=dissolved([around[number] for number in near]),
             low_zones=tuple(over[number] for number in holding(over, self.points_m)),
         )

@@ -16,6 +16,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.road_legs import RoadLegs, road_legs
 from app.requests.conversion.units import thousandths
+from app.requests.conversion.winds import Winds
 from app.requests.conversion.work import COMPUTED, legs_seconds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
 from app.schemas.request import MatrixInput, RoadsInput
@@ -32,6 +33,7 @@ from model.travel.matrices import (
     truck_travel,
     with_nowhere,
 )
+from model.travel.wind import Breeze
 
 
 class _Key(NamedTuple):
@@ -44,6 +46,7 @@ class _Key(NamedTuple):
     flown: bool = False  # which matters where some end nowhere
     estimated_kmh: float = 0.0  # where roads may not be known
     altitude: float = 0.0  # which matters where there are zones
+    winds: tuple[Breeze, ...] = ()  # the worst of which counts; (): the steady one
 
 
 STRAIGHT = _Key("drive", "", DEFAULT_DRONE_SPEED_KMH)
@@ -68,6 +71,7 @@ class Travels:
         self._preparing = preparing
         self._ground = ground or Ground(placed, preparing, roads.zones)
         self._roads = roads
+        self.winds = Winds(placed.request)
         self._road_legs: dict[str, RoadLegs] = {}
         self._places = placed.places
         self._nowhere = placed.nowhere
@@ -83,7 +87,8 @@ class Travels:
         """
         request = self._request
         sets_up = any(customer.setup_duration for customer in request.customers)
-        flown = {self._flying(drones) for kind in request.fleet for drones in kind.drone_types}
+        flown = {self._flying(kind, drones) for kind in request.fleet
+                 for drones in kind.drone_types}
         driven = len(self._stated(self._keys() - flown))
         flown = self._stated(flown)
         if on_roads and self._ground.is_geographic and request.roads != "none":
@@ -108,8 +113,9 @@ class Travels:
         if not stated:
             self._preparing.pause()
             return
-        flights = sum(key.means == "flight" for key in stated)
-        self._preparing.expect(legs_seconds(len(self._places), len(stated) - flights, flights,
+        flights = [max(1, len(key.winds)) for key in stated if key.means == "flight"]
+        self._preparing.expect(legs_seconds(len(self._places), len(stated) - len(flights),
+                                            sum(flights),
                                             self._ground.is_geographic))
 
     def built(self) -> tuple[Travel, ...]:
@@ -121,9 +127,9 @@ class Travels:
         key, profile = self._driving(vehicle_type)
         return self._at(key), profile
 
-    def fly(self, drones: DronesInput) -> int:
-        """Return the index of the drones' matrices."""
-        return self._at(self._flying(drones))
+    def fly(self, kind: VehicleTypeInput, drones: DronesInput) -> int:
+        """Return the index of the matrices of a type's drones."""
+        return self._at(self._flying(kind, drones))
 
     def straight(self) -> int:
         """Return the index of matrices whose distances are straight."""
@@ -180,7 +186,7 @@ class Travels:
         measured = {STRAIGHT for kind in fleet for drones in kind.drone_types
                     if drones.max_range is not None}
         return ({self._driving(kind)[0] for kind in fleet} | measured
-                | {self._flying(drones) for kind in fleet for drones in kind.drone_types})
+                | {self._flying(kind, drones) for kind in fleet for drones in kind.drone_types})
 
     def _stated(self, keys: set[_Key]) -> set[_Key]:
         """Return those of which there are matrices."""
@@ -219,16 +225,17 @@ class Travels:
         fastest, profile = speed_profile(scale, changes)
         return key_at(fastest), profile
 
-    def _flying(self, drones: DronesInput) -> _Key:
-        airspace = self._request.airspace
+    def _flying(self, kind: VehicleTypeInput, drones: DronesInput) -> _Key:
+        winds = self.winds.flown(kind, drones)
+        blows = any(speed for speed, _ in winds or self.winds.steady)
         speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
         if self._matrix(drones.profile) is not None:
             key = self._driving_at(drones.profile, 1.0)
-        elif not airspace.wind.speed_kmh and not self._ground.has_areas(drones.altitude):
+        elif not blows and not self._ground.has_areas(drones.altitude):
             key = self._driving_at(drones.profile, speed)._replace(climb=climb)
         else:
             altitude = drones.altitude if self._ground.zones else 0.0
-            key = _Key("flight", "", speed, climb, altitude=altitude)
+            key = _Key("flight", "", speed, climb, altitude=altitude, winds=winds)
         return key._replace(flown=self._nowhere is not None)
 
     def _driving_at(self, profile: str, speed: float) -> _Key:
@@ -280,7 +287,7 @@ class Travels:
             return self._build_on_roads(key)
         if key.means == "drive":
             return truck_travel(self._ground.legs_m, key.speed, self._preparing.pause)
-        legs = self._ground.flights(key.altitude).legs(key.speed)
+        legs = self._ground.flights(key.altitude).legs(key.speed, key.winds)
         return flight_travel(*legs, self._preparing.pause)
 
     def _build_on_roads(self, key: _Key) -> Travel:

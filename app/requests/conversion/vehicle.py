@@ -19,7 +19,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
     travel, speed_profile = travels.drive(stated)
     places = places_of_type(stated, depots)
     shift = stated.shift
-    drones = [_drones(each, travels, decimals, amounts) for each in stated.drone_types
+    drones = [_drones(stated, each, travels, decimals, amounts) for each in stated.drone_types
               if each.count > 0]
     return VehicleType(
         id=stated.id,
@@ -63,17 +63,18 @@ def _overtime(stated: OvertimeInput | None) -> Overtime | None:
     return Overtime(stated.cost_per_hour, UNLIMITED if longest is None else thousandths(longest))
 
 
-def _drones(stated: DronesInput, travels: Travels, decimals: Sequence[int],
+def _drones(kind: VehicleTypeInput, stated: DronesInput, travels: Travels, decimals: Sequence[int],
             amounts: Collection[Sequence[int]]) -> DroneType:
     turnaround = stated.turnaround or TurnaroundInput()
     return DroneType(
         id=stated.id,
         count=stated.count,
         capacity=counted(stated.capacity, decimals),
-        travel=travels.fly(stated),
+        travel=travels.fly(kind, stated),
         endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
         endurance_includes_waiting=stated.endurance_includes_waiting,
         max_range=optional_thousandths(stated.max_range),
+        storms=travels.winds.storms(kind, stated),
         straight=0 if stated.max_range is None else travels.straight(),
         launch_duration=thousandths(stated.launch_duration),
         recovery_duration=thousandths(stated.recovery_duration),

@@ -8,6 +8,7 @@ from app.requests.warnings.places import crow_warnings, place_warnings
 from app.requests.warnings.survey import Survey
 from app.requests.warnings.times import time_warnings
 from app.requests.warnings.warning import RequestWarning
+from app.requests.warnings.winds import wind_warnings
 from app.schemas.request import PlanRequest
 
 
@@ -22,4 +23,4 @@ def warnings_of(request: PlanRequest,
     """
     survey = Survey(request, frozenset(road_profiles))
     return (*place_warnings(survey), *time_warnings(survey), *fleet_warnings(survey),
-            *matrix_warnings(survey), *crow_warnings(survey))
+            *matrix_warnings(survey), *crow_warnings(survey), *wind_warnings(survey))

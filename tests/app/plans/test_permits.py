@@ -3,7 +3,8 @@
 from typing import Any
 
 import httpx
-from tests.app.plans.asking import planned
+import pytest
+from tests.app.plans.asking import planned, refused
 
 Request = dict[str, Any]
 
@@ -104,3 +105,60 @@ def test_a_truck_waits_for_its_drones(client: httpx.Client, smallest: Request) -
     request["fleet"][0]["truck_waits"] = True
     assert broken(client, request, across, 1) == {"TRUCK_WAITS"}
     assert broken(client, request, [sortie(1, "B", 1, 1)], 1) == set()
+
+
+def test_a_flight_waits_until_the_wind_is_weaker(client: httpx.Client, smallest: Request) -> None:
+    request = by_drone(smallest, max_wind_kmh=40)
+    request["airspace"] = {"wind": [{"from": 0, "speed_kmh": 10, "gust_kmh": 60},
+                                    {"from": 1800, "speed_kmh": 10, "gust_kmh": 20}]}
+    plan = planned(client, request)
+    assert plan["unassigned"] == []
+    sorties = [each for route in plan["routes"] for trip in route["trips"]
+               for each in trip["sorties"]]
+    assert min(each["launch_time"] for each in sorties) >= 1800
+    request["airspace"]["wind"][1]["gust_kmh"] = 60
+    verdict = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert "WIND" in {each["code"] for each in verdict["violations"]}
+    for left_out in planned(client, request)["unassigned"]:
+        reason, = left_out["reasons"]
+        assert (reason["code"], reason["remedy"]) == ("WIND", "fits without max_wind_kmh")
+
+
+@pytest.mark.parametrize(("wind", "code", "path"), [
+    ([{"from": 60, "speed_kmh": 1}, {"from": 60, "speed_kmh": 1}], "WIND_ORDER", "[1].from"),
+    ([], "WRONG_LENGTH", ""),
+    ([{"from": 0}], "MISSING_FIELD", "[0].speed_kmh"),
+    ({"open_meteo": {"hourly": {"time": ["2026-06-01T07:00"], "wind_speed_10m": [2],
+                                "wind_direction_10m": [1, 2]}}},
+     "WIND_HOURS", ".open_meteo.hourly.wind_direction_10m"),
+    ({"open_meteo": {"hourly": {"time": ["2026-06-01T07:00"], "wind_speed_10m": [None],
+                                "wind_direction_10m": [1]}}},
+     "WIND_HOURS", ".open_meteo.hourly.wind_speed_10m[0]"),
+    ({"open_meteo": {"hourly": {"time": ["today"], "wind_speed_10m": [1],
+                                "wind_direction_10m": [1]}}},
+     "WIND_HOURS", ".open_meteo.hourly.time[0]"),
+    ({"open_meteo": {"hourly": {"time": [7200, 3600], "wind_speed_10m": [1, 1],
+                                "wind_direction_10m": [1, 1]}}},
+     "WIND_ORDER", ".open_meteo.hourly.time[1]")])
+def test_hours_of_wind_that_make_no_sense_are_refused(
+        client: httpx.Client, smallest: Request, wind: object, code: str, path: str) -> None:
+    request = by_drone(smallest) | {"plan_start": "2026-06-01T06:00Z", "airspace": {"wind": wind}}
+    assert refused(client, request, "/plan") == [(code, f"$.airspace.wind{path}")]
+
+
+def test_a_forecast_needs_the_start_of_the_plan(client: httpx.Client, smallest: Request) -> None:
+    hourly = {"time": [3600], "wind_speed_10m": [1], "wind_direction_10m": [1]}
+    request = by_drone(smallest) | {"airspace": {"wind": {"open_meteo": {"hourly": hourly}}}}
+    assert refused(client, request, "/plan") == [
+        ("MISSING_PLAN_START", "$.airspace.wind.open_meteo")]
+
+
+def test_who_is_lost_to_the_worst_hour_is_warned_of(client: httpx.Client,
+                                                    smallest: Request) -> None:
+    request = by_drone(smallest, endurance=900)
+    request["airspace"] = {"wind": [{"from": 0, "speed_kmh": 0}, {"from": 3600, "speed_kmh": 45}]}
+    codes = [each["code"] for each in planned(client, request)["warnings"]]
+    assert "WIND_AT_WORST" in codes
+    request["fleet"][0]["drones"]["max_wind_kmh"] = 40
+    codes = [each["code"] for each in planned(client, request)["warnings"]]
+    assert "WIND_AT_WORST" not in codes

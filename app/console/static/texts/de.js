@@ -524,6 +524,7 @@ export default {
     max_trip_distance: 'Die längste Fahrt',
     drones_endurance: 'Die Flugdauer',
     drones_max_range: 'Die Entfernung zu Kunden',
+    drones_max_wind_kmh: 'Der stärkste Wind',
     drones_turnaround_batteries: 'Die Zahl der Akkus',
     drones_turnaround_charge_w: 'Die Ladeleistung für Drohnen',
     drones_energy_battery_wh: 'Der Akku der Drohnen',
@@ -972,6 +973,7 @@ export default {
     time_window: 'Zeitfenster',
     time_windows: 'Mehrere Zeitfenster',
     times: 'Zeitangaben',
+    max_wind_kmh: 'Stärkster Wind',
     truck_waits: 'Fahrzeug wartet',
     turnaround: 'Wieder startklar',
     unassigned_cost: 'Kosten, wenn ausgelassen',
@@ -1182,6 +1184,7 @@ export default {
       max_range:
         'Wie weit Kunden höchstens vom Start und von der Aufnahme entfernt liegen. ' +
         'Leer: ohne Grenze.',
+      max_wind_kmh: 'Böen, bei denen Drohnen an Bord bleiben, wenn sie stärker sind. Leer: alle.',
       endurance_includes_waiting: 'Ob Warten in der Luft auf das Fahrzeug zählt.',
       launch_duration: 'Zeit zum Starten; das Fahrzeug steht solange.',
       recovery_duration: 'Zeit zum Aufnehmen; das Fahrzeug steht solange.',
@@ -1370,6 +1373,8 @@ export default {
     MISSING_DRONE_ID: 'Jede Drohnenart braucht einen Namen.',
     POWER_OR_PRESET: 'Geben Sie eine Vorlage oder die Leistung an.',
     CHARGE_WITHOUT_ENERGY: 'Zum Laden muss bekannt sein, was der Akku fasst.',
+    WIND_HOURS: 'Die Stunden des Winds passen nicht zusammen.',
+    WIND_ORDER: 'Die Stunden des Winds sind nicht in der Reihenfolge.',
     SWAP_OR_CHARGE: 'Geben Sie Akkuwechsel an oder Laden, nicht beides.',
     TOO_MANY_CORNERS: 'Die Flugverbotszonen haben zu viele Ecken.',
     POLYGON_CROSSES_ITSELF: 'Die Grenze dieser Zone kreuzt sich selbst.',
@@ -1429,6 +1434,7 @@ export default {
       'Die längste Arbeitszeit sieht nach Minuten aus, als Sekunden angegeben.',
     WORKING_DURATION_LOOKS_LIKE_HOURS:
       'Die längste Arbeitszeit sieht nach Stunden aus, als Sekunden angegeben.',
+    WIND_AT_WORST: 'Die windigste Stunde hält Drohnen von manchen Kunden fern.',
     ENDURANCE_LOOKS_LIKE_MINUTES:
       'Die Flugdauer der Drohnen sieht nach Minuten aus, als Sekunden angegeben.',
     ENDURANCE_LOOKS_LIKE_HOURS:
@@ -1467,6 +1473,7 @@ export default {
     PICKUP_ORDER: 'Abholungen kommen nach allen Zustellungen.',
     SEARCH: 'In der verfügbaren Zeit wurde kein Platz gefunden.',
     MAX_STOPS: 'Die Fahrt hätte zu viele Stopps.',
+    WIND: 'Der Wind ist zu stark für den Flug.',
     MAX_RANGE: 'Ein Kunde läge zu weit vom Start oder von der Aufnahme entfernt.',
     MAX_AIRBORNE: 'Zu viele Drohnen wären in der Luft.',
     TRUCK_WAITS: 'Das Fahrzeug führe weiter, während eine Drohne unterwegs ist.',
@@ -1642,6 +1649,7 @@ export default {
     area_one: 'Zone {{number}}, {{count}} Ecke',
     area_other: 'Zone {{number}}, {{count}} Ecken',
     removeArea: 'Zone {{number}} entfernen',
+    windByHour: 'Die Anfrage nennt ihn nach Stunden.',
     moveAreas: 'Ecken werden auf der Karte verschoben: „Zeichnen“, dann „Verschieben“.',
     drawAreas: 'Keine. Sie werden auf der Karte gezeichnet: „Zeichnen“, dann „Flugverbotszone“.',
     leftOut: 'Ausgelassene Kunden',
@@ -1854,6 +1862,7 @@ export default {
     capacity: 'passt, wenn die Ladekapazität mindestens {{number}} wäre',
     droneCapacity: 'passt, wenn die Nutzlast der Drohne mindestens {{number}} wäre',
     pickups: 'passt, wenn {{name}} jederzeit abholen darf',
+    wind: 'passt ohne Grenze für den Wind',
     range: 'passt, wenn Kunden {{number}} km weiter entfernt liegen dürften',
     endurance: 'passt, wenn die Flugdauer {{time}} länger wäre',
     battery: 'passt mit einem um {{number}} Wh größeren Akku',

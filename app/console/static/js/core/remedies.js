@@ -70,6 +70,11 @@ const CHANGES = [
       add(request, [...dronesAt(request, type, id), 'max_range'], numberOf(more) * METRES_PER_KM),
   ],
   [
+    /^fits without max_wind_kmh(?: of (.+))?$/,
+    (request, { type }, id) =>
+      setIn(request, [...dronesAt(request, type, id), 'max_wind_kmh'], null),
+  ],
+  [
     new RegExp(`^fits with a battery(?: of (.+))? of ${NUMBER} Wh more$`),
     (request, { type }, id, more) =>
       add(request, [...dronesAt(request, type, id), 'energy', 'battery_wh'], numberOf(more)),

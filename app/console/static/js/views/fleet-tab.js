@@ -10,6 +10,11 @@ import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
 import { t } from '../texts.js';
 
+/** Tell whether a wind is the same always, so that there is a form for it. */
+function isSteady(wind) {
+  return !Array.isArray(wind) && !wind?.open_meteo;
+}
+
 /** The tab. */
 export function FleetTab() {
   const request = useStore((state) => state.request);
@@ -49,8 +54,10 @@ export function FleetTab() {
       position=${position} request=${request} isNew=${position === added?.position} />`,
     )}
     <fieldset class="group"><legend>${t('field.wind')}</legend>
-      <${Fields} schema=${schemas.WindInput} keys=${['airspace', 'wind']} request=${request}
-        onChange=${edit} /></fieldset>
+      ${isSteady(request.airspace?.wind)
+        ? html`<${Fields} schema=${schemas.WindInput} keys=${['airspace', 'wind']}
+          request=${request} onChange=${edit} />`
+        : html`<p class="help">${t('fleet.windByHour')}</p>`}</fieldset>
     <fieldset class="group"><legend>${t('field.no_fly')}</legend>
       ${(request.airspace?.no_fly ?? []).map(
         (ring, position) => html`<div class="buttons" key=${position}>
