@@ -153,9 +153,8 @@ def _endurance(attempt: Attempt) -> Diagnosis:
 def _max_range(attempt: Attempt) -> Diagnosis:
     drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
     far = farthest(attempt.problem, drones, trip, trip.sorties[0], trip.sorties[0].visits[0].node)
-    limit = drones.max_range or 0
-    excess = _up_to_tenth(far - limit, MM_PER_KM)
-    enough = limit + excess
+    excess = _up_to_tenth(far - (drones.max_range or 0), MM_PER_KM)
+    enough = (drones.max_range or 0) + excess
     changed = replace(drones, max_range=min(enough, MAX_QUANTITY))
     return Diagnosis(
         "RANGE",
@@ -167,12 +166,10 @@ def _max_range(attempt: Attempt) -> Diagnosis:
 
 def _wind(attempt: Attempt) -> Diagnosis:
     drones = _drones(attempt)
-    changed = replace(drones, storms=())
-    return Diagnosis(
-        "WIND",
-        f"The wind is too strong for a flight there and back, by max_wind_kmh{_of(drones)}.",
-        f"fits without max_wind_kmh{_of(drones)}",
-        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)))
+    calm, limit = replace(drones, storms=()), f"max_wind_kmh{_of(drones)}"
+    return Diagnosis("WIND", f"The wind is too strong for a flight there and back, by {limit}.",
+                     f"fits without {limit}",
+                     _with_type(attempt, replace(attempt.vehicle_type, drones=calm)))
 
 
 def _energy(attempt: Attempt) -> Diagnosis:
