@@ -8,7 +8,7 @@ from app.requests.conversion.ground import Ground
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.zones import Part
 from app.schemas.request import PlanRequest
-from model.judge.diagnoses import NO_FLIGHT
+from model.judge.flight_diagnoses import NO_FLIGHT
 
 CODE = "AIRSPACE"
 

@@ -3,68 +3,21 @@
 
 from collections.abc import Callable
 from dataclasses import replace
-from math import ceil
 from operator import gt
-from typing import NamedTuple
 
 from model.judge.clock import MS_PER_MINUTE
-from model.judge.energy import sortie_energy
+from model.judge.diagnosis import (
+    Diagnosis, drones_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_type,
+)
+from model.judge.flight_diagnoses import (
+    endurance_broken, energy_broken, max_range_broken, unreachable_broken, wind_broken,
+)
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
-from model.judge.rules import airborne_duration, amounts, decimal, farthest, watt_hours
+from model.judge.rules import amounts
 from model.judge.trial import Attempt, attempts
-from model.problem import (
-    MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType,
-    Energy, Overtime, Problem, VehicleType,
-)
+from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Overtime
 from model.solution import Stop, Visit
-
-
-NO_FLIGHT = "No flight leads there from the depot and back."
-
-
-class Diagnosis(NamedTuple):
-    """A broken rule in words, and the problem changed so that it is kept."""
-
-    code: str
-    message: str
-    remedy: str | None = None
-    problem: Problem | None = None
-
-
-def _drones(attempt: Attempt) -> DroneType:
-    drones = attempt.vehicle_type.drones
-    if drones is None:
-        raise ValueError(f"vehicle type {attempt.vehicle_type.id} drones: None is not allowed")
-    return drones
-
-
-def _of(drones: DroneType) -> str:
-    """Say of which type drones are, where several are told apart."""
-    return "" if drones.id is None else f" of {drones.id}"
-
-
-def _with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:
-    return replace(attempt.problem, vehicle_types=(vehicle_type,))
-
-
-def _up_to_tenth(quantity: int, unit: int) -> int:
-    """Round up to a tenth of a unit, so that what is said suffices."""
-    return -(-quantity * 10 // unit) * unit // 10
-
-
-def _if_stated(words: str, quantity: int) -> str | None:
-    """Return the words of a remedy, if a request can state the quantity that it asks for."""
-    return words if quantity <= MAX_QUANTITY else None
-
-
-def _minutes(duration: int) -> str:
-    number = decimal(duration * 1000 // MS_PER_MINUTE)
-    return "1 minute" if number == "1" else f"{number} minutes"
-
-
-def _km(distance: int) -> str:
-    return f"{decimal(distance * 1000 // MM_PER_KM)} km"
 
 
 def _vehicle(attempt: Attempt) -> Diagnosis:
@@ -78,7 +31,7 @@ def _skills(attempt: Attempt) -> Diagnosis:
     missing = ", ".join(sorted(needed - vehicle_type.skills))
     changed = replace(vehicle_type, skills=vehicle_type.skills | needed)
     return Diagnosis("SKILLS", f"{vehicle_type.id} lacks {missing}.",
-                     f"fits if {vehicle_type.id} had {missing}", _with_type(attempt, changed))
+                     f"fits if {vehicle_type.id} had {missing}", with_type(attempt, changed))
 
 
 def _goods(attempt: Attempt) -> Diagnosis:
@@ -107,18 +60,18 @@ def _capacity(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "CAPACITY", _too_much(attempt, vehicle_type.capacity, "capacity"),
         f"fits if capacity were at least {amounts(attempt.problem, needed)}",
-        _with_type(attempt, replace(vehicle_type, capacity=needed)),
+        with_type(attempt, replace(vehicle_type, capacity=needed)),
     )
 
 
 def _payload(attempt: Attempt) -> Diagnosis:
-    vehicle_type, drones = attempt.vehicle_type, _drones(attempt)
-    needed, name = _enough(attempt, drones.capacity), f"drone capacity{_of(drones)}"
+    vehicle_type, drones = attempt.vehicle_type, drones_of(attempt)
+    needed, name = _enough(attempt, drones.capacity), f"drone capacity{name_of(drones)}"
     changed = replace(vehicle_type, drones=replace(drones, capacity=needed))
     return Diagnosis(
         "CAPACITY", _too_much(attempt, drones.capacity, name),
         f"fits if the {name} were at least {amounts(attempt.problem, needed)}",
-        _with_type(attempt, changed),
+        with_type(attempt, changed),
     )
 
 
@@ -128,110 +81,21 @@ def _pickup_order(attempt: Attempt) -> Diagnosis:
         "PICKUP_ORDER",
         f"{vehicle_type.id} picks up only after it has delivered something on the same trip.",
         f"fits if {vehicle_type.id} may pick up at any time",
-        _with_type(attempt, replace(vehicle_type, pickups="any")))
-
-
-def _unreachable(attempt: Attempt) -> Diagnosis:
-    return Diagnosis("RANGE", NO_FLIGHT)
-
-
-def _endurance(attempt: Attempt) -> Diagnosis:
-    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
-    airborne = airborne_duration(attempt.problem, drones, trip, trip.sorties[0])
-    excess = _up_to_tenth(airborne - drones.endurance, MS_PER_MINUTE)
-    enough = drones.endurance + excess
-    changed = replace(drones, endurance=min(enough, UNLIMITED))
-    return Diagnosis(
-        "RANGE",
-        f"A flight from the depot and back lasts {_minutes(excess)} more than the endurance"
-        f"{_of(drones)}.",
-        _if_stated(f"fits if endurance{_of(drones)} were {_minutes(excess)} longer", enough),
-        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
-    )
-
-
-def _max_range(attempt: Attempt) -> Diagnosis:
-    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
-    far = farthest(attempt.problem, drones, trip, trip.sorties[0], trip.sorties[0].visits[0].node)
-    excess = _up_to_tenth(far - (drones.max_range or 0), MM_PER_KM)
-    enough = (drones.max_range or 0) + excess
-    changed = replace(drones, max_range=min(enough, MAX_QUANTITY))
-    return Diagnosis(
-        "RANGE",
-        f"It lies {_km(excess)} farther away than the max_range{_of(drones)}.",
-        _if_stated(f"fits if max_range{_of(drones)} were {_km(excess)} longer", enough),
-        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
-    )
-
-
-def _wind(attempt: Attempt) -> Diagnosis:
-    drones = _drones(attempt)
-    calm, limit = replace(drones, storms=()), f"max_wind_kmh{_of(drones)}"
-    return Diagnosis("WIND", f"The wind is too strong for a flight there and back, by {limit}.",
-                     f"fits without {limit}",
-                     _with_type(attempt, replace(attempt.vehicle_type, drones=calm)))
-
-
-def _energy(attempt: Attempt) -> Diagnosis:
-    drones, trip = _drones(attempt), attempt.solution.routes[0].trips[0]
-    energy = drones.energy
-    if energy is None:
-        raise ValueError("drone energy: None is not allowed")
-    sortie = trip.sorties[0]
-    taken = sortie_energy(attempt.problem, drones, energy, trip, sortie)
-    heavier = energy.per_wh * (sortie.recovery_start - sortie.launch_time)
-    tenths = _missing_tenths(energy, taken, heavier)
-    larger = None if tenths is None else _with_battery_more(energy, tenths / 10)
-    largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
-    changed = replace(drones, energy=larger or replace(energy, available=taken))
-    return Diagnosis(
-        "RANGE",
-        f"A flight from the depot and back takes {watt_hours(taken)}, and "
-        f"{watt_hours(energy.available)} may be taken.",
-        f"fits with a battery{_of(drones)} of {decimal(tenths, 1)} Wh more"
-        if tenths is not None and larger is not None and larger.available <= largest else None,
-        _with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
-    )
-
-
-def _missing_tenths(energy: Energy, taken: int, heavier: float) -> int | None:
-    """Return how many tenths of a Wh a battery lacks for a flight that takes so much.
-
-    It takes `heavier` more for each Wh, since that weighs; None if no battery is large enough.
-    """
-    if heavier == 0.0:
-        return -(-ceil((taken - energy.available) / energy.usable_share) * 10 // MICROJOULES_PER_WH)
-    gained = energy.usable_share * MICROJOULES_PER_WH - heavier
-    # Powers are rounded to a mW.
-    missing = taken - energy.available + heavier / energy.per_wh
-    return ceil(missing / gained * 10) if gained > 0 else None
-
-
-def _with_battery_more(energy: Energy, more: float) -> Energy:
-    """Return a battery of so many Wh more, with what it weighs."""
-    rise = ceil(more * energy.per_wh)
-
-    def raised(powers: tuple[int, ...]) -> tuple[int, ...]:
-        return tuple([min(MAX_POWER, power + rise) for power in powers])
-
-    return replace(
-        energy, available=energy.available + round(more * energy.usable_share * MICROJOULES_PER_WH),
-        cruise=raised(energy.cruise), hover=raised(energy.hover), climb=raised(energy.climb),
-        descent=raised(energy.descent))
+        with_type(attempt, replace(vehicle_type, pickups="any")))
 
 
 def _trip_distance(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     limit = vehicle_type.max_trip_distance or 0
     distance = attempt.evaluation.routes[0].trips[0].distance
-    excess = _up_to_tenth(distance - limit, MM_PER_KM)
+    excess = up_to_tenth(distance - limit, MM_PER_KM)
     enough = limit + excess
     changed = replace(vehicle_type, max_trip_distance=min(enough, MAX_QUANTITY))
     return Diagnosis(
         "RANGE",
-        f"A trip there and back is {_km(excess)} longer than a trip may be.",
-        _if_stated(f"fits if trips could be {_km(excess)} longer", enough),
-        _with_type(attempt, changed),
+        f"A trip there and back is {in_km(excess)} longer than a trip may be.",
+        if_stated(f"fits if trips could be {in_km(excess)} longer", enough),
+        with_type(attempt, changed),
     )
 
 
@@ -245,22 +109,22 @@ def _stops(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     return Diagnosis("STOPS", f"{vehicle_type.id} serves nobody itself, by its max_stops.",
                      f"fits if {vehicle_type.id} could make 1 stop",
-                     _with_type(attempt, replace(vehicle_type, max_stops=1)))
+                     with_type(attempt, replace(vehicle_type, max_stops=1)))
 
 
 def _sorties(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its max_sorties.",
                      f"fits if {vehicle_type.id} could launch 1 sortie",
-                     _with_type(attempt, replace(vehicle_type, max_sorties=1)))
+                     with_type(attempt, replace(vehicle_type, max_sorties=1)))
 
 
 def _batteries(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
-    drones = replace(_drones(attempt), batteries=1)
+    drones = replace(drones_of(attempt), batteries=1)
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its batteries.",
-                     f"fits if {vehicle_type.id} carried 1 battery{_of(drones)}",
-                     _with_type(attempt, replace(vehicle_type, drones=drones)))
+                     f"fits if {vehicle_type.id} carried 1 battery{name_of(drones)}",
+                     with_type(attempt, replace(vehicle_type, drones=drones)))
 
 
 def _launch(attempt: Attempt) -> Diagnosis:
@@ -272,14 +136,14 @@ def _launch(attempt: Attempt) -> Diagnosis:
 
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
-    late = _up_to_tenth(_halt(attempt).ready - customer.latest, MS_PER_MINUTE)
+    late = up_to_tenth(_halt(attempt).ready - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
     window = "last window" if customer.gaps else "window"
     return Diagnosis(
         "TIME_WINDOW",
-        f"The earliest arrival is {_minutes(late)} after its {window} closes.",
-        _if_stated(f"fits if its {window} closed {_minutes(late)} later", enough),
+        f"The earliest arrival is {in_minutes(late)} after its {window} closes.",
+        if_stated(f"fits if its {window} closed {in_minutes(late)} later", enough),
         replace(attempt.problem, customers=(changed,)),
     )
 
@@ -296,7 +160,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
         return None
     (number,) = missed
     closes, opens = customer.gaps[number]
-    late = _up_to_tenth(arrival - closes, MS_PER_MINUTE)
+    late = up_to_tenth(arrival - closes, MS_PER_MINUTE)
     # Windows don't touch: one that would is closed just before the next opens.
     wider = (min(closes + late, opens - 1), opens)
     gaps = (*customer.gaps[:number], wider, *customer.gaps[number + 1:])
@@ -305,22 +169,22 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
         return None
     return Diagnosis(
         "TIME_WINDOW",
-        f"The earliest arrival is {_minutes(late)} after its window {number + 1} closes, and "
+        f"The earliest arrival is {in_minutes(late)} after its window {number + 1} closes, and "
         f"window {number + 2} is too late for {attempt.vehicle_type.id}.",
-        f"fits if its window {number + 1} closed {_minutes(late)} later",
+        f"fits if its window {number + 1} closed {in_minutes(late)} later",
     )
 
 
 def _time_aboard(attempt: Attempt) -> Diagnosis:
     customer, trip = attempt.customer, attempt.solution.routes[0].trips[0]
     too_long = excess_aboard(attempt.problem, attempt.vehicle_type, trip, _halt(attempt))
-    excess = _up_to_tenth(too_long, MS_PER_MINUTE)
+    excess = up_to_tenth(too_long, MS_PER_MINUTE)
     enough = (customer.max_time_aboard or 0) + excess
     changed = replace(customer, max_time_aboard=min(enough, MAX_QUANTITY))
     return Diagnosis(
         "TIME_ABOARD",
-        f"Its parcel would be aboard {_minutes(excess)} longer than it may be.",
-        _if_stated(f"fits if it could be aboard {_minutes(excess)} longer", enough),
+        f"Its parcel would be aboard {in_minutes(excess)} longer than it may be.",
+        if_stated(f"fits if it could be aboard {in_minutes(excess)} longer", enough),
         replace(attempt.problem, customers=(changed,)),
     )
 
@@ -332,29 +196,29 @@ def _more_overtime(attempt: Attempt, overtime: Overtime, limit: int, excess: int
     changed = replace(overtime, max_duration=min(enough, UNLIMITED))
     return Diagnosis(
         code, message,
-        _if_stated(f"fits if {vehicle_type.id} could work {_minutes(excess)} more overtime",
+        if_stated(f"fits if {vehicle_type.id} could work {in_minutes(excess)} more overtime",
                    max(enough, limit + enough)),
-        _with_type(attempt, replace(vehicle_type, overtime=changed)))
+        with_type(attempt, replace(vehicle_type, overtime=changed)))
 
 
 def _shift(attempt: Attempt) -> Diagnosis:
     vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
     if overtime is not None:
         end = vehicle_type.latest + overtime.max_duration
-        excess = _up_to_tenth(attempt.evaluation.makespan - end, MS_PER_MINUTE)
+        excess = up_to_tenth(attempt.evaluation.makespan - end, MS_PER_MINUTE)
         return _more_overtime(
             attempt, overtime, vehicle_type.latest, excess, "SHIFT",
-            f"{vehicle_type.id} would be back {_minutes(excess)} after its shift and all the "
+            f"{vehicle_type.id} would be back {in_minutes(excess)} after its shift and all the "
             "overtime allowed.")
-    late = _up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
+    late = up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
     home = "done" if attempt.problem.is_nowhere(vehicle_type.ends_at) else "back"
     enough = vehicle_type.latest + late
     changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
     return Diagnosis(
         "SHIFT",
-        f"{vehicle_type.id} would be {home} {_minutes(late)} after its shift ends.",
-        _if_stated(f"fits if {vehicle_type.id}'s shift ended {_minutes(late)} later", enough),
-        _with_type(attempt, changed),
+        f"{vehicle_type.id} would be {home} {in_minutes(late)} after its shift ends.",
+        if_stated(f"fits if {vehicle_type.id}'s shift ended {in_minutes(late)} later", enough),
+        with_type(attempt, changed),
     )
 
 
@@ -362,19 +226,19 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
     vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
     limit = vehicle_type.max_working_duration or 0
     most = limit + allowed_overtime(vehicle_type)
-    excess = _up_to_tenth(attempt.evaluation.routes[0].working_duration - most, MS_PER_MINUTE)
+    excess = up_to_tenth(attempt.evaluation.routes[0].working_duration - most, MS_PER_MINUTE)
     if overtime is not None:
         return _more_overtime(
             attempt, overtime, limit, excess, "WORKING_HOURS",
-            f"Serving it alone takes {_minutes(excess)} more than {vehicle_type.id} may work with "
-            "all the overtime allowed.")
+            f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work "
+            "with all the overtime allowed.")
     enough = limit + excess
     changed = replace(vehicle_type, max_working_duration=min(enough, MAX_QUANTITY))
     return Diagnosis(
         "WORKING_HOURS",
-        f"Serving it alone takes {_minutes(excess)} more than {vehicle_type.id} may work.",
-        _if_stated(f"fits if {vehicle_type.id} could work {_minutes(excess)} longer", enough),
-        _with_type(attempt, changed),
+        f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work.",
+        if_stated(f"fits if {vehicle_type.id} could work {in_minutes(excess)} longer", enough),
+        with_type(attempt, changed),
     )
 
 
@@ -385,11 +249,11 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "CAPACITY": _capacity,
     "PAYLOAD": _payload,
     "PICKUP_ORDER": _pickup_order,
-    "UNREACHABLE": _unreachable,
-    "MAX_RANGE": _max_range,
-    "WIND": _wind,
-    "ENDURANCE": _endurance,
-    "ENERGY": _energy,
+    "UNREACHABLE": unreachable_broken,
+    "MAX_RANGE": max_range_broken,
+    "WIND": wind_broken,
+    "ENDURANCE": endurance_broken,
+    "ENERGY": energy_broken,
     "TRIP_DISTANCE": _trip_distance,
     "LAUNCH": _launch,
     "MAX_STOPS": _stops,

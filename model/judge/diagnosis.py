@@ -1,0 +1,57 @@
+"""A broken rule in words, what would keep it, and the words that are the same for all rules."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+from model.judge.clock import MS_PER_MINUTE
+from model.judge.rules import decimal
+from model.judge.trial import Attempt
+from model.problem import MAX_QUANTITY, MM_PER_KM, DroneType, Problem, VehicleType
+
+
+class Diagnosis(NamedTuple):
+    """A broken rule in words, and the problem changed so that it is kept."""
+
+    code: str
+    message: str
+    remedy: str | None = None
+    problem: Problem | None = None
+
+
+def drones_of(attempt: Attempt) -> DroneType:
+    """Return the drones that fly."""
+    drones = attempt.vehicle_type.drones
+    if drones is None:
+        raise ValueError(f"vehicle type {attempt.vehicle_type.id} drones: None is not allowed")
+    return drones
+
+
+def name_of(drones: DroneType) -> str:
+    """Say of which type drones are, where several are told apart."""
+    return "" if drones.id is None else f" of {drones.id}"
+
+
+def with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:
+    """Return the problem with another type of vehicle."""
+    return replace(attempt.problem, vehicle_types=(vehicle_type,))
+
+
+def up_to_tenth(quantity: int, unit: int) -> int:
+    """Round up to a tenth of a unit, so that what is said suffices."""
+    return -(-quantity * 10 // unit) * unit // 10
+
+
+def if_stated(words: str, quantity: int) -> str | None:
+    """Return the words of a remedy, if a request can state the quantity that it asks for."""
+    return words if quantity <= MAX_QUANTITY else None
+
+
+def in_minutes(duration: int) -> str:
+    """Return a duration for people."""
+    number = decimal(duration * 1000 // MS_PER_MINUTE)
+    return "1 minute" if number == "1" else f"{number} minutes"
+
+
+def in_km(distance: int) -> str:
+    """Return a distance for people."""
+    return f"{decimal(distance * 1000 // MM_PER_KM)} km"

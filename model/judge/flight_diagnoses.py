@@ -1,0 +1,112 @@
+"""Rules that a drone breaks which serves a customer alone: in words, and what would change that.
+"""
+
+from dataclasses import replace
+from math import ceil
+
+from model.judge.clock import MS_PER_MINUTE
+from model.judge.diagnosis import (
+    Diagnosis, drones_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_type,
+)
+from model.judge.energy import sortie_energy
+from model.judge.rules import airborne_duration, decimal, farthest, watt_hours
+from model.judge.trial import Attempt
+from model.problem import (
+    MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy,
+)
+
+NO_FLIGHT = "No flight leads there from the depot and back."
+
+
+def unreachable_broken(attempt: Attempt) -> Diagnosis:
+    """Say that there is no flight."""
+    return Diagnosis("RANGE", NO_FLIGHT)
+
+
+def endurance_broken(attempt: Attempt) -> Diagnosis:
+    """Say by how much a flight lasts too long."""
+    drones, trip = drones_of(attempt), attempt.solution.routes[0].trips[0]
+    airborne = airborne_duration(attempt.problem, drones, trip, trip.sorties[0])
+    excess = up_to_tenth(airborne - drones.endurance, MS_PER_MINUTE)
+    enough = drones.endurance + excess
+    changed = replace(drones, endurance=min(enough, UNLIMITED))
+    return Diagnosis(
+        "RANGE",
+        f"A flight from the depot and back lasts {in_minutes(excess)} more than the endurance"
+        f"{name_of(drones)}.",
+        if_stated(f"fits if endurance{name_of(drones)} were {in_minutes(excess)} longer", enough),
+        with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
+def max_range_broken(attempt: Attempt) -> Diagnosis:
+    """Say by how much a customer lies too far away."""
+    drones, trip = drones_of(attempt), attempt.solution.routes[0].trips[0]
+    far = farthest(attempt.problem, drones, trip, trip.sorties[0], trip.sorties[0].visits[0].node)
+    excess = up_to_tenth(far - (drones.max_range or 0), MM_PER_KM)
+    enough = (drones.max_range or 0) + excess
+    changed = replace(drones, max_range=min(enough, MAX_QUANTITY))
+    return Diagnosis(
+        "RANGE",
+        f"It lies {in_km(excess)} farther away than the max_range{name_of(drones)}.",
+        if_stated(f"fits if max_range{name_of(drones)} were {in_km(excess)} longer", enough),
+        with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
+def wind_broken(attempt: Attempt) -> Diagnosis:
+    """Say that it is too windy."""
+    drones = drones_of(attempt)
+    calm, limit = replace(drones, storms=()), f"max_wind_kmh{name_of(drones)}"
+    return Diagnosis("WIND", f"The wind is too strong for a flight there and back, by {limit}.",
+                     f"fits without {limit}",
+                     with_type(attempt, replace(attempt.vehicle_type, drones=calm)))
+
+
+def energy_broken(attempt: Attempt) -> Diagnosis:
+    """Say what a battery lacks."""
+    drones, trip = drones_of(attempt), attempt.solution.routes[0].trips[0]
+    energy = drones.energy
+    if energy is None:
+        raise ValueError("drone energy: None is not allowed")
+    sortie = trip.sorties[0]
+    taken = sortie_energy(attempt.problem, drones, energy, trip, sortie)
+    heavier = energy.per_wh * (sortie.recovery_start - sortie.launch_time)
+    tenths = _missing_tenths(energy, taken, heavier)
+    larger = None if tenths is None else _with_battery_more(energy, tenths / 10)
+    largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
+    changed = replace(drones, energy=larger or replace(energy, available=taken))
+    return Diagnosis(
+        "RANGE",
+        f"A flight from the depot and back takes {watt_hours(taken)}, and "
+        f"{watt_hours(energy.available)} may be taken.",
+        f"fits with a battery{name_of(drones)} of {decimal(tenths, 1)} Wh more"
+        if tenths is not None and larger is not None and larger.available <= largest else None,
+        with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+    )
+
+
+def _missing_tenths(energy: Energy, taken: int, heavier: float) -> int | None:
+    """Return how many tenths of a Wh a battery lacks for a flight that takes so much.
+
+    It takes `heavier` more for each Wh, since that weighs; None if no battery is large enough.
+    """
+    if heavier == 0.0:
+        return -(-ceil((taken - energy.available) / energy.usable_share) * 10 // MICROJOULES_PER_WH)
+    gained = energy.usable_share * MICROJOULES_PER_WH - heavier
+    # Powers are rounded to a mW.
+    missing = taken - energy.available + heavier / energy.per_wh
+    return ceil(missing / gained * 10) if gained > 0 else None
+
+
+def _with_battery_more(energy: Energy, more: float) -> Energy:
+    """Return a battery of so many Wh more, with what it weighs."""
+    rise = ceil(more * energy.per_wh)
+
+    def raised(powers: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple([min(MAX_POWER, power + rise) for power in powers])
+
+    return replace(
+        energy, available=energy.available + round(more * energy.usable_share * MICROJOULES_PER_WH),
+        cruise=raised(energy.cruise), hover=raised(energy.hover), climb=raised(energy.climb),
+        descent=raised(energy.descent))
