@@ -138,6 +138,11 @@ class _Builder:
         for each in some:
             for name, inner in each.get("properties", {}).items():
                 fields.setdefault(name, []).append(inner)
+        for each in some:
+            if "properties" in each and each.get("additionalProperties", True) is True:
+                # To those that pass over what they don't know, it may be anything.
+                for name in fields.keys() - each["properties"].keys():
+                    fields[name].append({})
         free = [each.get("additionalProperties", True) for each in some]
         if not fields:
             entries = [each for each in free if isinstance(each, Mapping)]

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 import shapely
@@ -22,13 +23,15 @@ ROUND_M = 2.0
 
 FEWEST_CORNERS, MOST_CORNERS = 16, 128
 
+ON_GLOBE = np.array((180.0, 90.0))
+
 ROOM = 1.0001
 """By how much larger circles are drawn, as edges that are straight in degrees bend inwards."""
 
 LARGEST_RADIUS_M = 1e6
 """Largest circle."""
 
-Corners = Sequence[tuple[float, float]]
+Corners = Sequence[Sequence[float]] | FloatArray
 
 
 class ShapeError(ValueError):
@@ -43,49 +46,65 @@ def polygon_of(rings: Sequence[Corners]) -> Polygon:
     ShapeError
         If it is none, or lies around the world.
     """
-    shell, *holes = (_unwrapped(np.asarray(ring, np.float64)) for ring in rings)
+    shell, *holes = map(_unwrapped, rings)
     middle = shell[:, 0].mean()
     # A hole may be on the other side of 180 degrees.
     area = Polygon(shell, [hole + np.array((360 * round((middle - hole[:, 0].mean()) / 360), 0))
                            for hole in holes])
-    if shapely.convex_hull(area).area == 0:
-        raise ShapeError("The area has no size: list its corners once each, in order around it.")
     if not area.is_valid:
-        raise ShapeError(f"The boundary crosses itself, or its holes do "
-                         f"({shapely.is_valid_reason(area)}): list its corners once each, in order "
-                         "around the area.")
-    return shapely.segmentize(area, LONGEST_EDGE_DEG)
+        if shapely.convex_hull(area).area > 0:
+            raise ShapeError(f"The boundary crosses itself, or its holes do "
+                             f"({shapely.is_valid_reason(area)}): list its corners once each, in "
+                             "order around the area.")
+        raise ShapeError("The area has no size: list its corners once each, in order around it.")
+    if (np.abs(np.diff(shell, axis=0)) > LONGEST_EDGE_DEG).any() or holes:
+        return shapely.segmentize(area, LONGEST_EDGE_DEG)
+    return area
 
 
-def _unwrapped(ring: FloatArray) -> FloatArray:
+def _unwrapped(stated: Corners) -> FloatArray:
     """Return a ring, closed, whose longitudes don't jump where it crosses 180 degrees."""
+    ring = np.array([corner[:2] for corner in stated], np.float64)
+    if not (np.abs(ring) <= ON_GLOBE).all():
+        longitude, latitude = ring[(np.abs(ring) > ON_GLOBE).any(axis=1).argmax()].tolist()
+        raise ShapeError(f"[{longitude:g}, {latitude:g}] is no longitude and latitude: correct it, "
+                         "or swap the two.")
     if (ring[0] != ring[-1]).any():
         ring = np.concatenate([ring, ring[:1]])
-    if len(np.unique(ring, axis=0)) < 3:
+    if len(ring) < 4:
         raise ShapeError("A ring needs at least 3 corners that differ: add some.")
+    if np.ptp(ring[:, 0]) <= 180:
+        return ring
     steps = np.diff(ring[:, 0])
     turns = np.where(steps > 180, -360.0, np.where(steps < -180, 360.0, 0.0)).cumsum()
-    longitudes = ring[:, 0] + np.concatenate([[0.0], turns])
-    if turns[-1] != 0 or np.ptp(longitudes) > 180:
+    ring[1:, 0] += turns
+    if turns[-1] != 0 or np.ptp(ring[:, 0]) > 180:
         raise ShapeError("The zone reaches around the world: split it, or leave it out.")
-    return np.stack([longitudes, ring[:, 1]], axis=1)
+    return ring
 
 
-def circle_of(center: tuple[float, float], radius: float) -> Polygon:
+def circle_of(center: Sequence[float], radius: float) -> Polygon:
     """Return a polygon around a circle of metres on the ellipsoid.
 
     Raises
     ------
     ShapeError
-        If it is too large.
+        If it is too large, or around no place.
     """
     if radius > LARGEST_RADIUS_M:
         raise ShapeError(f"A radius of {radius:g} m reaches around the world: a radius is in "
                          "metres, and at most 1000 km.")
+    _unwrapped([center[:2]] * 4)
     corners = math.pi / math.acos(radius / (radius + ROUND_M))
     count = min(max(math.ceil(corners), FEWEST_CORNERS), MOST_CORNERS)
-    azimuths = np.arange(count) * (360.0 / count)
-    outside = np.full(count, radius * ROOM / math.cos(math.pi / count))
+    azimuths, outside = _directions(count)
     longitudes, latitudes, _ = EARTH.fwd(np.full(count, center[0]), np.full(count, center[1]),
-                                         azimuths, outside)
-    return polygon_of([list(zip(longitudes.tolist(), latitudes.tolist(), strict=True))])
+                                         azimuths, radius * outside)
+    return polygon_of([np.stack([longitudes, latitudes], axis=1)])
+
+
+@cache
+def _directions(count: int) -> tuple[FloatArray, FloatArray]:
+    """Return the directions of a polygon's corners, and how far they lie for a circle within."""
+    return (np.linspace(0.0, 360.0, count, endpoint=False),
+            np.full(count, ROOM / math.cos(math.pi / count)))

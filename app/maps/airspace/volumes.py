@@ -82,10 +82,6 @@ def kml_volumes(mark: KmlArea, reading: Reading) -> Iterator[Volume]:
 
 
 def _named(mark: KmlArea, rings: list[list[tuple[float, float]]]) -> Area:
-    for longitude, latitude in (corner for ring in rings for corner in ring):
-        if not (abs(longitude) <= 180 and abs(latitude) <= 90):
-            raise ShapeError(f"{mark.title}: {longitude:g},{latitude:g} is no longitude,latitude: "
-                             "correct it, or swap the two.")
     try:
         return polygon_of(rings)
     except ShapeError as error:

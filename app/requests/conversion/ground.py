@@ -120,7 +120,8 @@ class Ground:
 
     def has_areas(self, altitude: float) -> bool:
         """Tell whether there is anything that drones at an altitude may not fly through."""
-        return bool(self._request.airspace.no_fly) or any(self.zones.at(altitude))
+        return (bool(self._request.airspace.no_fly)
+                or (any(self.zones.at(altitude)) and not self.airspace(altitude).is_free))
 
     def flights(self, altitude: float) -> Flights:
         """Return the flights of drones of any speed at an altitude."""

@@ -181,6 +181,19 @@ class PlainCollection(Published):
     )
 
 
+class GeoJsonObject(Published):
+    """A collection, a feature or an area."""
+
+    type: str = Field(description="Its kind.")
+    features: Annotated[list[PlainFeature], Field(max_length=MAX_FEATURES)] | None = Field(
+        None, description="The areas of a collection."
+    )
+    properties: PlainProperties | None = Field(None, description="Those of a feature.")
+    geometry: Geometry | None = Field(None, description="That of a feature.")
+    coordinates: Any = Field(None, description="The corners of an area.")
+    geometries: Any = Field(None, description="The areas of a collection of geometries.")
+
+
 GeoJson = Annotated[PlainCollection, BeforeValidator(
-    _as_features, json_schema_input_type=PlainCollection | PlainFeature | Geometry)]
+    _as_features, json_schema_input_type=GeoJsonObject)]
 """A collection, a feature or an area."""

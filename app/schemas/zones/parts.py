@@ -20,8 +20,11 @@ UNLIMITED = 99_999.0
 """From this on a limit stands for none."""
 
 Text = Annotated[str, Field(max_length=10_000)]
-Longitude = Annotated[float, Field(ge=-180, le=180, strict=True)]
-Latitude = Annotated[float, Field(ge=-90, le=90, strict=True)]
+Corner = Annotated[list[float], Field(min_length=2, max_length=10, strict=True)]
+"""Longitude and latitude, and what may follow, which is not looked at."""
+
+Ring = Annotated[list[Corner], Field(min_length=3, max_length=MAX_RING, fail_fast=True)]
+Rings = Annotated[list[Ring], Field(min_length=1, max_length=MAX_PARTS, fail_fast=True)]
 
 
 class Published(BaseModel):
@@ -31,17 +34,6 @@ class Published(BaseModel):
     model_config = ConfigDict(extra="ignore", allow_inf_nan=False, frozen=True,
                               serialize_by_alias=True)
 
-
-def _without_height(corner: Any) -> Any:
-    """Return the first two of the numbers of a corner, which may have a height."""
-    return corner[:2] if isinstance(corner, list | tuple) and len(corner) > 2 else corner
-
-
-Corner = Annotated[tuple[Longitude, Latitude], BeforeValidator(
-    _without_height,
-    json_schema_input_type=Annotated[list[float], Field(min_length=2, max_length=10)])]
-Ring = Annotated[list[Corner], Field(min_length=3, max_length=MAX_RING, fail_fast=True)]
-Rings = Annotated[list[Ring], Field(min_length=1, max_length=MAX_PARTS, fail_fast=True)]
 
 _RESTRICTIONS = {
     "REQ_AUTHORIZATION": "REQ_AUTHORISATION", "REQUIRES_AUTHORISATION": "REQ_AUTHORISATION",

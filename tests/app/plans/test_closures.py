@@ -8,6 +8,7 @@ import pytest
 
 from app.requests.conversion.problem import to_problem
 from app.requests.reading import read_request
+from app.requests.refusal import LISTED_BYTES
 from tests.app.maps.airspace.published import circle, ed269, ed318, geojson, layer, volume, zone
 from tests.app.plans.asking import planned
 
@@ -159,3 +160,17 @@ def test_what_is_wrong_with_zones_is_told(client: httpx.Client, changes: dict[st
     reply = client.post("/plan", json=request)
     assert reply.status_code == 422
     assert (code, path) in {(error["code"], error["path"]) for error in reply.json()["errors"]}
+
+
+def test_long_bodies_of_every_format_are_read() -> None:
+    areas = {"type": "GeometryCollection",
+             "geometries": [WALL_AREA, {"type": "MultiPolygon", "coordinates": [[WALL]]}]}
+    alone = {"format": "geojson", "data": {
+        "type": "Feature", "geometry": {"type": "MultiPolygon", "coordinates": [[WALL]] * 300},
+        "properties": {"name": {"text": "x"}, "upperLimit": "300", "applicability": None}}}
+    many = [ed269(*[zone(wall(), circle(), region=index) for index in range(200)]),
+            ed318(areas | {"layer": layer(0, 90, "FT")}), geojson(areas, note={"any": [1, {}]}),
+            alone, {"format": "geojson", "data": WALL_AREA | {"bbox": [0, 1, 2, 3]}}]
+    body = json.dumps(asked(*many, *[ed318(WALL_AREA)] * 90)).encode()
+    assert len(body) > LISTED_BYTES
+    assert len(read_request(body, None).airspace.zones) == 95
