@@ -27,6 +27,7 @@ from app.requests.conversion.problem import problem_of
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.work import replanning_seconds
+from app.plans.rulebook import rules_named
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
 from app.requests.warnings.addresses import address_warnings
 from app.requests.warnings.finding import warnings_of
@@ -71,6 +72,7 @@ class Task:
     places: Located | None = None
     permits: Permits = field(default_factory=Permits)
     closures: Closures | None = None
+    rules: list[Data] = field(default_factory=list)  # that drones name
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -145,6 +147,8 @@ class Task:
             self.name_hindrances(left["id"], left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
+        if self.rules:
+            reply["rules"] = self.rules
         if self.places is not None and self.places.found:
             reply["addresses"] = self.places.replies()
         self._complete(reply, LEAST_GEOMETRY + MOST_GEOMETRY * options.time_limit)
@@ -205,17 +209,18 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
     replan, permits, closures = request.replan, Permits.of(request), Closures(placed, ground)
+    rules = rules_named(request)
     if replan is None:
         estimates = travels.estimates()
         far = None if estimates is None else FarPlans(problem, estimates)
-        return Task(problem, None, *beside, far, places, permits, closures)
+        return Task(problem, None, *beside, far, places, permits, closures, rules)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
-                    closures=closures)
+                    closures=closures, rules=rules)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",

@@ -1,12 +1,13 @@
 """The drones of a vehicle type."""
 
-from typing import Annotated
+from typing import Annotated, Self
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.schemas.energy import EnergyInput, Watts
 from app.schemas.errors import ALONE, LISTED
 from app.schemas.fields import Count, Demand, Duration, Input, Metres, Money, Name, Speed
+from app.schemas.rulebook import RULES, RuleName
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
 DEFAULT_ALTITUDE_M = 100.0
@@ -52,6 +53,12 @@ class DronesInput(Input):
         "may be null, and the drones are called `drone`.",
     )
     count: int = Field(ge=0, le=32, description="Drones per truck.")
+    preset: RuleName | None = Field(
+        None,
+        description="A published rule whose `max_range` and `altitude` count here, and whose "
+        "`max_airborne` and `truck_waits` count for the vehicle type, unless they are stated. The "
+        "reply has its numbers and source. It is no permission to fly. Null: none.",
+    )
     capacity: Demand = Field(
         description="Largest payload at any point of a sortie, per dimension, in the unit of "
         "`demand`."
@@ -103,6 +110,16 @@ class DronesInput(Input):
         None,
         description="What flights take of the battery, beside `endurance`. Null: nothing is known.",
     )
+
+    @model_validator(mode="after")
+    def _keep_rule(self) -> Self:
+        """Fill in what the rule named has and the request doesn't state."""
+        if self.preset is not None:
+            rule = RULES[self.preset]
+            for name in ("max_range", "altitude"):
+                if getattr(rule, name) is not None and name not in self.model_fields_set:
+                    object.__setattr__(self, name, getattr(rule, name))
+        return self
 
 
 def _tag_of(value: object) -> str:

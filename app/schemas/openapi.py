@@ -25,6 +25,7 @@ EXAMPLES = {
     "hetero_day": "A heterogeneous fleet on several trips within working hours",
     "city_day": "A city: true addresses, rush hours, a no-fly area, wind",
     "clocks": "Times of day, a currency and units, on a day of 23 hours",
+    "permits": "Drones by a published rule, in wind by the hour",
     "choosy": "Several windows, a price of leaving out, customers who name vehicles",
     "roads": "Helsinki's centre by car: on roads if the service has any, else as the crow flies",
     "replan": "A truck is under way: an order has come in, another was cancelled",

@@ -253,6 +253,31 @@ class EnergyModelReply(_Reply):
     )
 
 
+class RuleNumbersReply(_Reply):
+    """What is planned by, the rule's numbers or those stated beside it."""
+
+    max_airborne: int | None = Field(description="Drones of one truck in the air at once.")
+    truck_waits: bool = Field(description="Whether trucks wait for their drones.")
+    max_range: float | None = Field(description="Metres to customers, straight.")
+    altitude: float = Field(description="Metres above the ground.")
+
+
+class RuleReply(_Reply):
+    """The numbers of a published rule that a vehicle type's drones name. No permission to fly."""
+
+    vehicle_type: str = Field(description="Id of the vehicle type.")
+    drone_type: str | None = Field(
+        None, description="Id of the drones' type. Left out if it has none.")
+    preset: str = Field(description="Name of the rule.")
+    source: str = Field(description="Where the rule stands, with its paragraphs.")
+    max_airborne: int = Field(description="Drones of one pilot, taken as one truck, at once.")
+    truck_waits: bool = Field(description="Whether nothing flies while its truck moves.")
+    max_range: float | None = Field(description="Metres from the pilot. Null: it has no number.")
+    altitude: float | None = Field(
+        description="Metres above the ground, at most. Null: it has no number.")
+    planned: RuleNumbersReply = Field(description="What the plan keeps.")
+
+
 class LegsReply(_Reply):
     """What the legs of a profile are made of."""
 
@@ -344,6 +369,9 @@ class PlanReply(_Reply):
     )
     energy_models: list[EnergyModelReply] | None = Field(
         None, description="Presets of drones' energy. Left out if none was named."
+    )
+    rules: list[RuleReply] | None = Field(
+        None, description="Published rules that drones name. Left out if none was named."
     )
     replan: ReplanReply | None = Field(
         None, description="What became of the plan given. Left out if none was."

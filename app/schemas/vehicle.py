@@ -1,8 +1,8 @@
 """A vehicle type of a request."""
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.schemas.drones import Drones, DronesInput
 from app.schemas.errors import IN_PLACE, IN_WORDS
@@ -25,6 +25,7 @@ from app.schemas.fields import (
     Speed,
 )
 from app.schemas.limits import MAX_VEHICLES
+from app.schemas.rulebook import RULES
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 
@@ -196,6 +197,17 @@ class VehicleTypeInput(Input):
         None,
         description="CO2 of its drones' energy per kWh, for `summary.co2_kg` alone, in kg.",
     )
+
+    @model_validator(mode="after")
+    def _keep_rules(self) -> Self:
+        """Fill in what the rules that drones name have and the request doesn't state."""
+        rules = [RULES[drones.preset] for drones in self.drone_types
+                 if drones.preset is not None and drones.count > 0]
+        if rules and "max_airborne" not in self.model_fields_set:
+            object.__setattr__(self, "max_airborne", min(rule.max_airborne for rule in rules))
+        if rules and "truck_waits" not in self.model_fields_set:
+            object.__setattr__(self, "truck_waits", any(rule.truck_waits for rule in rules))
+        return self
 
     @property
     def drones_by_path(self) -> list[tuple[tuple[str | int, ...], DronesInput]]:

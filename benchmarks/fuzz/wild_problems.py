@@ -190,6 +190,7 @@ def _drones(rng: random.Random, dimensions: int) -> Data:
         "capacity": _amounts(rng, dimensions, (0, 1, 3, 10, 10, LONGEST)),
         **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 40, 120, 1000))),
         **_maybe(rng, 0.7, endurance=rng.choice((0, 60, 1200, 1800, LONGEST))),
+        **_maybe(rng, 0.1, preset=rng.choice(("eu-pdra-g01", "eu-pdra-g02", "us-part-107"))),
         **_maybe(rng, 0.2, max_wind_kmh=rng.choice((0, 20, 40, 500))),
         **_maybe(rng, 0.2, max_range=rng.choice((0, 500, 5e3, 2e4, LONGEST))),
         **_maybe(rng, 0.3, endurance_includes_waiting=rng.random() < 0.5),
@@ -349,6 +350,7 @@ def _add_matrices(rng: random.Random, request: Data) -> None:
             drones = kind.get("drones") or []
             for each in drones if isinstance(drones, list) else [drones]:
                 each.pop("max_range", None)
+                each.pop("preset", None)
 
     def table() -> list[list[float]]:
         return [[rng.choice((0, rng.uniform(0, longest), longest)) for _ in places]

@@ -5,6 +5,7 @@ from collections.abc import Collection
 from app.requests.warnings.fleets import fleet_warnings
 from app.requests.warnings.matrices import matrix_warnings
 from app.requests.warnings.places import crow_warnings, place_warnings
+from app.requests.warnings.rulebook import rule_warnings
 from app.requests.warnings.survey import Survey
 from app.requests.warnings.times import time_warnings
 from app.requests.warnings.warning import RequestWarning
@@ -23,4 +24,5 @@ def warnings_of(request: PlanRequest,
     """
     survey = Survey(request, frozenset(road_profiles))
     return (*place_warnings(survey), *time_warnings(survey), *fleet_warnings(survey),
-            *matrix_warnings(survey), *crow_warnings(survey), *wind_warnings(survey))
+            *matrix_warnings(survey), *crow_warnings(survey), *wind_warnings(survey),
+            *rule_warnings(survey))

@@ -162,3 +162,43 @@ def test_who_is_lost_to_the_worst_hour_is_warned_of(client: httpx.Client,
     request["fleet"][0]["drones"]["max_wind_kmh"] = 40
     codes = [each["code"] for each in planned(client, request)["warnings"]]
     assert "WIND_AT_WORST" not in codes
+
+
+def test_a_rule_is_kept_by_its_name(client: httpx.Client, smallest: Request) -> None:
+    request = by_drone(smallest, preset="eu-pdra-g01", count=2)
+    plan = planned(client, request)
+    assert len(plan["unassigned"]) == 2
+    rule, = plan["rules"]
+    assert (rule["preset"], rule["max_range"], rule["altitude"]) == ("eu-pdra-g01", 1000, 150)
+    assert "PDRA-G01" in rule["source"]
+    assert rule["planned"] == {"max_airborne": 1, "truck_waits": True, "max_range": 1000,
+                               "altitude": 150}
+    assert not [each for each in plan["warnings"] if each["code"] == "LOOSER_THAN_PRESET"]
+    both = [sortie(1, "A", 0, 1), sortie(2, "B", 0, 1)]
+    assert broken(client, request, both) == {"MAX_AIRBORNE", "TRUCK_WAITS", "MAX_RANGE"}
+
+
+def test_what_is_stated_beside_a_rule_wins_and_is_warned_of(client: httpx.Client,
+                                                            smallest: Request) -> None:
+    request = by_drone(smallest, preset="eu-pdra-g01", count=2, max_range=9000, altitude=100)
+    request["fleet"][0] |= {"max_airborne": 2, "truck_waits": False}
+    plan = planned(client, request)
+    assert plan["unassigned"] == []
+    assert plan["rules"][0]["planned"] == {"max_airborne": 2, "truck_waits": False,
+                                           "max_range": 9000, "altitude": 100}
+    assert {each["path"] for each in plan["warnings"] if each["code"] == "LOOSER_THAN_PRESET"} == {
+        "$.fleet[0].max_airborne", "$.fleet[0].truck_waits", "$.fleet[0].drones.max_range"}
+
+
+@pytest.mark.parametrize(("preset", "max_range", "altitude"), [
+    ("eu-pdra-g01", 1000, 150), ("eu-pdra-g02", None, 100), ("us-part-107", None, 121.92)])
+def test_each_rule_sets_what_it_has_a_number_for(
+        client: httpx.Client, smallest: Request, preset: str, max_range: float | None,
+        altitude: float) -> None:
+    rule, = planned(client, by_drone(smallest, preset=preset))["rules"]
+    assert rule["planned"] == {"max_airborne": 1, "truck_waits": True, "max_range": max_range,
+                               "altitude": altitude}
+
+
+def test_without_a_rule_the_reply_names_none(client: httpx.Client, smallest: Request) -> None:
+    assert "rules" not in planned(client, by_drone(smallest))

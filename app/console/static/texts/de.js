@@ -1181,6 +1181,8 @@ export default {
       speed_kmh: 'Geschwindigkeit durch die Luft, 60 km/h, wenn leer.',
       profile: 'Nach welcher Wegetabelle sie fliegen, wenn das Problem eine mitbringt.',
       endurance: 'Längster Flug vom Start bis zur Aufnahme. Leer: ohne Grenze.',
+      altitude: 'Höhe über Grund, in der sie fliegen; danach gelten Zonen.',
+      preset: 'Eine veröffentlichte Vorschrift, deren Zahlen gelten, wenn keine anderen dastehen.',
       max_range:
         'Wie weit Kunden höchstens vom Start und von der Aufnahme entfernt liegen. ' +
         'Leer: ohne Grenze.',
@@ -1434,6 +1436,7 @@ export default {
       'Die längste Arbeitszeit sieht nach Minuten aus, als Sekunden angegeben.',
     WORKING_DURATION_LOOKS_LIKE_HOURS:
       'Die längste Arbeitszeit sieht nach Stunden aus, als Sekunden angegeben.',
+    LOOSER_THAN_PRESET: 'Eine Zahl ist lockerer als die der Vorschrift der Drohnen.',
     WIND_AT_WORST: 'Die windigste Stunde hält Drohnen von manchen Kunden fern.',
     ENDURANCE_LOOKS_LIKE_MINUTES:
       'Die Flugdauer der Drohnen sieht nach Minuten aus, als Sekunden angegeben.',

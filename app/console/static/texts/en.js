@@ -1155,6 +1155,8 @@ export default {
       speed_kmh: 'Speed through the air, 60 km/h if empty.',
       profile: 'By which table of legs they fly, if the problem brings one.',
       endurance: 'Longest flight from take-off to recovery. Empty: no limit.',
+      altitude: 'Height above the ground at which they fly, by which zones are met.',
+      preset: 'A published rule whose numbers count, unless others are stated.',
       max_range:
         'How far customers lie at most from where the drone is launched, and recovered. ' +
         'Empty: no limit.',
@@ -1392,6 +1394,7 @@ export default {
       'The longest working time looks like minutes told as seconds.',
     WORKING_DURATION_LOOKS_LIKE_HOURS:
       'The longest working time looks like hours told as seconds.',
+    LOOSER_THAN_PRESET: 'A number is looser than that of the rule that drones name.',
     WIND_AT_WORST: 'The worst hour of the wind keeps drones from some customers.',
     ENDURANCE_LOOKS_LIKE_MINUTES: 'The endurance of drones looks like minutes told as seconds.',
     ENDURANCE_LOOKS_LIKE_HOURS: 'The endurance of drones looks like hours told as seconds.',
