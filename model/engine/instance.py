@@ -327,6 +327,14 @@ def _itself(kind: VehicleType, travel: int) -> tuple[int, ...]:
             kind.recovery_duration, travel, UNLIMITED)
 
 
+def _in_range(problem: Problem, kind: VehicleType, limit: int) -> BoolArray:
+    """Mark the customers not too far from any place where trips of who flies begin or end."""
+    ends = {kind.begins_at, kind.ends_at, *(kind.reload_places if kind.max_trips > 1 else ())}
+    far = problem.travel[kind.straight].distance[np.array(sorted(ends)), problem.num_depots:]
+    near: BoolArray = np.max(far, axis=0) <= limit
+    return near
+
+
 def _storm_rows(drones: DroneType | None) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
     """Return how often it storms, from when, and until when."""
     storms = () if drones is None else drones.storms
@@ -358,6 +366,8 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem,
                 fits[customers_asking] = False
         if problem.may_serve is not None:
             fits &= problem.may_serve[part_of]
+        if kind.max_range is not None:
+            fits &= _in_range(problem, kind, kind.max_range)
         if problem.incompatible_goods:
             goods = instance.goods[row, customers]
             fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0

@@ -349,7 +349,8 @@ def _permit_limits(bench: Bench, drones: DroneType, trip: Trip | None,
     if drones.max_range is not None:
         slack = None
         if sortie is not None and trip is not None:
-            far = max(farthest(bench.problem, drones, trip, sortie, visit.node)
+            ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
+            far = max(farthest(bench.problem, drones, ends, visit.node)
                       for visit in sortie.visits)
             slack = (drones.max_range - far) / MM_PER_KM
         longer = min(drones.max_range + MM_PER_KM, MAX_QUANTITY)

@@ -13,6 +13,7 @@ from model.judge.rules import airborne_duration, decimal, farthest, watt_hours
 from model.judge.trial import Attempt
 from model.problem import (
     MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy,
+    VehicleType,
 )
 
 NO_FLIGHT = "No flight leads there from the depot and back."
@@ -41,17 +42,21 @@ def endurance_broken(attempt: Attempt) -> Diagnosis:
 
 def max_range_broken(attempt: Attempt) -> Diagnosis:
     """Say by how much a customer lies too far away."""
-    drones, trip = drones_of(attempt), attempt.solution.routes[0].trips[0]
-    far = farthest(attempt.problem, drones, trip, trip.sorties[0], trip.sorties[0].visits[0].node)
-    excess = up_to_tenth(far - (drones.max_range or 0), MM_PER_KM)
-    enough = (drones.max_range or 0) + excess
-    changed = replace(drones, max_range=min(enough, MAX_QUANTITY))
-    return Diagnosis(
-        "RANGE",
-        f"It lies {in_km(excess)} farther away than the max_range{name_of(drones)}.",
-        if_stated(f"fits if max_range{name_of(drones)} were {in_km(excess)} longer", enough),
-        with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
-    )
+    kind, problem = attempt.vehicle_type, attempt.problem
+    trip, node = attempt.solution.routes[0].trips[0], problem.num_nodes - 1
+    flyer = kind if kind.flies else drones_of(attempt)
+    sortie = trip.sorties[0] if trip.sorties else None
+    ends = (0, -1) if sortie is None else (sortie.launch_stop, sortie.recovery_stop)
+    far = farthest(problem, flyer, [trip.stops[end].node for end in ends], node)
+    excess = up_to_tenth(far - (flyer.max_range or 0), MM_PER_KM)
+    enough = (flyer.max_range or 0) + excess
+    limit = "max_range" if isinstance(flyer, VehicleType) else f"max_range{name_of(flyer)}"
+    farther = replace(flyer, max_range=min(enough, MAX_QUANTITY))
+    changed = (farther if isinstance(farther, VehicleType)
+               else replace(kind, drones=farther))
+    return Diagnosis("RANGE", f"It lies {in_km(excess)} farther away than the {limit}.",
+                     if_stated(f"fits if {limit} were {in_km(excess)} longer", enough),
+                     with_type(attempt, changed))
 
 
 def wind_broken(attempt: Attempt) -> Diagnosis:

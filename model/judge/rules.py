@@ -96,6 +96,10 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         yield from _aboard_violations(problem, vehicle_type, timed)
     if vehicle_type.flies and airborne(trip) > vehicle_type.endurance:
         yield _endurance_violation(airborne(trip), vehicle_type.endurance, path)
+    if vehicle_type.max_range is not None:
+        ends = (trip.stops[0].node, trip.stops[-1].node)
+        yield from _range_violations(problem, vehicle_type, ends, trip.stops[1:-1],
+                                     f"{path}.stops", 1)
     if vehicle_type.drones is not None and trip.sorties:
         yield from _drone_busy(timed)
         yield from _airborne_violations(vehicle_type, timed)
@@ -242,25 +246,27 @@ def _sortie_violations(
     if storm_met(drones, sortie.launch_time, sortie.recovery_start) is not None:
         yield Violation("WIND", "flies while the wind is too strong for it", path)
     if drones.max_range is not None:
-        yield from _range_violations(problem, drones, trip, sortie, path)
+        ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
+        yield from _range_violations(problem, drones, ends, sortie.visits, f"{path}.visits", 0)
 
 
-def _range_violations(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie,
-                      path: str) -> Iterator[Violation]:
-    """Customers who lie too far from where their drone is launched, or recovered."""
-    for index, visit in enumerate(sortie.visits):
-        far, limit = farthest(problem, drones, trip, sortie, visit.node), drones.max_range
+def _range_violations(problem: Problem, flyer: DroneType | VehicleType, ends: Sequence[int],
+                      halts: Sequence[Stop | Visit], path: str,
+                      first_index: int) -> Iterator[Violation]:
+    """Customers who lie too far from where a flight begins, or ends."""
+    for index, halt in enumerate(halts, first_index):
+        far, limit = farthest(problem, flyer, ends, halt.node), flyer.max_range
         if limit is not None and far > limit:
-            message = (f"customer {problem.customer_at(visit.node).id} lies {decimal(far)} m from "
+            message = (f"customer {problem.customer_at(halt.node).id} lies {decimal(far)} m from "
                        f"where it is launched or recovered, at most {decimal(limit)} m are allowed")
-            yield Violation("MAX_RANGE", message, f"{path}.visits[{index}]")
+            yield Violation("MAX_RANGE", message, f"{path}[{index}]")
 
 
-def farthest(problem: Problem, drones: DroneType, trip: Trip, sortie: Sortie, node: int) -> int:
-    """Return how far a customer lies from the ends of a sortie, at most, straight."""
-    distance = problem.travel[drones.straight].distance
-    return max(distance.item(trip.stops[stop].node, node)
-               for stop in (sortie.launch_stop, sortie.recovery_stop))
+def farthest(problem: Problem, flyer: DroneType | VehicleType, ends: Sequence[int],
+             node: int) -> int:
+    """Return how far a customer lies from the ends of a flight, at most, straight."""
+    distance = problem.travel[flyer.straight].distance
+    return max(distance.item(end, node) for end in ends)
 
 
 def _endurance_violation(flight: int, endurance: int, path: str) -> Violation:

@@ -61,11 +61,14 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
     if drones is not None:
         travels += [problem.travel[drones.travel], problem.travel[drones.straight]]
         drones = replace(drones, travel=1, straight=2)
+    elif vehicle_type.max_range is not None:
+        travels.append(problem.travel[vehicle_type.straight])
     return Problem(
         depots=tuple([problem.depots[depot] for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
         vehicle_types=(replace(vehicle_type, depot=0, start=0, end=len(depots) - 1, travel=0,
-                               drones=drones, more_drones=(), charge_left=(), reload_depots=()),),
+                               straight=len(travels) - 1, drones=drones, more_drones=(),
+                               charge_left=(), reload_depots=()),),
         travel=tuple([Travel(each.duration[rows, places], each.distance[rows, places])
                       for each in travels]),
         coordinates=problem.coordinates[places],

@@ -131,6 +131,8 @@ class VehicleType:
     launch_duration: int = 0  # of one that flies, as each trip begins
     recovery_duration: int = 0  # of one that flies, as each trip ends
     energy: Energy | None = None  # of one that flies: what a trip may take of the battery
+    max_range: int | None = None  # of one that flies: mm to customers from a trip's ends
+    straight: int = 0  # index into Problem.travel, whose distances tell that
     co2_kg_per_km: float | None = None  # of the truck, for replies alone
     co2_kg_per_kwh: float | None = None  # of the energy that its drones use
 
@@ -164,7 +166,8 @@ class VehicleType:
         require_quantity(f"{name} launch_duration", self.launch_duration)
         require_quantity(f"{name} recovery_duration", self.recovery_duration)
         is_said = (self.endurance != UNLIMITED or self.launch_duration > 0
-                   or self.recovery_duration > 0 or self.energy is not None)
+                   or self.recovery_duration > 0 or self.energy is not None
+                   or self.max_range is not None)
         require(self.flies or not is_said, f"{name} flies", self.flies)
         if self.flies:
             require(self.drones is None, f"{name} drones", self.drones)

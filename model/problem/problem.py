@@ -78,8 +78,8 @@ class Problem:
                  f"{name} reload_depots", vehicle_type.reload_depots)
         require(len(vehicle_type.initial_load) in (0, self.num_dimensions), f"{name} initial_load",
                  vehicle_type.initial_load)
-        require(0 <= vehicle_type.travel < len(self.travel), f"{name} travel",
-                 vehicle_type.travel)
+        for travel in (vehicle_type.travel, vehicle_type.straight):
+            require(0 <= travel < len(self.travel), f"{name} travel", travel)
         require(vehicle_type.energy is None
                 or vehicle_type.energy.dimension < self.num_dimensions, f"{name} energy",
                 vehicle_type.energy)

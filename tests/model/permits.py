@@ -20,8 +20,13 @@ def with_ranges(rng: np.random.Generator, problem: Problem) -> Problem:
         return replace(drones, straight=straight,
                        max_range=int(rng.integers(1, 5)) * MM_PER_KM)
 
+    def by_itself(kind: VehicleType) -> VehicleType:
+        if not kind.flies or rng.random() < 0.2:
+            return kind
+        return replace(kind, straight=straight, max_range=int(rng.integers(2, 5)) * MM_PER_KM)
+
     return replace(problem, travel=(*problem.travel, Travel(steps * MINUTE, steps * MM_PER_KM)),
-                   vehicle_types=tuple(with_drones(kind, limited)
+                   vehicle_types=tuple(by_itself(with_drones(kind, limited))
                                        for kind in problem.vehicle_types))
 
 

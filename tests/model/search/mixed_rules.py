@@ -88,8 +88,10 @@ def all_rules_few_airborne(rng: np.random.Generator) -> Problem:
 def all_rules_in_range(rng: np.random.Generator) -> Problem:
     """Return problems some of whose drones may fly no farther than so."""
     while True:
-        problem = with_ranges(rng, all_rules(rng))
-        if any(drones.max_range for kind in problem.vehicle_types for drones in kind.drone_types):
+        problem = all_rules(rng)
+        problem = with_ranges(rng, with_fliers(rng, problem, 0.3))
+        if any(flyer.max_range for kind in problem.vehicle_types
+               for flyer in (kind, *kind.drone_types)):
             return problem
 
 

@@ -129,6 +129,10 @@ def few_airborne_among_all(rng: np.random.Generator, problem: Problem) -> Proble
     return with_few_airborne(rng, drone_types_among_all(rng, problem))
 
 
+def fliers_in_range(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_ranges(rng, with_fliers(rng, problem))
+
+
 def ranges_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return drone_types_among_all(rng, with_ranges(rng, problem))
 
@@ -150,7 +154,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, with_storms,
-    storms_among_all])
+    storms_among_all, fliers_in_range])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):
