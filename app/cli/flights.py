@@ -37,7 +37,7 @@ def flights(
     try:
         with roads_of(Settings()) as roads:
             found = judged_flights(request, parse_plan(plan_file.read_bytes()), roads=roads)
-            written = flight_file(found, file_format, per)
+            written = flight_file(found, file_format, per, "--format")
     except RequestError as error:
         refuse(plan_file, error)
     path = output or Path(written.name)

@@ -109,7 +109,7 @@ ErrorCode = Literal[
     "FLIGHTS_ON_PLANE",
     "NO_FLIGHTS",
     "NO_WAY_AROUND",
-    "TOO_FAST",
+    "BEYOND_FORMAT",
 ]
 
 _STATED_CODES = frozenset(get_args(ErrorCode))

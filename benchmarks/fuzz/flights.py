@@ -18,7 +18,7 @@ from typing import Annotated, Any
 
 import typer
 from pyproj import Geod
-from shapely import LineString, Polygon
+from shapely import LineString, Polygon, union_all
 
 from benchmarks.fuzz.flight_readers import READERS, Place, Read
 from benchmarks.fuzz.problems import Fault, Study, tried
@@ -62,7 +62,9 @@ def random_city(rng: random.Random) -> Data:
         "fleet": [{"id": "van", "count": rng.randint(1, 2), "capacity": [30],
                    "speed_kmh": rng.choice((15, 40)), "costs": {"per_km": 1, "per_hour": 20},
                    "drones": _drones(rng)}],
-        "airspace": {"no_fly": [zone for zone in zones if not _holds([zone], hub)],
+        "airspace": {"no_fly": [zone for zone in zones[1:] if not _holds([zone], hub)],
+                     "zones": [_published(rng, zone) for zone in zones[:1]
+                               if not _holds([zone], hub)],
                      "wind": {"speed_kmh": rng.choice((0, 0, 15)),
                               "direction_deg": rng.randint(0, 360)}},
         "unassigned_cost": 100, "options": {"time_limit": 0.1, "seed": rng.randint(0, 99)}}
@@ -79,6 +81,14 @@ def _zone(rng: random.Random, centre: list[float], size: float) -> list[list[flo
         ring.append([round(centre[0] + wide * radius * math.cos(angle), 6),
                      round(centre[1] + radius * math.sin(angle), 6)])
     return ring
+
+
+def _published(rng: random.Random, zone: list[list[float]]) -> Data:
+    """Return a zone as GeoJSON, at times with a hole that no flight gets to."""
+    (x, y), rings = Polygon(zone).representative_point().coords[0], [[*zone, zone[0]]]
+    if rng.random() < 0.5:
+        rings.append([[x, y], [x + 1e-4, y], [x, y + 1e-4], [x, y]])
+    return {"format": "geojson", "data": {"type": "Polygon", "coordinates": rings}}
 
 
 def _holds(zones: list[list[list[float]]], place: list[float]) -> bool:
@@ -211,7 +221,7 @@ def planned_flights(problem: Data, plan: Data) -> Iterator[Planned]:
     drones = problem["fleet"][0]["drones"]
     energy = drones.get("energy", {})
     climb = energy.get("climb", {})
-    zones = [Polygon(ring).buffer(-INSIDE) for ring in problem["airspace"]["no_fly"]]
+    zones = [zone.buffer(-INSIDE) for zone in _zones_of(problem)]
     for route in plan["routes"]:
         flown = [(trip, sortie) for trip in route["trips"] for sortie in trip["sorties"]]
         for trip, sortie in sorted(flown, key=lambda pair: float(pair[1]["launch_time"])):
@@ -235,15 +245,22 @@ def _hold_truck(sortie: Data, launch: Data, recovery: Data) -> None:
             raise Fault(f"the truck is at {stop['id']} at another time than {time}")
 
 
+def _zones_of(problem: Data) -> list[Polygon]:
+    """Return all zones in degrees, as they are stated."""
+    airspace = problem["airspace"]
+    return [*map(Polygon, airspace["no_fly"]), *(
+        Polygon(rings[0], rings[1:])
+        for rings in (zone["data"]["coordinates"] for zone in airspace["zones"]))]
+
+
 def _hold_fences(problem: Data, fences: list[list[Place]] | None) -> None:
-    """Raise `Fault` if a fence isn't a zone, or no zone has any."""
-    zones = [[tuple(corner) for corner in ring] for ring in problem["airspace"]["no_fly"]]
-    for ring in fences or ():
-        bare = ring[:-1] if ring[0] == ring[-1] else ring
-        if not any(_same(bare, zone) for zone in zones):
-            raise Fault(f"a fence {ring} is no zone")
-    if fences == [] and zones:
-        raise Fault("there is no fence")
+    """Raise `Fault` unless the fences are the zones, of which none is far away."""
+    if fences is None:
+        return
+    stated = union_all(_zones_of(problem))
+    told = union_all([Polygon(ring) for ring in fences])
+    if told.symmetric_difference(stated).buffer(-INSIDE).area > 0:
+        raise Fault("the fences are other areas than the zones")
 
 
 def _same(some: Any, others: Any) -> bool:

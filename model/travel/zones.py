@@ -56,6 +56,18 @@ def dissolved(areas: Sequence[Polygon]) -> tuple[Polygon, ...]:
     return tuple(_polygons(simpler if simpler.covers(merged) else _wider(merged, EDGE_M)))
 
 
+def without_holes(area: Polygon) -> list[Polygon]:
+    """Return an area in pieces that have no holes: it is cut through each of them."""
+    if not area.interiors:
+        return [area]
+    x = area.interiors[0].centroid.x
+    west, south, east, north = area.bounds
+    halves = shapely.intersection(shapely.make_valid(area), [
+        shapely.box(west, south, x, north), shapely.box(x, south, east, north)])
+    return [piece for part in shapely.get_parts(halves) if isinstance(part, Polygon)
+            for piece in without_holes(part)]
+
+
 def _wider(area: BaseGeometry, by: float) -> BaseGeometry:
     return area.buffer(by, join_style="mitre", mitre_limit=LONGEST_MITRE)
 

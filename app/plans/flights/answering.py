@@ -15,9 +15,9 @@ from app.requests.conversion.ground import Ground
 from app.requests.conversion.locating import at_addresses
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
-from app.requests.plan_reading import parse_plan, read_plan
+from app.requests.plan_reading import read_plan
 from app.schemas.errors import InputError, InvalidRequestError
-from app.schemas.flights import FlightFormat, FlightsRequest, Per
+from app.schemas.flights import FlightsRequest
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
 
@@ -35,7 +35,7 @@ def answer_flights(body: bytes, bounds: Bounds, should_stop: Callable[[], bool] 
     request = read_about_plan(body, bounds, FlightsRequest)
     flights = judged_flights(request.problem, request.plan, preparing_within(bounds, should_stop),
                              roads)
-    return flight_file(flights, request.format, request.per)
+    return flight_file(flights, request.format, request.per, "$.format")
 
 
 def judged_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing = UNHURRIED,
@@ -57,18 +57,11 @@ def judged_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing =
             message=f"The plan breaks {each['code']}: {each['message']}. Only flights of a plan "
             "without broken rules are written: correct it, or plan anew.") for each in broken])
     placed = PlacedRequest(problem) if task.places is None else task.places.placed
-    return flights_of(placed, plan, Ground(placed, preparing))
+    return flights_of(placed, plan, Ground(placed, preparing, roads.zones))
 
 
-def flights_of_job(problem: PlanRequest, plan: bytes, file_format: FlightFormat, per: Per,
-                   bounds: Bounds, should_stop: Callable[[], bool]) -> FlightFile:
+def planned_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing = UNHURRIED,
+                    roads: Roads = NO_ROADS) -> list[Flight]:
     """Return the flights of a plan that was judged as it was made; raises as `flights_of` does."""
-    flights = planned_flights(problem, parse_plan(plan), preparing_within(bounds, should_stop))
-    return flight_file(flights, file_format, per)
-
-
-def planned_flights(problem: PlanRequest, plan: PlanInput,
-                    preparing: Preparing = UNHURRIED) -> list[Flight]:
-    """Return the flights of a plan as it is; raises as `flights_of` does."""
     placed = PlacedRequest(at_addresses(problem, plan))
-    return flights_of(placed, plan, Ground(placed, preparing))
+    return flights_of(placed, plan, Ground(placed, preparing, roads.zones))

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from datetime import UTC, datetime
 
 import numpy as np
-from shapely import LineString
+from shapely import LineString, Polygon, STRtree
 
 from app.plans.flights.flight import Flight, Place, Ring, WayPoint
 from app.requests.conversion.energy import climb_duration
@@ -118,6 +118,19 @@ def _sorties_of_trip(route: RouteInput, trip: TripInput, kind: VehicleTypeInput,
                       tuple(nodes[name] for name in names), 0)
 
 
+class _Zones:
+    """Zones by where they are."""
+
+    def __init__(self, areas: Sequence[tuple[Polygon, FloatArray]]) -> None:
+        self._tree = STRtree([area for area, _ in areas])
+        self._rings = [_closed(ring) for _, ring in areas]
+
+    def near(self, line: LineString) -> tuple[Ring, ...]:
+        """Return the rings around those near a flight, in their order."""
+        found = self._tree.query(line, predicate="dwithin", distance=NEARBY_M)
+        return tuple(self._rings[index] for index in sorted(found.tolist()))
+
+
 class _Courses:
     """Works out the ways of some sorties."""
 
@@ -132,7 +145,7 @@ class _Courses:
         self._detours: dict[float, Detours] = {
             altitude: ground.detours_among(flown, altitude) for altitude in altitudes
             if ground.has_areas(altitude)}
-        self._zones = {altitude: ground.closed_areas(altitude) for altitude in altitudes}
+        self._zones = {altitude: _Zones(ground.closed_areas(altitude)) for altitude in altitudes}
         day = self._request.day
         self._plan_start: datetime | None = None if day is None else day.start.astimezone(UTC)
 
@@ -146,8 +159,7 @@ class _Courses:
             altitude=altitude,
             lands=flown.drones.energy is None or flown.drones.energy.lands,
             way_points=way_points, recovery_time=flown.sortie.recovery_time,
-            zones=tuple(_closed(ring) for zone, ring in self._zones[altitude]
-                        if zone.distance(line) <= NEARBY_M),
+            zones=self._zones[altitude].near(line),
             plan_start=self._plan_start)
 
     def _way_points(self, flown: _Sortie) -> Iterator[WayPoint]:

@@ -10,12 +10,16 @@ from app.plans.flights.geojson import geojson_files
 from app.plans.flights.kml import kml_files
 from app.plans.flights.packing import packed
 from app.plans.flights.qgc import plan_files, way_point_files
-from app.plans.flights.wpml import wpml_files
+from app.plans.flights.wpml import BeyondFormatError, wpml_files
+from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.flights import FlightFormat, Per
 
 ZIP = "application/zip"
 
 README = "README.txt"
+
+FORMAT_ASKED = "query.format"
+"""Where the format is stated that is asked for in an address."""
 
 
 class Writer(NamedTuple):
@@ -43,14 +47,23 @@ class FlightFile:
     content: bytes
 
 
-def flight_file(flights: Sequence[Flight], file_format: FlightFormat, per: Per) -> FlightFile:
-    """Return all of some flights: at least one.
+def flight_file(flights: Sequence[Flight], file_format: FlightFormat, per: Per,
+                asked: str) -> FlightFile:
+    """Return all of some flights: at least one. `asked` is where the format was stated.
 
     Raises
     ------
     InvalidRequestError
         If the format can't tell one of them.
     """
+    try:
+        return _written(flights, file_format, per)
+    except BeyondFormatError as error:
+        raise InvalidRequestError([
+            InputError(code="BEYOND_FORMAT", path=asked, message=str(error))]) from error
+
+
+def _written(flights: Sequence[Flight], file_format: FlightFormat, per: Per) -> FlightFile:
     writer = WRITERS[file_format]
     files: dict[str, bytes] = {}
     stems: set[str] = set()

@@ -20,7 +20,8 @@ EXAMPLES = {"flights": "A drone that flies around a zone, as QGroundControl read
 
 FLIGHTS: dict[int | str, dict[str, Any]] = {200: {
     "description": "The flights: a file, or a ZIP of several. `Content-Disposition` names it.",
-    "content": {media_type: {"schema": {"type": "string", "format": "binary"}}
+    "content": {media_type: {"schema": {"type": "object" if media_type.endswith("json")
+                                        else "string"}}
                 for media_type in (*(writer.media_type for writer in WRITERS.values()), ZIP)}}}
 
 

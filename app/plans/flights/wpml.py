@@ -17,7 +17,6 @@ from app.plans.flights.flight import NOTE, Flight, WayPoint
 from app.plans.flights.kml import KML, written
 from app.plans.flights.numbers import plain
 from app.plans.flights.packing import packed
-from app.schemas.errors import InputError, InvalidRequestError
 
 WPML = "http://www.dji.com/wpmz/1.0.2"
 
@@ -27,6 +26,9 @@ W = ElementMaker(namespace=WPML, nsmap={"wpml": WPML})
 MOST_SPEED = 15.0
 """Metres a second that WPML goes up to."""
 
+LEAST_HEIGHT, MOST_HEIGHT = 1.2, 1500.0
+"""Metres above the launch between which it flies."""
+
 MATRICE_350_RTK = "89"
 """The format wants an aircraft; operators put their own in its place."""
 
@@ -34,16 +36,20 @@ STRAIGHT_TO_THE_POINT = "toPointAndStopWithDiscontinuityCurvature"
 """How corners are turned: otherwise they are cut, at zones into these."""
 
 
+class BeyondFormatError(ValueError):
+    """A format can't tell a flight."""
+
+
 def wpml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
     """Return the KMZ of one drone's flights.
 
     Raises
     ------
-    InvalidRequestError
-        If one is faster than the format can say.
+    BeyondFormatError
+        If one is faster, lower or higher than the format can say.
     """
     for flight in flights:
-        _require_slow(flight)
+        _require_sayable(flight)
     hops = [(flight, hop) for flight in flights for hop in flight.hops()]
     return {".kmz": packed({
         "wpmz/template.kml": written(_template(flights, hops)),
@@ -53,12 +59,15 @@ def wpml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
 Hops = Sequence[tuple[Flight, tuple[WayPoint, ...]]]
 
 
-def _require_slow(flight: Flight) -> None:
+def _require_sayable(flight: Flight) -> None:
     if flight.top_speed > MOST_SPEED:
-        message = (f"{flight.name} flies {flight.top_speed * 3.6:.1f} km/h over ground, and WPML "
-                   f"goes up to {MOST_SPEED * 3.6:g}: plan with less drones.speed_kmh, or take "
-                   "another format.")
-        raise InvalidRequestError([InputError(code="TOO_FAST", path="$.format", message=message)])
+        raise BeyondFormatError(
+            f"{flight.name} flies {flight.top_speed * 3.6:.1f} km/h over ground, and WPML goes up "
+            f"to {MOST_SPEED * 3.6:g}: plan with less drones.speed_kmh, or take another format.")
+    if not LEAST_HEIGHT <= flight.altitude <= MOST_HEIGHT:
+        raise BeyondFormatError(
+            f"{flight.name} flies at {flight.altitude:g} m, and WPML goes from {LEAST_HEIGHT:g} to "
+            f"{MOST_HEIGHT:g}: plan with another drones.altitude, or take another format.")
 
 
 def _template(flights: Sequence[Flight], hops: Hops) -> etree._Element:

@@ -6,8 +6,9 @@ from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 from pydantic_core import to_json
 from sse_starlette import EventSourceResponse
 
-from app.plans.explaining import explain_job
-from app.plans.flights.answering import flights_of_job
+from app.plans.explaining import explain_job, preparing_within
+from app.plans.flights.answering import planned_flights
+from app.plans.flights.files import FORMAT_ASKED, flight_file
 from app.plans.flights.routes import FLIGHTS, sent
 from app.plans.routes import Service
 from app.records.jobs.desk import JobDesk
@@ -22,6 +23,7 @@ from app.records.jobs.service import JobService, Submission, is_job_id
 from app.records.jobs.webhook import check_url
 from app.requests.bounds import Bounds
 from app.requests.paging import cursor_of, read_cursor
+from app.requests.plan_reading import parse_plan
 from app.schemas.explain import ExplainOptions, ExplainReply
 from app.schemas.flights import FORMAT_TEXT, PER_TEXT, FlightFormat, Per
 from app.schemas.limits import MAX_TIME_LIMIT
@@ -193,13 +195,15 @@ async def explain_plan(
 async def write_flights(
     request: Request, job_id: JobId, principal: Jobs, planning: Planning, desk: Desk,
     file_format: Annotated[FlightFormat, Query(alias="format", description=FORMAT_TEXT)],
+    service: Service,
     per: Annotated[Per, Query(description=PER_TEXT)] = "sortie",
 ) -> Response:
     """Return the same as `POST /flights` of a job's best plan so far."""
     wanted, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
     bounds = Bounds.of_plans(request.app.state.settings)
-    return sent(await planning.run(request, lambda should_stop: flights_of_job(
-        wanted, plan, file_format, per, bounds, should_stop)))
+    return sent(await planning.run(request, lambda should_stop: flight_file(
+        planned_flights(wanted, parse_plan(plan), preparing_within(bounds, should_stop),
+                        service.roads), file_format, per, FORMAT_ASKED)))
 
 
 @router.delete("/jobs/{job_id}", summary="Stop a job", response_model=JobReply, responses=FOUND)

@@ -28,7 +28,7 @@ from model.travel.matrices import (
 )
 from model.travel.ways import Ways, find_ways
 from model.travel.wind import Breeze, Wind
-from model.travel.zones import WIDER_M, dissolved, holding, within_reach
+from model.travel.zones import WIDER_M, dissolved, holding, within_reach, without_holes
 
 
 class Detours(NamedTuple):
@@ -152,14 +152,14 @@ class Ground:
     def closed_areas(self, altitude: float) -> list[tuple[Polygon, FloatArray]]:
         """Return all that may not be flown through, in planar metres as it was published.
 
-        With each, the (corner, 2) ring around it as the request states places.
+        With each, the (corner, 2) ring around it as the request states places. What has holes
+        comes in pieces without.
         """
         rings = [np.array(ring, dtype=np.float64) for ring in self._request.airspace.no_fly]
-        parts = self.zones.at(altitude).around
-        return [*((Polygon(self.planar(ring)), ring) for ring in rings),
-                *zip(self._projected(parts),
-                     (shapely.get_coordinates(part.volume.area.exterior) for part in parts),
-                     strict=True)]
+        rings += [shapely.get_coordinates(piece.exterior)
+                  for part in self.zones.at(altitude).around
+                  for piece in without_holes(part.volume.area)]
+        return [(Polygon(self.planar(ring)), ring) for ring in rings]
 
     def stated(self, points_m: FloatArray) -> FloatArray:
         """Return (place, 2) planar metres as the request states places."""

@@ -114,5 +114,6 @@ def test_lines_are_read_with_where_they_land() -> None:
 
 def test_cities_have_what_flights_meet() -> None:
     cities = [random_city(random.Random(seed)) for seed in range(CITIES)]
-    assert sum(bool(city["airspace"]["no_fly"]) for city in cities) > CITIES / 2
+    for areas in ("no_fly", "zones"):
+        assert 0 < sum(bool(city["airspace"][areas]) for city in cities) < CITIES
     assert 0 < sum("energy" in city["fleet"][0]["drones"] for city in cities) < CITIES

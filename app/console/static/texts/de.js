@@ -1398,9 +1398,9 @@ export default {
     FLIGHTS_ON_PLANE: 'Flüge brauchen Längen und Breiten; dieses Problem liegt auf einer Ebene.',
     NO_FLIGHTS: 'In diesem Plan fliegt keine Drohne.',
     NO_WAY_AROUND: 'An den Flugverbotszonen führt kein Weg vorbei.',
-    TOO_FAST:
-      'Dieses Format geht bis 54 km/h: Planen Sie mit langsameren Drohnen, ' +
-      'oder wählen Sie ein anderes.',
+    BEYOND_FORMAT:
+      'Dieses Format geht bis 54 km/h und 1.500 m: Planen Sie mit langsameren oder niedrigeren ' +
+      'Drohnen, oder wählen Sie ein anderes.',
     ILLEGAL_PLAN:
       'Dieser Plan verletzt eine Regel: Planen Sie neu, bevor Sie seine Flüge sichern.',
     TRIP_SHAPE: 'Diese Fahrt kann so nicht sein.',

@@ -1363,7 +1363,9 @@ export default {
     FLIGHTS_ON_PLANE: 'Flights need longitudes and latitudes; this problem lies on a plane.',
     NO_FLIGHTS: 'No drone flies in this plan.',
     NO_WAY_AROUND: 'There is no way around the no-fly areas.',
-    TOO_FAST: 'This format goes up to 54 km/h: plan with slower drones, or take another format.',
+    BEYOND_FORMAT:
+      'This format goes up to 54 km/h and 1,500 m: plan with slower or lower drones, ' +
+      'or take another format.',
     ILLEGAL_PLAN: 'This plan breaks a rule: plan again before you take its flights.',
     TRIP_SHAPE: 'This trip cannot be as it is stated.',
     WRONG_NAME: 'This is not how vehicles and drones are named.',

@@ -85,10 +85,13 @@ def test_unknown_formats_and_fields_are_refused(client: httpx.Client) -> None:
     assert ("MISSING_FIELD", "$.format") in refused(client, body, "/flights")
 
 
-def test_drones_too_fast_for_wpml_are_told(client: httpx.Client) -> None:
+def test_drones_too_fast_or_low_for_wpml_are_told(client: httpx.Client) -> None:
     problem = city(drones={"speed_kmh": 60})
     body = {"problem": problem, "plan": planned(client, problem), "format": "dji-wpml"}
-    assert refused(client, body, "/flights") == [("TOO_FAST", "$.format")]
+    assert refused(client, body, "/flights") == [("BEYOND_FORMAT", "$.format")]
+    low = city(drones={"altitude": 0})
+    body = {"problem": low, "plan": planned(client, low), "format": "dji-wpml"}
+    assert refused(client, body, "/flights") == [("BEYOND_FORMAT", "$.format")]
 
 
 def test_no_flight_of_stated_durations_leads_through_a_zone(client: httpx.Client) -> None:
