@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -10,10 +9,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from app.maps.roads.building import build_roads
-from app.maps.roads.setting import Extract
 from app.maps.roads.tools import Tools
-from tests.app.maps.roads.conftest import HELSINKI
+from tests.app.maps.roads.conftest import prepared_once
 from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, place_of, planned, state
@@ -75,14 +72,14 @@ HIDDEN = """(lines) => {
 
 
 @pytest.fixture(scope="module")
-def city(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
+def city(shared_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Return the address of a service with the roads and streets of Helsinki's centre."""
     unpacked(pinned("osrm-bindings"))
     osrm = WHEELS / "osrm"
-    folder = tmp_path_factory.mktemp("streets")
-    extract = Path(shutil.copy(HELSINKI, folder / "helsinki.osm.pbf"))
-    build_roads(Extract(extract, "car"), Tools(osrm / "bin", osrm / "share" / "profiles"))
-    with serving(folder, TANDEM_ROADS=f"truck=car:{extract}",
+    tools = Tools(osrm / "bin", osrm / "share" / "profiles")
+    extract = prepared_once(tools, shared_folder).path
+    with serving(tmp_path_factory.mktemp("streets"), "tests.console.service",
+                 TANDEM_ROADS=f"truck=car:{extract}",
                  PATH=f"{osrm / 'bin'}{os.pathsep}{os.environ['PATH']}") as address:
         yield address
 

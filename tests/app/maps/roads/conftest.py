@@ -37,16 +37,23 @@ def osrm_folder() -> Path:
 
 
 @pytest.fixture(scope="session")
-def helsinki_graph(osrm_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Return Helsinki's centre as OSRM's own files for cars, by the name that they share."""
-    extract = tmp_path_factory.mktemp("osrm") / "helsinki.osm.pbf"
-    extract.symlink_to(HELSINKI)
-    graph = extract.with_name("helsinki.osrm")
+def helsinki_graph(osrm_folder: Path, shared_folder: Path) -> Path:
+    """Return Helsinki's centre as OSRM's own files for cars, by the name that they share.
+
+    Made once for all.
+    """
+    folder, name = shared_folder / "osrm", "helsinki.osrm"
     binaries, profiles = osrm_folder / "bin", osrm_folder / "share" / "profiles"
-    for command in ([binaries / "osrm-extract", "-p", profiles / "car.lua", extract],
-                    [binaries / "osrm-contract", graph]):
-        subprocess.run(command, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
-    return graph
+    with made_once(folder) as unfinished:
+        if unfinished is not None:
+            unfinished.mkdir()
+            extract = unfinished / "helsinki.osm.pbf"
+            extract.symlink_to(HELSINKI)
+            for command in ([binaries / "osrm-extract", "-p", profiles / "car.lua", extract],
+                            [binaries / "osrm-contract", unfinished / name]):
+                subprocess.run(command, check=True, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.STDOUT)
+    return folder / name
 
 
 @contextmanager
@@ -81,36 +88,47 @@ def helsinki_osrm(osrm_folder: Path, helsinki_graph: Path) -> Iterator[str]:
 
 
 @pytest.fixture(scope="session")
-def helsinki_valhalla() -> Iterator[str]:
-    """Serve Helsinki as Valhalla does by default: 50 origins and destinations, routes of 20."""
+def helsinki_tiles(shared_folder: Path) -> Path:
+    """Return Helsinki's centre as Valhalla's tiles, made once for all."""
     unpacked(VALHALLA)
+    tiles, binaries = shared_folder / "tiles", WHEELS / "valhalla" / "bin"
+    with (made_once(tiles) as unfinished, tempfile.TemporaryDirectory(prefix="valhalla") as name):
+        if unfinished is not None:
+            unfinished.mkdir()
+            configuration = valhalla_configuration(Path(name), unfinished, free_port())
+            subprocess.run([binaries / "valhalla_build_tiles", "-c", configuration, HELSINKI],
+                           check=True, stdout=subprocess.DEVNULL, stderr=subprocess.STDOUT)
+    return tiles
+
+
+@pytest.fixture(scope="session")
+def helsinki_valhalla(helsinki_tiles: Path) -> Iterator[str]:
+    """Serve Helsinki as Valhalla does by default: 50 origins and destinations, routes of 20."""
     port = free_port()
     # Names of Unix sockets are short, and folders of tests aren't.
     with tempfile.TemporaryDirectory(prefix="valhalla") as name:
         folder, binaries = Path(name), WHEELS / "valhalla" / "bin"
-        configuration = valhalla_configuration(folder, port)
-        with (folder / "log").open("wb") as log:
-            subprocess.run([binaries / "valhalla_build_tiles", "-c", configuration, HELSINKI],
-                           check=True, stdout=log, stderr=log)
-            with subprocess.Popen([binaries / "valhalla_service", configuration, "2"], stdout=log,
-                                  stderr=log) as process:
-                url = f"http://127.0.0.1:{port}"
-                try:
-                    while process.poll() is None and not answers(f"{url}/status"):
-                        time.sleep(0.01)
-                    yield url
-                finally:
-                    process.kill()
+        configuration = valhalla_configuration(folder, helsinki_tiles, port)
+        with (folder / "log").open("wb") as log, subprocess.Popen(
+                [binaries / "valhalla_service", configuration, "2"], stdout=log,
+                stderr=log) as process:
+            url = f"http://127.0.0.1:{port}"
+            try:
+                while process.poll() is None and not answers(f"{url}/status"):
+                    time.sleep(0.01)
+                yield url
+            finally:
+                process.kill()
 
 
-def valhalla_configuration(folder: Path, port: int) -> Path:
-    """Write what Valhalla needs to build and serve in a folder."""
+def valhalla_configuration(folder: Path, tiles: Path, port: int) -> Path:
+    """Write what Valhalla needs, with its sockets in a folder, to make tiles or to serve them."""
     build = WHEELS / "valhalla" / "valhalla_build_config.py"
     stated = json.loads(subprocess.run([sys.executable, build], check=True,
                                        stdout=subprocess.PIPE).stdout)
     stated["mjolnir"].update(dict.fromkeys((
         "admin", "landmarks", "tile_extract", "timezone", "traffic_extract", "transit_dir",
-        "transit_feeds_dir"), ""), tile_dir=str(folder / "tiles"), concurrency=1)
+        "transit_feeds_dir"), ""), tile_dir=str(tiles), concurrency=1)
     for part in ("loki", "meili", "odin", "thor"):
         stated[part]["service"]["proxy"] = f"ipc://{folder}/{part}"
     stated["httpd"]["service"].update(
@@ -156,6 +174,11 @@ def osrm_on_path(osrm_folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture(scope="session")
 def prepared(tools: Tools, shared_folder: Path) -> Extract:
+    """Return what `prepared_once` does."""
+    return prepared_once(tools, shared_folder)
+
+
+def prepared_once(tools: Tools, shared_folder: Path) -> Extract:
     """Return Helsinki's centre as `tandem roads build` prepares it for cars, once for all."""
     folder, name = shared_folder / "prepared", "helsinki.osm.pbf"
     with made_once(folder) as unfinished:
