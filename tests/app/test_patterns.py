@@ -37,8 +37,8 @@ PIECES = (" ", "\t", "\n", "\u00a0", "1", "0", "1 ", "a", "A", "\u00e9", "8 ", "
           "+", "=", "<", "a ", 'a="1" ', "<c>", "1E", "~")
 ENDS = ("", "x", "\nx", "!", "1", "\u00e9", ")")
 
-SIZE, LONGER = 3000, 12_000
-QUICK = 0.004
+SIZE, LONGER = 1500, 6000
+QUICK = 0.001
 """Seconds that a text of `SIZE` letters may always take: trying all splits takes more."""
 
 MOST_PER_CELL = 0.1
