@@ -1,15 +1,17 @@
-"""Set partitioning: the cheapest columns that meet each row once, by HiGHS.
+"""Set partitioning: the cheapest columns that meet each row once, by HiGHS; of few by trying.
 
 With linear prices first, which mostly say all; else by branch and bound over those columns that the
 prices don't rule out.
 """
 
 from collections.abc import Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from model.engine.alarm import has_rung
+from model.policy.few_columns import FEW, TooManyError, cheapest_by_trying
 from model.problem import BoolArray, FloatArray, IntArray
 
 if TYPE_CHECKING:
@@ -45,6 +47,11 @@ def cheapest_partition(columns: Sequence[IntArray], cost: FloatArray, room: IntA
     alarm
         Setting of an alarm at which nothing more is looked for.
     """
+    if has_rung(alarm):
+        return None
+    if sum([len(column) > 1 for column in columns]) <= FEW:
+        with suppress(TooManyError):
+            return cheapest_by_trying(columns, cost, room, known)
     chosen = _chosen(columns, cost * (KNOWN / known), room, alarm)
     # A solver's word isn't taken for it.
     if chosen is not None:

@@ -4,10 +4,19 @@ import numpy as np
 import pytest
 
 from model.engine.alarm import Alarm
+from model.policy import few_columns, partition
+from model.policy.few_columns import TooManyError, cheapest_by_trying
 from model.policy.partition import cheapest_partition
 from model.problem import FloatArray, IntArray
 
 SILENT, RUNG = Alarm().setting, Alarm(0.0).setting
+
+
+@pytest.fixture(params=["by trying", "by programs"], autouse=True)
+def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Have choices be looked for either way."""
+    if request.param == "by programs":
+        monkeypatch.setattr(partition, "FEW", -1)
 
 
 def cheapest(columns: list[IntArray], cost: FloatArray, room: IntArray) -> float:
@@ -59,6 +68,18 @@ def test_rows_with_no_room_take_no_column() -> None:
     chosen = cheapest_partition(columns, np.array([1.0, 3.0]), np.array([-1, 0]), 3.0, SILENT)
     assert chosen is not None
     assert chosen.tolist() == [False, True]
+
+
+def test_what_takes_long_to_try_is_left_to_programs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(few_columns, "MOST_TRIED", 2)
+    columns = [np.array([0, 1]), np.array([1, 2]), np.array([0, 2]),
+               np.array([0]), np.array([1]), np.array([2])]
+    given = columns, np.array([2.0, 2.0, 2.0, 2.0, 2.0, 1.9]), np.full(3, -1), 6.0
+    with pytest.raises(TooManyError):
+        cheapest_by_trying(*given)
+    chosen = cheapest_partition(*given, SILENT)
+    assert chosen is not None
+    assert chosen.tolist() == [True, False, False, False, False, True]
 
 
 def test_nothing_is_looked_for_after_an_alarm() -> None:
