@@ -1206,11 +1206,20 @@ int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet
 int tandem_cost_beside(const tandem_problem_data* data, const tandem_searcher* searcher,
                        int64_t node, double* cost);
 
+/* What a search writes down while it looks. It belongs to the engine. */
+typedef struct tandem_scratch tandem_scratch;
+
+/* Make room for calls of a search, and for one at a time. */
+int tandem_open_scratch(const tandem_problem_data* data, const tandem_searcher* searcher,
+                        tandem_scratch** scratch);
+/* Give it back. */
+int tandem_close_scratch(tandem_scratch* scratch);
+
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */
-int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t turns,
-                  int64_t order);
+int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher,
+                  tandem_scratch* scratch, int64_t turns, int64_t order);
 
 /* Search: linked. */
 
@@ -1221,10 +1230,10 @@ int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
                const tandem_linked* linked);
 /* Ruin and recreate so many times among linked stops. */
 int tandem_anneal_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                         const tandem_linked* linked, int64_t turns);
+                         const tandem_linked* linked, tandem_scratch* scratch, int64_t turns);
 /* Link the routes of a search, insert all who are left out in an order and write them back. */
 int tandem_insert_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                         const tandem_linked* linked, int64_t order);
+                         const tandem_linked* linked, tandem_scratch* scratch, int64_t order);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
 int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
                       const tandem_linked* linked);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
+#include "guard.h"
 #include "rules/drone_types.h"
 #include "search/insertion/offers.h"
 
@@ -21,6 +23,9 @@ Int most_offers(const ProblemData& data, const Fleet& fleet) {
                      2 * at_one_stop * rows * data.granular.shape(1)});
 }
 
+// Returns how many slots a ruin touches at most, or stops move.
+Int most_moved(const Fleet& fleet) { return std::max(fleet.route.size(), fleet.stop.shape(1)) + 2; }
+
 }  // namespace
 
 SplitScratch::SplitScratch(Int longest)
@@ -33,17 +38,39 @@ SplitScratch::SplitScratch(Int longest)
     for (WaysOut& ways : out) ways.duration.fill(std::numeric_limits<double>::infinity());
 }
 
-Scratch::Scratch(const ProblemData& data, Searcher& searcher)
-    : Scratch(data, searcher, most_offers(data, searcher.now)) {}
+Scratch::Scratch(const ProblemData& data, const Searcher& searcher)
+    : Scratch(data.num_nodes, most_moved(searcher.now), most_offers(data, searcher.now)) {}
 
-Scratch::Scratch(const ProblemData& data, Searcher& searcher, Int most_offers)
-    : line(data.num_nodes + 3),
-      split(data.num_nodes + 3),
-      key(data.num_nodes),
-      moved(std::max(searcher.now.route.size(), searcher.now.stop.shape(1)) + 2),
+Scratch::Scratch(Int num_nodes, Int most_moved, Int most_offers)
+    : line(num_nodes + 3),
+      split(num_nodes + 3),
+      key(num_nodes),
+      moved(most_moved),
       offer(most_offers),
-      least(most_offers) {
+      least(most_offers) {}
+
+void Scratch::lend_to(const ProblemData& data, Searcher& searcher) {
+    const Fleet& fleet = searcher.now;
+    if (key.size() < data.num_nodes || moved.size() < most_moved(fleet) ||
+        offer.size() < most_offers(data, fleet)) {
+        throw std::length_error("the scratch was made for a smaller search");
+    }
+    offers = 0;
     searcher.scratch = this;
 }
 
 }  // namespace tandem
+
+using namespace tandem;
+
+int tandem_open_scratch(const tandem_problem_data* data, const tandem_searcher* searcher,
+                        tandem_scratch** scratch) {
+    return guarded([&] {
+        *scratch =
+            std::make_unique<tandem_scratch>(data_of(*data), searcher_of(*searcher)).release();
+    });
+}
+
+int tandem_close_scratch(tandem_scratch* scratch) {
+    return guarded([&] { const std::unique_ptr<tandem_scratch> owned(scratch); });
+}

@@ -30,6 +30,7 @@ public:
 
     View<T, 1> view() const { return view_; }
     operator View<T, 1>() const { return view_; }
+    Int size() const { return view_.size(); }
     operator View<const T, 1>() const { return view_; }
     T& operator[](Int index) const { return view_[index]; }
 
@@ -67,8 +68,11 @@ struct SplitScratch {
 };
 
 struct Scratch {
-    // Makes room for a search, and lends it that.
-    Scratch(const ProblemData& data, Searcher& searcher);
+    // Makes room for calls of a search.
+    Scratch(const ProblemData& data, const Searcher& searcher);
+
+    // Lends it to a call. Throws where the search is larger than the one that it was made for.
+    void lend_to(const ProblemData& data, Searcher& searcher);
 
     Row<Line> line;  // (node + 3,) places of a trip or two in order
     SplitScratch split;
@@ -79,7 +83,12 @@ struct Scratch {
     Int offers = 0;     // how many are listed
 
 private:
-    Scratch(const ProblemData& data, Searcher& searcher, Int most_offers);
+    Scratch(Int num_nodes, Int most_moved, Int most_offers);
 };
 
 }  // namespace tandem
+
+// As C knows it.
+struct tandem_scratch final : tandem::Scratch {
+    using Scratch::Scratch;
+};

@@ -62,10 +62,15 @@ def dtype_of_type(kind: Any) -> np.dtype[Any]:
 
 def is_row(kind: Any) -> bool:
     """Tell whether a type is a struct of nothing but numbers."""
-    return kind.kind == "struct" and all(
+    return kind.kind == "struct" and not is_opaque(kind) and all(
         field.type.kind == "primitive"
         or (field.type.kind == "array" and field.type.item.kind == "primitive")
         for _, field in kind.fields)
+
+
+def is_opaque(kind: Any) -> bool:
+    """Tell whether a type is a struct of which the engine alone knows what it holds."""
+    return kind.kind == "struct" and kind.fields is None
 
 
 @cache

@@ -4,8 +4,9 @@
 
 Named tuples of arrays are packed as the C structs that the function takes, by the names of their
 fields; rows are pointed to, and so are arrays of numbers where C takes a pointer to one. Pointers
-at the end of what C takes that no argument is given for are results, and are returned. Nothing is
-copied, and other threads go on while the engine runs.
+at the end of what C takes that no argument is given for are results, and are returned. What the
+engine owns is given by a `Handle`. Nothing is copied, and other threads go on while the engine
+runs.
 """
 
 import hashlib
@@ -18,7 +19,7 @@ from typing import Any
 
 import numpy as np
 
-from model.engine.header import dtype_of, dtype_of_type, header, interface, is_row
+from model.engine.header import dtype_of, dtype_of_type, header, interface, is_opaque, is_row
 from model.engine.packing import Packed, address_of, number_of, packed
 
 __all__ = ["EndedError", "call", "dtype_of", "packed", "path_of_library"]
@@ -126,6 +127,9 @@ def _conversion(kind: Any, path: str) -> Convert:
         return lambda value: cast(kind, address(value))
     if kind.kind != "pointer":
         raise TypeError(f"{path}: structs are given by pointers")
+    if is_opaque(kind.item) or kind.item.kind == "pointer":
+        # Whose type cffi checks.
+        return lambda value: getattr(value, "pointer", value)
 
     def pack(value: Any) -> Any:
         if type(value) is not Packed:

@@ -11,7 +11,7 @@ from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.recombining import take_better_parts
-from model.search.route.engine import ANY, LONGEST_STRING, anneal
+from model.search.route.engine import ANY, LONGEST_STRING, Scratch, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.temperature import Heat
@@ -59,20 +59,22 @@ class Worker:
     looked: int = 0  # turns after which better parts were last looked for
     given: tuple[Packed, Packed] = field(init=False)  # data and search, packed for a round
     tied: Packed | None = field(default=None, init=False)  # likewise what is linked
+    scratch: Scratch = field(init=False)  # for a round
 
     def run(self) -> None:
         """Search for one round."""
         most, end = self.limits.round_end(self.turns, self.span)
         self.given = packed(self.data), packed(self.searcher)
         self.tied = None if self.linked is None else packed(self.linked)
-        if self.tied is None:
-            self._search(most, end)
-            return
-        # Where there is no time to tie routes, they are written.
-        with suppress(EndedError):
-            tie(*self.given, self.tied)
-            self._search(most, end)
-            write_back(*self.given, self.tied)
+        with Scratch(*self.given) as self.scratch:
+            if self.tied is None:
+                self._search(most, end)
+                return
+            # Where there is no time to tie routes, they are written.
+            with suppress(EndedError):
+                tie(*self.given, self.tied)
+                self._search(most, end)
+                write_back(*self.given, self.tied)
 
     def _search(self, most: float, end: float) -> None:
         """Search for so many turns in all, until some time at most."""
@@ -140,9 +142,9 @@ class Worker:
         value.longest = self._longest_string()
         began, before = time.perf_counter(), int(self.searcher.count.turn)
         if self.tied is None:
-            anneal(*self.given, turns, ANY)
+            anneal(*self.given, turns, ANY, self.scratch)
         else:
-            anneal_linked(*self.given, self.tied, turns)
+            anneal_linked(*self.given, self.tied, turns, self.scratch)
         made = int(self.searcher.count.turn) - before
         self.turns += made
         self.pace = (time.perf_counter() - began) / max(1, made)

@@ -149,24 +149,24 @@ using namespace tandem;
 
 extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
                                     const tandem_searcher* searcher, const tandem_linked* linked,
-                                    int64_t turns) {
+                                    tandem_scratch* scratch, int64_t turns) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
         const ProblemData problem = data_of(*data);
-        Scratch scratch(problem, searching);
+        scratch->lend_to(problem, searching);
         anneal_linked(problem, searching, routes, turns);
     });
 }
 
 extern "C" int tandem_insert_linked(const tandem_problem_data* data,
                                     const tandem_searcher* searcher, const tandem_linked* linked,
-                                    int64_t order) {
+                                    tandem_scratch* scratch, int64_t order) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
         Linked routes = linked_of(*linked);
         const ProblemData problem = data_of(*data);
-        Scratch scratch(problem, searching);
+        scratch->lend_to(problem, searching);
         insert_linked(problem, searching, routes, order);
     });
 }

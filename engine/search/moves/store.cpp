@@ -148,11 +148,11 @@ void insert_all(const ProblemData& data, Searcher& searcher, Int order) {
 using namespace tandem;
 
 extern "C" int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher,
-                             int64_t turns, int64_t order) {
+                             tandem_scratch* scratch, int64_t turns, int64_t order) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         Searcher working = searcher_of(*searcher);
-        Scratch scratch(problem, working);
+        scratch->lend_to(problem, working);
         if (order == any_order) {
             anneal_routes(problem, working, turns);
         } else {

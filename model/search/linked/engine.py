@@ -3,6 +3,7 @@
 from model.engine.library import call
 from model.engine.packing import Packed
 from model.search.linked.layout import Linked
+from model.search.route.engine import Scratch, lent
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
@@ -18,9 +19,10 @@ def tie(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked 
 
 
 def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
-                  turns: int) -> None:
+                  turns: int, scratch: Scratch | None = None) -> None:
     """Ruin and recreate `turns` times among linked stops. In place. As `anneal`."""
-    call("tandem_anneal_linked", data, searcher, linked, turns)
+    with lent(scratch, data, searcher) as room:
+        call("tandem_anneal_linked", data, searcher, linked, room, turns)
 
 
 def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
@@ -29,7 +31,8 @@ def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linke
 
     In place. Once the search must end, whoever is not inserted yet is left out.
     """
-    call("tandem_insert_linked", data, searcher, linked, order)
+    with Scratch(data, searcher) as scratch:
+        call("tandem_insert_linked", data, searcher, linked, scratch, order)
 
 
 def write_back(data: ProblemData | Packed, searcher: Searcher | Packed,
