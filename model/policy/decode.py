@@ -2,11 +2,12 @@
 
 import json
 import time
-from collections.abc import Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from itertools import chain, repeat
+from functools import partial
+from itertools import chain
 from pathlib import Path
+from threading import Event
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -16,6 +17,7 @@ from onnxruntime.capi import onnxruntime_pybind11_state as ort_errors
 from model.engine.alarm import Alarm, has_rung
 from model.engine.cores import num_cores
 from model.engine.instance import Instance
+from model.engine.threads import side_by_side
 from model.policy.decision_features import Observation, Rollouts, Scene
 from model.policy.problem_features import Float32Array, Tokens, scales, tokens
 from model.policy.rolling import (
@@ -160,14 +162,14 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
     seeds = iter(np.random.SeedSequence(config.seed).spawn(blocks + len(rounds)))
     routes, found = RoutePool(view.scene.instance), NOTHING
     planning = _Planning(policy, view, deadline, Alarm().setting if alarm is None else alarm)
-    with ThreadPoolExecutor(min(max(map(len, rounds)), num_cores())) as pool:
-        for now in rounds:
-            own = [next(seeds) for _ in now]
-            for rollout in planning.plan(now, own, found, pool):
-                routes.add(rollout.actions)
-                found = min(found, rollout, key=cost_of)
-            if blocks > 1:
-                found = routes.improved(found, np.random.default_rng(next(seeds)), planning.alarm)
+    cores = num_cores()
+    for now in rounds:
+        own = [next(seeds) for _ in now]
+        for rollout in planning.plan(now, own, found, cores):
+            routes.add(rollout.actions)
+            found = min(found, rollout, key=cost_of)
+        if blocks > 1:
+            found = routes.improved(found, np.random.default_rng(next(seeds)), planning.alarm)
     return found
 
 
@@ -215,38 +217,59 @@ class _Planning:
 
     def __init__(self, policy: Policy, view: View, deadline: float | None,
                  alarm: IntArray) -> None:
+        self.policy = policy
+        self.scene = view.scene
         self.alarm = alarm
-        self._policy = policy
+        self._tokens = view.tokens
         self._deadline = deadline
-        self._view = view
         self._memories: dict[int, Float32Array] = {}  # by symmetry
 
     def plan(self, blocks: Sequence[_Block], seeds: Sequence[np.random.SeedSequence],
-             so_far: Rollout, pool: ThreadPoolExecutor) -> list[Rollout]:
+             so_far: Rollout, cores: int) -> list[Rollout]:
         """Return what blocks plan, those that are due, before what they go on from changes."""
+        under_way = [_UnderWay(self, block, np.random.default_rng(seed))
+                     for block, seed in zip(blocks, seeds, strict=True)]
         # All are encoded first: so no core waits at the end while another does both for the last.
-        memories = [pool.submit(self._encode, block) for block in blocks]
-        planned = pool.map(self._plan_block, blocks, memories, seeds, repeat(so_far))
-        return list(chain.from_iterable(planned))
+        tasks: list[Callable[[], list[Rollout]]] = [each.encode for each in under_way]
+        tasks += [partial(each.plan, so_far) for each in under_way]
+        return list(chain.from_iterable(side_by_side(tasks, cores)))
 
-    def _plan_block(self, block: _Block, encoded: Future[Float32Array | None],
-                    seed: np.random.SeedSequence, so_far: Rollout) -> list[Rollout]:
-        memory = encoded.result()
-        if memory is None:
-            return []
-        return _decode_block(self._policy, self._view.scene, memory, block.temperatures,
-                             np.random.default_rng(seed), so_far, self.alarm)
-
-    def _encode(self, block: _Block) -> Float32Array | None:
+    def encoded(self, block: _Block) -> Float32Array | None:
         """Return what the encoder makes of a block's view; None if the block isn't due."""
         is_late = self._deadline is not None and time.perf_counter() >= self._deadline
         if has_rung(self.alarm) or (is_late and not block.is_first):
             return None
         symmetry = block.symmetry
         if symmetry not in self._memories:
-            seen = laid_out(self._view.tokens, symmetry)
-            self._memories[symmetry] = encode(self._policy, seen)
+            self._memories[symmetry] = encode(self.policy, laid_out(self._tokens, symmetry))
         return self._memories[symmetry]
+
+
+class _UnderWay:
+    """A block that is encoded in one thread and planned in one, which may be another."""
+
+    def __init__(self, planning: _Planning, block: _Block, rng: np.random.Generator) -> None:
+        self._planning = planning
+        self._block = block
+        self._rng = rng
+        self._memory: Float32Array | None = None
+        self._is_encoded = Event()
+
+    def encode(self) -> list[Rollout]:
+        """Run the encoder; that is no plan yet."""
+        try:
+            self._memory = self._planning.encoded(self._block)
+        finally:
+            self._is_encoded.set()
+        return []
+
+    def plan(self, so_far: Rollout) -> list[Rollout]:
+        """Return what the block plans once it is encoded, if it was due."""
+        self._is_encoded.wait()
+        if self._memory is None:
+            return []
+        return _decode_block(self._planning.policy, self._planning.scene, self._memory,
+                             self._block.temperatures, self._rng, so_far, self._planning.alarm)
 
 
 def _decode_block(policy: Policy, scene: Scene, memory: Float32Array, temperatures: list[float],
