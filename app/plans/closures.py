@@ -51,9 +51,8 @@ class Closures:
         return list(dict.fromkeys(map(words_of, parts)))
 
     def _altitudes(self, kind: str | None = None) -> list[float]:
-        return sorted({drones.altitude for stated in self._request.fleet
-                       for drones in stated.drone_types
-                       if drones.count and kind in (None, stated.id)})
+        return sorted({flyer.altitude for stated in self._request.fleet
+                       for flyer in stated.flyers if kind in (None, stated.id)})
 
     @property
     def _request(self) -> PlanRequest:

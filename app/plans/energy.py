@@ -18,6 +18,7 @@ def energy_models(problem: Problem) -> list[Data]:
     """Return the numbers of the presets that a problem's drones fly by, once for each type."""
     drones = dict.fromkeys((kind.type_id, drones.id, drones.energy)
                            for kind in problem.vehicle_types for drones in kind.drone_types)
+    drones |= dict.fromkeys((kind.type_id, None, kind.energy) for kind in problem.vehicle_types)
     return [_model(problem, name, drone_type, energy) for name, drone_type, energy in drones
             if energy is not None and energy.preset is not None]
 

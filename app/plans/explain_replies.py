@@ -93,7 +93,7 @@ def placed_reply(bench: Bench, trial: Trial, found: Found | None) -> Data:
     by_drone = place.by == "drone"
     return {
         "vehicle": vehicle_name(problem, route),
-        "by": place.by,
+        "by": "drone" if problem.vehicle_types[place.vehicle.type].flies else place.by,
         "window": window_of(problem.customer_at(bench.node), halt.service_start),
         "position": {
             "trip": place.trip,

@@ -12,7 +12,7 @@ from app.requests.conversion.launches import drones_named
 from app.requests.conversion.leg_origins import LegOrigin
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.winds import Winds
-from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
 
@@ -44,9 +44,9 @@ class Geometry:
             [(float(x), float(y)) for x, y in ground.locations]
             if all(place.location is not None for place in ground.places) else None)
         self._winds = Winds(request)
-        self._detours = {drones.altitude: ground.detours(drones.altitude)
-                         for kind in request.fleet for drones in kind.drone_types
-                         if drones.profile not in self._matrices}
+        self._detours = {flyer.altitude: ground.detours(flyer.altitude)
+                         for kind in request.fleet for flyer in kind.flyers
+                         if flyer.profile not in self._matrices}
         self._roads = RoadLines(roads, {origin.profile for origin in legs if origin.by == "roads"})
 
     def add(self, reply: Data, until: float) -> None:
@@ -65,7 +65,8 @@ class Geometry:
             for trip in route["trips"]:
                 stops = trip["stops"]
                 nodes = [self._nodes[stop["kind"], stop["id"]] for stop in stops]
-                driven = self._driven(nodes, kind.profile, until)
+                driven = (self._flown(nodes, kind, kind, until) if kind.flies
+                          else self._driven(nodes, kind.profile, until))
                 for stop, line in zip(stops[1:], driven, strict=True):
                     stop["geometry"] = line
                 for sortie in trip["sorties"]:
@@ -93,7 +94,7 @@ class Geometry:
         for start, end in pairwise(nodes):
             yield self._line(start, end)
 
-    def _flown(self, nodes: Sequence[int], kind: VehicleTypeInput, drones: DronesInput,
+    def _flown(self, nodes: Sequence[int], kind: VehicleTypeInput, drones: Flyer,
                until: float) -> Iterator[Line]:
         detours = self._detours.get(drones.altitude)
         if detours is None or drones.profile in self._matrices:

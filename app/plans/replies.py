@@ -107,8 +107,13 @@ def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMe
                   if not problem.is_nowhere(stop.node)],
         "sorties": [_sortie(problem, kind, vehicle, sortie, measured)
                     for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)],
-        "energy_wh": energy_wh([sortie.energy for sortie in metrics.sorties]),
+        "energy_wh": energy_wh(_flights(metrics)),
     }
+
+
+def _flights(trip: TripMetrics) -> list[int | None]:
+    """Return what each flight of a trip takes, the vehicle's own first."""
+    return [trip.energy, *(sortie.energy for sortie in trip.sorties)]
 
 
 def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
@@ -218,6 +223,7 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
     """Return a plan in numbers, even if it breaks rules."""
     trips = [trip for route in evaluation.routes for trip in route.trips]
     sorties = [sortie for trip in trips for sortie in trip.sorties]
+    flown = _flown_by_themselves(problem, solution, evaluation)
     served = _served(problem, solution)
     rates = [min(trip.load_rate, MAX_RATE) for trip in trips] or [0.0]
     return {
@@ -229,13 +235,21 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
         "vehicles": len(solution.routes),
         "trips": len(trips),
         "sorties": len(sorties),
-        "distance": whole(sum(trip.distance for trip in trips)),
-        "drone_distance": whole(sum(sortie.distance for sortie in sorties)),
-        "energy_wh": energy_wh([sortie.energy for sortie in sorties]),
+        "distance": whole(sum(trip.distance for trip in trips) - flown),
+        "drone_distance": whole(sum(sortie.distance for sortie in sorties) + flown),
+        "energy_wh": energy_wh([energy for trip in trips for energy in _flights(trip)]),
         "load_rate": {"min": min(rates), "mean": sum(rates) / len(rates), "max": max(rates)},
         "makespan": whole(evaluation.makespan),
         "co2_kg": _co2(problem, solution, evaluation),
     }
+
+
+def _flown_by_themselves(problem: Problem, solution: Solution, evaluation: Evaluation) -> int:
+    """Return how far vehicles fly that do so by themselves, in mm."""
+    return sum([trip.distance for route, metrics in zip(solution.routes, evaluation.routes,
+                                                        strict=True)
+                if 0 <= route.vehicle_type < len(problem.vehicle_types)
+                and problem.vehicle_types[route.vehicle_type].flies for trip in metrics.trips])
 
 
 def _co2(problem: Problem, solution: Solution, evaluation: Evaluation) -> float | None:
@@ -247,7 +261,7 @@ def _co2(problem: Problem, solution: Solution, evaluation: Evaluation) -> float 
     for route, metrics in zip(solution.routes, evaluation.routes, strict=True):
         kind = kinds[route.vehicle_type]
         driven = sum(trip.distance for trip in metrics.trips) / MM_PER_KM
-        flown = energy_wh([sortie.energy for trip in metrics.trips for sortie in trip.sorties])
+        flown = energy_wh([energy for trip in metrics.trips for energy in _flights(trip)])
         total += driven * (kind.co2_kg_per_km or 0.0)
         total += (flown or 0.0) / WH_PER_KWH * (kind.co2_kg_per_kwh or 0.0)
     return money(total)

@@ -9,7 +9,7 @@ import numpy as np
 from app.requests.conversion.places import Place, stands_of
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day
-from app.schemas.drones import DronesInput
+from app.schemas.drones import DronesInput, Flyer
 from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.fields import Location
 from app.schemas.request import (
@@ -90,6 +90,13 @@ class Draft:
         for path, kind in self.vehicle_types():
             for inner, drones in kind.drones_by_path:
                 yield (*path, *inner), drones
+
+    def flyers(self) -> Iterator[tuple[Path, Flyer]]:
+        """Yield what flies, types of drones and of vehicles, with their paths."""
+        yield from self.drone_types()
+        for path, kind in self.vehicle_types():
+            if kind.flies:
+                yield path, kind
 
     def told(self, seconds: float) -> str:
         """Return an instant in words: a time of the plan's day if it has one, beside its seconds.

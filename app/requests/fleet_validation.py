@@ -1,10 +1,12 @@
 """What the schema can't tell of a vehicle type."""
 
+from collections.abc import Sequence
+
 from app.requests.conversion.amounts import counted, decimals_of
 from app.requests.conversion.energy import is_countable
 from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
-from app.schemas.drones import DronesInput
+from app.schemas.drones import Flyer
 from app.schemas.energy import EnergyInput
 from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
 
@@ -55,7 +57,7 @@ def drone_errors(draft: Draft) -> Errors:
 
 def energy_errors(draft: Draft) -> Errors:
     """Say what is wrong with what flying takes."""
-    for path, drones in draft.drone_types():
+    for path, drones in draft.flyers():
         if drones.energy is None:
             continue
         here, energy = (*path, "energy"), drones.energy
@@ -74,7 +76,7 @@ def energy_errors(draft: Draft) -> Errors:
 
 def turnaround_errors(draft: Draft) -> Errors:
     """Say what is wrong with how drones get ready again."""
-    for path, drones in draft.drone_types():
+    for path, drones in draft.flyers():
         turnaround = drones.turnaround
         if turnaround is None or not turnaround.charge_w:
             continue
@@ -89,7 +91,7 @@ def turnaround_errors(draft: Draft) -> Errors:
                            "swap_duration and batteries.")
 
 
-def _is_countable(draft: Draft, drones: DronesInput, energy: EnergyInput) -> bool:
+def _is_countable(draft: Draft, drones: Flyer, energy: EnergyInput) -> bool:
     """Tell whether powers can be counted, or can't be looked at for other errors."""
     customers = [customer for _, customer in draft.known_customers()]
     fleet = [vehicle_type for _, vehicle_type in draft.vehicle_types()]
@@ -101,6 +103,55 @@ def _is_countable(draft: Draft, drones: DronesInput, energy: EnergyInput) -> boo
         return True
     decimals = decimals_of(customers, fleet)
     return is_countable(drones, energy, decimals, [counted(each, decimals) for each in asked])
+
+
+TRUCKS = ("drones", "speed_profile", "start_location", "start_location_index", "max_sorties",
+          "max_airborne", "truck_waits")
+"""Fields of a vehicle type that nothing has which flies by itself."""
+
+FLYING = ("altitude", "endurance", "launch_duration", "recovery_duration", "energy", "turnaround")
+"""Fields that nothing else has."""
+
+
+def flight_errors(draft: Draft) -> Errors:
+    """Say what is stated of vehicles that fly, and can't be, or of others."""
+    for path, kind in draft.vehicle_types():
+        if not kind.flies:
+            for name in _stated(kind, FLYING):
+                yield error_at("ONLY_WHERE_IT_FLIES", (*path, name),
+                               f"The vehicles don't fly: state flies, or leave {name} out.")
+            continue
+        for name in _stated(kind, TRUCKS):
+            yield error_at("NOT_WHERE_IT_FLIES", (*path, name),
+                           f"The vehicles are drones themselves: leave {name} out, or flies.")
+        if kind.end != "depot":
+            yield error_at("NOT_WHERE_IT_FLIES", (*path, "end"),
+                           "Who flies by itself lands at a depot: leave end out.")
+        if kind.turnaround is not None and kind.turnaround.batteries is not None:
+            yield error_at("NOT_WHERE_IT_FLIES", (*path, "turnaround", "batteries"),
+                           "Batteries of vehicles that fly are taken to be enough: leave "
+                           "batteries out.")
+        yield from _closed_depots(draft, path, kind)
+
+
+def _stated(kind: VehicleTypeInput, names: Sequence[str]) -> list[str]:
+    """Return the fields whose values aren't the usual ones."""
+    fields = VehicleTypeInput.model_fields
+    return [name for name in names if getattr(kind, name) != fields[name].default]
+
+
+def _closed_depots(draft: Draft, path: Path, kind: VehicleTypeInput) -> Errors:
+    """Say at which of its depots nothing takes off or lands."""
+    depots = [depot for depot in draft.depots or () if depot is not None]
+    closed = {depot.id for depot in depots if not depot.launch}
+    if kind.depot in closed or (kind.depot is None and depots and depots[0].id in closed):
+        yield error_at("NOT_WHERE_IT_FLIES", (*path, "depot"),
+                       "Nothing takes off there, by launch of the depot: name another, or leave "
+                       "launch out.")
+    for index, name in enumerate(kind.reload_depots):
+        if name in closed:
+            yield error_at("NOT_WHERE_IT_FLIES", (*path, "reload_depots", index),
+                           "Nothing takes off there, by launch of the depot: leave it out.")
 
 
 def speed_errors(draft: Draft) -> Errors:

@@ -11,7 +11,8 @@ from app.requests.customer_validation import (
 )
 from app.requests.draft import Draft, Errors, Path, are_right, error_at, point_errors
 from app.requests.fleet_validation import (
-    depot_errors, drone_errors, energy_errors, shift_errors, speed_errors, turnaround_errors,
+    depot_errors, drone_errors, energy_errors, flight_errors, shift_errors, speed_errors,
+    turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
 from app.requests.wind_validation import wind_errors
@@ -51,6 +52,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *drone_errors(draft),
         *energy_errors(draft),
         *turnaround_errors(draft),
+        *flight_errors(draft),
         *airspace_errors(draft),
         *wind_errors(draft),
         *_policy_errors(draft, policies),

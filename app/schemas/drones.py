@@ -1,6 +1,7 @@
 """The drones of a vehicle type."""
 
-from typing import Annotated, Self
+from collections.abc import Sequence
+from typing import Annotated, Protocol, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
@@ -29,7 +30,7 @@ class TurnaroundInput(Input):
     swap_duration: Duration = Field(
         0.0,
         description="Time to swap the battery in seconds, by which each launch of a trip takes "
-        "longer, but for its first.",
+        "longer, but for its first; of vehicles that fly, the time at the depot between trips.",
     )
     batteries: Count | None = Field(
         None,
@@ -42,6 +43,38 @@ class TurnaroundInput(Input):
         "aboard, full as each trip begins; it needs `energy`, and excludes the other two. 0: every "
         "launch begins with a full battery.",
     )
+
+
+class Flyer(Protocol):
+    """What flies: drones on trucks, or vehicles that fly by themselves."""
+
+    @property
+    def profile(self) -> str:
+        """Entry of `matrices` that holds the flights."""
+
+    @property
+    def capacity(self) -> Sequence[float]:
+        """Largest payload."""
+
+    @property
+    def speed_kmh(self) -> float | None:
+        """Airspeed."""
+
+    @property
+    def altitude(self) -> float:
+        """Metres above ground."""
+
+    @property
+    def max_wind_kmh(self) -> float | None:
+        """Largest gusts in which it may be in the air."""
+
+    @property
+    def energy(self) -> EnergyInput | None:
+        """What flights take."""
+
+    @property
+    def turnaround(self) -> TurnaroundInput | None:
+        """What is needed before the next flight."""
 
 
 class DronesInput(Input):

@@ -21,6 +21,7 @@ EXAMPLES = {
     "smallest": "Two customers, one truck, all else by default",
     "berlin": "Forty places in Berlin, two vans with a drone each, a no-fly area",
     "drones": "Trucks with a drone each, time windows and a shift",
+    "hubs": "Drones that fly from two hubs by themselves, beside a truck",
     "table1": "The paper's hundred customers, four trucks with a drone each",
     "hetero_day": "A heterogeneous fleet on several trips within working hours",
     "city_day": "A city: true addresses, rush hours, a no-fly area, wind",

@@ -4,7 +4,15 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
-from app.schemas.drones import Drones, DronesInput
+from app.schemas.drones import (
+    DEFAULT_ALTITUDE_M,
+    DEFAULT_DRONE_SPEED_KMH,
+    Drones,
+    DronesInput,
+    Flyer,
+    TurnaroundInput,
+)
+from app.schemas.energy import EnergyInput
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
@@ -28,6 +36,9 @@ from app.schemas.limits import MAX_VEHICLES
 from app.schemas.rulebook import RULES
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
+
+FLIGHTS = "drone"
+"""The usual profile of what flies."""
 
 Kilograms = Annotated[float, Field(ge=0, le=1_000_000)]
 
@@ -106,6 +117,11 @@ class VehicleTypeInput(Input):
     """A number of equal trucks, with or without drones."""
 
     id: Name = Field(description="Name of the type, unique in the fleet; vehicles are `<id>-1`, …")
+    flies: bool = Field(
+        False,
+        description="Whether the vehicles are drones that fly from their depot by themselves: legs "
+        "are flights, and whom they serve is served by drone.",
+    )
     depot: Name | None = Field(
         None, description="Depot where trips begin and end. Null: the first depot."
     )
@@ -140,10 +156,14 @@ class VehicleTypeInput(Input):
     costs: CostsInput = Field(CostsInput(), description="What the vehicles cost.")
     speed_kmh: Speed | None = Field(
         None,
-        description=f"Speed in km/h, {DEFAULT_TRUCK_SPEED_KMH:g} by default. Without meaning where "
+        description=f"Speed in km/h, {DEFAULT_TRUCK_SPEED_KMH:g} by default, and "
+        f"{DEFAULT_DRONE_SPEED_KMH:g} where it flies. Without meaning where "
         "the profile has a matrix, except as the base of a speed profile in km/h.",
     )
-    profile: Name = Field("truck", description="Entry of `matrices` that holds the legs.")
+    profile: Name = Field(
+        "truck",
+        description="Entry of `matrices` that holds the legs. Where it flies, `drone` by default.",
+    )
     speed_profile: Annotated[list[SpeedChangeInput], Field(max_length=1000)] = Field(
         [],
         description="Speeds by time of day, in order of `from`. Before the first entry the usual "
@@ -190,6 +210,30 @@ class VehicleTypeInput(Input):
         description="Drones on every truck, or a list of them by type, which are numbered from "
         "the first type on. Null: none.",
     )
+    altitude: Annotated[float, Field(ge=0, le=10_000)] = Field(
+        DEFAULT_ALTITUDE_M,
+        description="Metres above ground at which it flies. Zones that don't reach it are no "
+        "obstacle.",
+    )
+    endurance: Duration | None = Field(
+        None,
+        description="Longest trip of a vehicle that flies, from take-off to landing, in seconds. "
+        "Null: no limit.",
+    )
+    launch_duration: Duration = Field(
+        0.0, description="Time of the launch as each trip begins, where it flies, in seconds."
+    )
+    recovery_duration: Duration = Field(
+        0.0, description="Time of the recovery as each trip ends, where it flies, in seconds."
+    )
+    energy: EnergyInput | None = Field(
+        None,
+        description="What trips of a vehicle that flies take of the battery, beside `endurance`. "
+        "Null: nothing is known.",
+    )
+    turnaround: TurnaroundInput | None = Field(
+        None, description="What a vehicle that flies needs between two trips. Null: nothing."
+    )
     co2_kg_per_km: Kilograms | None = Field(
         None, description="CO2 of the truck per kilometre, for `summary.co2_kg` alone, in kg."
     )
@@ -208,6 +252,25 @@ class VehicleTypeInput(Input):
         if rules and "truck_waits" not in self.model_fields_set:
             object.__setattr__(self, "truck_waits", any(rule.truck_waits for rule in rules))
         return self
+
+    @model_validator(mode="after")
+    def _flies_by_flights(self) -> Self:
+        """Let the legs of who flies be flights unless another profile is stated."""
+        if self.flies and "profile" not in self.model_fields_set:
+            object.__setattr__(self, "profile", FLIGHTS)
+        return self
+
+    @property
+    def max_wind_kmh(self) -> float | None:
+        """Largest gusts in which it may be in the air; None: any."""
+        return None
+
+    @property
+    def flyers(self) -> list[Flyer]:
+        """What flies: the drones of each type that there are, or the vehicle itself."""
+        if self.flies:
+            return [self]
+        return [drones for drones in self.drone_types if drones.count > 0]
 
     @property
     def drones_by_path(self) -> list[tuple[tuple[str | int, ...], DronesInput]]:

@@ -267,6 +267,7 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         longer = kind.max_working_duration + MS_PER_MINUTE
         yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
     yield from _duty_limits(kind, measured, trip)
+    yield from _flight_limits(kind, trip)
     if kind.max_trip_distance is not None:
         slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
         yield ("max_trip_distance", "km", slack,
@@ -294,6 +295,15 @@ def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
         yield "max_airborne", "unit", None, replace(kind, max_airborne=most)
     if kind.truck_waits:
         yield "truck_waits", "rule", None, replace(kind, truck_waits=False)
+
+
+def _flight_limits(kind: VehicleType, trip: TripMetrics | None) -> Iterator[_Changed]:
+    """Yield how long vehicles that fly by themselves may, and what their battery holds."""
+    handling = kind.launch_duration + kind.recovery_duration
+    if kind.endurance < UNLIMITED:
+        slack = None if trip is None else kind.endurance - trip.duration + handling
+        longer = min(kind.endurance + MS_PER_MINUTE, UNLIMITED)
+        yield "endurance", "minute", _in_minutes(slack), replace(kind, endurance=longer)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:

@@ -26,9 +26,20 @@ def drones_of(attempt: Attempt) -> DroneType:
     return drones
 
 
-def name_of(drones: DroneType) -> str:
+def flyer_of(attempt: Attempt) -> DroneType | VehicleType:
+    """Return what flies: the vehicle's drones, or the vehicle itself."""
+    return attempt.vehicle_type if attempt.vehicle_type.flies else drones_of(attempt)
+
+
+def name_of(drones: DroneType | VehicleType) -> str:
     """Say of which type drones are, where several are told apart."""
-    return "" if drones.id is None else f" of {drones.id}"
+    return "" if drones.id is None or isinstance(drones, VehicleType) else f" of {drones.id}"
+
+
+def with_flyer(attempt: Attempt, flyer: DroneType | VehicleType) -> Problem:
+    """Return the problem with other drones, or another vehicle that flies itself."""
+    return with_type(attempt, flyer if isinstance(flyer, VehicleType)
+                     else replace(attempt.vehicle_type, drones=flyer))
 
 
 def with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:

@@ -49,9 +49,13 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
     vehicle_type = problem.vehicle_types[index]
     if time.perf_counter() >= until:
         return _unknown(index, vehicle_type.id)
-    if problem.customer_at(node).served_by == "drone" and vehicle_type.drones is None:
+    served_by = problem.customer_at(node).served_by
+    if vehicle_type.flies and served_by == "truck":
+        message = f"Only a truck may serve it and {vehicle_type.id} flies."
+        return Reason(index, "KIND", message, _remedy_by_other(problem, index, node, "drone"))
+    if served_by == "drone" and vehicle_type.drones is None and not vehicle_type.flies:
         message = f"Only a drone may serve it and {vehicle_type.id} carries none."
-        return Reason(index, "KIND", message, _remedy_by_truck(problem, index, node))
+        return Reason(index, "KIND", message, _remedy_by_other(problem, index, node, "truck"))
     tried = attempts(problem, index, node)
     first = next(tried)
     for attempt in chain((first,), tried):
@@ -153,13 +157,14 @@ def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason
     remedy = None
     if diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations:
         remedy = diagnosis.remedy
-    elif attempt.customer.served_by == "drone":
-        remedy = _remedy_by_truck(problem, index, node)
+    elif attempt.customer.served_by == "drone" and not attempt.vehicle_type.flies:
+        remedy = _remedy_by_other(problem, index, node, "truck")
     return Reason(index, diagnosis.code, diagnosis.message, remedy)
 
 
-def _remedy_by_truck(problem: Problem, index: int, node: int) -> str | None:
+def _remedy_by_other(problem: Problem, index: int, node: int, means: str) -> str | None:
+    """Return that a truck, or a drone, should be allowed, if that suffices."""
     small = small_problem(problem, index, [node])
     customer = replace(small.customers[0], served_by="either")
     attempt = next(try_truck(replace(small, customers=(customer,))))
-    return None if attempt.codes else "fits if a truck may serve it"
+    return None if attempt.codes else f"fits if a {means} may serve it"

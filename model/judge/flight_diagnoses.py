@@ -6,9 +6,11 @@ from math import ceil
 
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.diagnosis import (
-    Diagnosis, drones_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_type,
+    Diagnosis, drones_of, flyer_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_flyer,
+    with_type,
 )
 from model.judge.energy import sortie_energy
+from model.judge.flown_trips import airborne, trip_energy
 from model.judge.rules import airborne_duration, decimal, farthest, watt_hours
 from model.judge.trial import Attempt
 from model.problem import (
@@ -26,9 +28,10 @@ def unreachable_broken(attempt: Attempt) -> Diagnosis:
 
 def endurance_broken(attempt: Attempt) -> Diagnosis:
     """Say by how much a flight lasts too long."""
-    drones, trip = drones_of(attempt), attempt.solution.routes[0].trips[0]
-    airborne = airborne_duration(attempt.problem, drones, trip, trip.sorties[0])
-    excess = up_to_tenth(airborne - drones.endurance, MS_PER_MINUTE)
+    drones, trip = flyer_of(attempt), attempt.solution.routes[0].trips[0]
+    lasted = (airborne(trip) if isinstance(drones, VehicleType)
+              else airborne_duration(attempt.problem, drones, trip, trip.sorties[0]))
+    excess = up_to_tenth(lasted - drones.endurance, MS_PER_MINUTE)
     enough = drones.endurance + excess
     changed = replace(drones, endurance=min(enough, UNLIMITED))
     return Diagnosis(
@@ -36,7 +39,7 @@ def endurance_broken(attempt: Attempt) -> Diagnosis:
         f"A flight from the depot and back lasts {in_minutes(excess)} more than the endurance"
         f"{name_of(drones)}.",
         if_stated(f"fits if endurance{name_of(drones)} were {in_minutes(excess)} longer", enough),
-        with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+        with_flyer(attempt, changed),
     )
 
 
@@ -70,13 +73,17 @@ def wind_broken(attempt: Attempt) -> Diagnosis:
 
 def energy_broken(attempt: Attempt) -> Diagnosis:
     """Say what a battery lacks."""
-    drones, trip = drones_of(attempt), attempt.solution.routes[0].trips[0]
+    drones, trip = flyer_of(attempt), attempt.solution.routes[0].trips[0]
     energy = drones.energy
     if energy is None:
         raise ValueError("drone energy: None is not allowed")
-    sortie = trip.sorties[0]
-    taken = sortie_energy(attempt.problem, drones, energy, trip, sortie)
-    heavier = energy.per_wh * (sortie.recovery_start - sortie.launch_time)
+    if isinstance(drones, VehicleType):
+        taken, lasted = trip_energy(attempt.problem, drones, trip) or 0, airborne(trip)
+    else:
+        sortie = trip.sorties[0]
+        taken = sortie_energy(attempt.problem, drones, energy, trip, sortie)
+        lasted = sortie.recovery_start - sortie.launch_time
+    heavier = energy.per_wh * lasted
     tenths = _missing_tenths(energy, taken, heavier)
     larger = None if tenths is None else _with_battery_more(energy, tenths / 10)
     largest = MAX_BATTERY * energy.usable_share * MICROJOULES_PER_WH
@@ -87,7 +94,7 @@ def energy_broken(attempt: Attempt) -> Diagnosis:
         f"{watt_hours(energy.available)} may be taken.",
         f"fits with a battery{name_of(drones)} of {decimal(tenths, 1)} Wh more"
         if tenths is not None and larger is not None and larger.available <= largest else None,
-        with_type(attempt, replace(attempt.vehicle_type, drones=changed)),
+        with_flyer(attempt, changed),
     )
 
 

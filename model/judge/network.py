@@ -227,5 +227,6 @@ def network_of(problem: Problem, kind: int, customers: IntArray) -> Network:
 def may_stop(problem: Problem, kind: int, node: int) -> bool:
     """Tell whether trucks of a type may serve a customer, as far as it is about who comes."""
     customer = problem.customer_at(node)
-    return (customer.served_by != "drone" and problem.allows(kind, node)
+    barred = "truck" if problem.vehicle_types[kind].flies else "drone"
+    return (customer.served_by != barred and problem.allows(kind, node)
             and customer.skills <= problem.vehicle_types[kind].skills)

@@ -88,7 +88,7 @@ def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:
     """Yield trips by a type that might serve a customer, as long as there is hope."""
     customer = problem.customer_at(node)
     small = small_problem(problem, kind, [node])
-    if customer.served_by != "drone":
+    if customer.served_by != ("truck" if small.vehicle_types[0].flies else "drone"):
         for attempt in try_truck(small):
             yield attempt
             if attempt.codes & HOPELESS:
@@ -131,7 +131,7 @@ def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
     outward, homeward = duration.item(0, node), duration.item(node, end)
     earliest = max(vehicle_type.earliest, customer.release_time)
     setup = problem.setup_between(0, node)
-    start = max(earliest, leg_start(opens - setup, outward, profile))
+    start = max(earliest, leg_start(opens - setup - vehicle_type.launch_duration, outward, profile))
     first = _judge(problem, TripDecision((0, node, end), start=start))
     yield first
     if profile is None or first.codes != {"WORKING_DURATION"}:

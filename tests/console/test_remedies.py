@@ -54,6 +54,7 @@ PROBLEMS = {
         "turnaround": {"batteries": 0}}),
     "pick up at any time": problem([{"demand": [0], "pickup": [5]}], pickups="last"),
     "a truck may serve": problem([{"served_by": "drone"}]),
+    "a drone may serve": problem([{"served_by": "truck"}], flies=True),
 }
 
 

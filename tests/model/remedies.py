@@ -112,5 +112,6 @@ ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {
         customer, max_time_aboard=(customer.max_time_aboard or 0) + _units(text, MINUTE)),
     "served if its unassigned_cost were above (.+)": lambda customer, text: replace(
         customer, unassigned_cost=float(text) + 0.01),
-    "fits if a truck may serve (it)": lambda customer, _: replace(customer, served_by="either"),
+    "fits if a (?:truck|drone) may serve (it)": lambda customer, _: replace(
+        customer, served_by="either"),
 }

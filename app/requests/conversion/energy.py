@@ -6,7 +6,7 @@ from math import ceil
 from app.requests.conversion.amounts import counted
 from app.requests.conversion.powers import Curve, climb_of, powers_of
 from app.requests.conversion.units import thousandths
-from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, Flyer
 from app.schemas.energy import EnergyInput
 from model.problem import MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
 from model.problem.energy import MAX_RISE
@@ -14,7 +14,7 @@ from model.problem.energy import MAX_RISE
 MILLIWATTS = 1000.0
 
 
-def climb_duration(drones: DronesInput) -> int:
+def climb_duration(drones: Flyer) -> int:
     """Return how long climb and descent of a leg take together in ms."""
     if drones.energy is None:
         return 0
@@ -22,7 +22,7 @@ def climb_duration(drones: DronesInput) -> int:
     return thousandths(climb.up_seconds) + thousandths(climb.down_seconds)
 
 
-def to_energy(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
+def to_energy(drones: Flyer, stated: EnergyInput, decimals: Sequence[int],
               amounts: Collection[Sequence[int]]) -> Energy:
     """Convert what is stated of a drone's energy; `amounts` are delivered and picked up."""
     dimension, speed = stated.weight_dimension, drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
@@ -81,7 +81,7 @@ def _points(most: int, capacity: int, weights: set[int]) -> tuple[int, ...]:
     return tuple(sorted(points))
 
 
-def is_countable(drones: DronesInput, stated: EnergyInput, decimals: Sequence[int],
+def is_countable(drones: Flyer, stated: EnergyInput, decimals: Sequence[int],
                  amounts: Collection[Sequence[int]]) -> bool:
     """Tell whether what flying takes with the most aboard can be counted."""
     try:

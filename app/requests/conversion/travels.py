@@ -18,7 +18,7 @@ from app.requests.conversion.road_legs import RoadLegs, road_legs
 from app.requests.conversion.units import thousandths
 from app.requests.conversion.winds import Winds
 from app.requests.conversion.work import COMPUTED, legs_seconds
-from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
 from app.schemas.request import MatrixInput, RoadsInput
 from app.schemas.rows import Row
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
@@ -47,6 +47,7 @@ class _Key(NamedTuple):
     estimated_kmh: float = 0.0  # where roads may not be known
     altitude: float = 0.0  # which matters where there are zones
     winds: tuple[Breeze, ...] = ()  # the worst of which counts; (): the steady one
+    tabled: bool = False  # never computed where legs are looked up
 
 
 STRAIGHT = _Key("drive", "", DEFAULT_DRONE_SPEED_KMH)
@@ -59,6 +60,17 @@ them; and they take 50 bytes for each of places squared, and way to travel."""
 
 SECONDS_PER_METRE = 3.6
 """Seconds that a metre takes at one km/h."""
+
+
+def _all_flyers(kind: VehicleTypeInput) -> list[Flyer]:
+    """Return what flies, drones of which there are none among it."""
+    return [*kind.drone_types, *(kind.flyers if kind.flies else ())]
+
+
+def _is_handled(flyer: Flyer) -> bool:
+    """Tell whether legs to depots and from there are longer than others, in the engine's tables."""
+    return isinstance(flyer, VehicleTypeInput) and (
+        flyer.launch_duration + flyer.recovery_duration > 0)
 
 
 class Travels:
@@ -87,12 +99,11 @@ class Travels:
         """
         request = self._request
         sets_up = any(customer.setup_duration for customer in request.customers)
-        flown = {self._flying(kind, drones) for kind in request.fleet
-                 for drones in kind.drone_types}
+        flown = {self._flying(kind, each) for kind in request.fleet for each in _all_flyers(kind)}
         driven = len(self._stated(self._keys() - flown))
         flown = self._stated(flown)
         if on_roads and self._ground.is_geographic and request.roads != "none":
-            driven = max(driven, len({kind.profile for kind in request.fleet}))
+            driven = max(driven, len({kind.profile for kind in request.fleet if not kind.flies}))
         return driven + len(flown) + (len(flown) if sets_up else 0)
 
     def expect_legs(self) -> None:
@@ -138,10 +149,10 @@ class Travels:
     def origins(self) -> tuple[LegOrigin, ...]:
         """Return what the legs of each profile are made of, trucks' first."""
         fleet = self._request.fleet
-        driven = {kind.profile: self._origin(kind.profile) for kind in fleet}
-        flown = {drones.profile: LegOrigin(
-                     drones.profile, "flight" if self._matrix(drones.profile) is None else "matrix")
-                 for kind in fleet for drones in kind.drone_types if drones.count > 0}
+        driven = {kind.profile: self._origin(kind.profile) for kind in fleet if not kind.flies}
+        flown = {flyer.profile: LegOrigin(
+                     flyer.profile, "flight" if self._matrix(flyer.profile) is None else "matrix")
+                 for kind in fleet for flyer in kind.flyers}
         return (*driven.values(), *(origin for origin in flown.values()
                                     if origin not in driven.values()))
 
@@ -186,7 +197,7 @@ class Travels:
         measured = {STRAIGHT for kind in fleet for drones in kind.drone_types
                     if drones.max_range is not None}
         return ({self._driving(kind)[0] for kind in fleet} | measured
-                | {self._flying(kind, drones) for kind in fleet for drones in kind.drone_types})
+                | {self._flying(kind, each) for kind in fleet for each in _all_flyers(kind)})
 
     def _stated(self, keys: set[_Key]) -> set[_Key]:
         """Return those of which there are matrices."""
@@ -194,7 +205,7 @@ class Travels:
 
     def _is_computed(self, key: _Key) -> bool:
         """Tell whether legs are computed where they are looked up."""
-        return (key.means == "drive" and len(self._places) > COMPUTED_FROM
+        return (key.means == "drive" and not key.tabled and len(self._places) > COMPUTED_FROM
                 and fits(self._points.longest(), key.speed, key.climb))
 
     @cached_property
@@ -206,6 +217,8 @@ class Travels:
         return replace(points, at=np.insert(points.at, self._nowhere, np.nan, axis=0))
 
     def _driving(self, vehicle_type: VehicleTypeInput) -> tuple[_Key, SpeedProfile | None]:
+        if vehicle_type.flies:
+            return self._flying(vehicle_type, vehicle_type), None
         matrix = self._matrix(vehicle_type.profile)
         usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
         on_roads = matrix is None and self._has_roads(vehicle_type.profile)
@@ -225,7 +238,7 @@ class Travels:
         fastest, profile = speed_profile(scale, changes)
         return key_at(fastest), profile
 
-    def _flying(self, kind: VehicleTypeInput, drones: DronesInput) -> _Key:
+    def _flying(self, kind: VehicleTypeInput, drones: Flyer) -> _Key:
         winds = self.winds.flown(kind, drones)
         blows = any(speed for speed, _ in winds or self.winds.steady)
         speed, climb = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH, climb_duration(drones)
@@ -236,7 +249,7 @@ class Travels:
         else:
             altitude = drones.altitude if self._ground.zones else 0.0
             key = _Key("flight", "", speed, climb, altitude=altitude, winds=winds)
-        return key._replace(flown=self._nowhere is not None)
+        return key._replace(flown=self._nowhere is not None, tabled=_is_handled(drones))
 
     def _driving_at(self, profile: str, speed: float) -> _Key:
         return (_Key("drive", "", speed) if self._matrix(profile) is None

@@ -1,6 +1,7 @@
 """`VehicleTypeInput` -> `VehicleType`, with its drones."""
 
 from collections.abc import Collection, Sequence
+from dataclasses import replace
 
 from app.requests.conversion.amounts import counted
 from app.requests.conversion.energy import to_energy
@@ -21,7 +22,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
     shift = stated.shift
     drones = [_drones(stated, each, travels, decimals, amounts) for each in stated.drone_types
               if each.count > 0]
-    return VehicleType(
+    kind = VehicleType(
         id=stated.id,
         count=stated.count,
         capacity=counted(stated.capacity, decimals),
@@ -54,6 +55,21 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
     )
+    return _flying(kind, stated, decimals, amounts) if stated.flies else kind
+
+
+def _flying(kind: VehicleType, stated: VehicleTypeInput, decimals: Sequence[int],
+            amounts: Collection[Sequence[int]]) -> VehicleType:
+    """Return vehicles that fly by themselves; batteries are swapped while they reload."""
+    turnaround = stated.turnaround or TurnaroundInput()
+    return replace(
+        kind, flies=True,
+        endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
+        launch_duration=thousandths(stated.launch_duration),
+        recovery_duration=thousandths(stated.recovery_duration),
+        reload_duration=kind.reload_duration + thousandths(turnaround.swap_duration),
+        energy=(None if stated.energy is None
+                else to_energy(stated, stated.energy, decimals, amounts)))
 
 
 def _overtime(stated: OvertimeInput | None) -> Overtime | None:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from app.requests.conversion.units import thousandths
 from app.schemas.day import Day
-from app.schemas.drones import DronesInput
+from app.schemas.drones import DronesInput, Flyer
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
 from app.schemas.wind import ForecastInput, OpenMeteoInput, Wind, WindInput
@@ -39,7 +39,7 @@ class Winds:
         """The only wind, if it is steady."""
         return tuple(hour.breeze for hour in self.hours) if self.is_steady else ()
 
-    def flown(self, kind: VehicleTypeInput, drones: DronesInput) -> tuple[Breeze, ...]:
+    def flown(self, kind: VehicleTypeInput, drones: Flyer) -> tuple[Breeze, ...]:
         """Return the winds of all hours of a shift in which drones may fly, if there are any.
 
         None of a steady one, which a request tells by itself.
@@ -78,7 +78,7 @@ class Winds:
                 yield hour
 
 
-def _is_storm(hour: Hour, drones: DronesInput) -> bool:
+def _is_storm(hour: Hour, drones: Flyer) -> bool:
     return drones.max_wind_kmh is not None and hour.strongest_kmh > drones.max_wind_kmh
 
 

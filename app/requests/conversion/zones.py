@@ -35,7 +35,7 @@ def span_of(request: PlanRequest) -> Span | None:
     """Return from when until when vehicles with drones work; None: that isn't known."""
     day = request.day
     shifts = [(kind.shift.earliest, _latest(kind)) for kind in request.fleet
-              if any(drones.count for drones in kind.drone_types)]
+              if kind.flyers]
     if day is None or not shifts:
         return None
     latest = [end for _, end in shifts]

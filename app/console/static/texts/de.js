@@ -523,6 +523,7 @@ export default {
     max_working_duration: 'Die längste Arbeitszeit',
     max_trip_distance: 'Die längste Fahrt',
     drones_endurance: 'Die Flugdauer',
+    endurance: 'Die Flugdauer',
     drones_max_range: 'Die Entfernung zu Kunden',
     drones_max_wind_kmh: 'Der stärkste Wind',
     drones_turnaround_batteries: 'Die Zahl der Akkus',
@@ -907,6 +908,7 @@ export default {
     energy: 'Energie',
     factor: 'Faktor',
     fixed: 'Fest',
+    flies: 'Fliegt selbst',
     forbidden: 'Verboten',
     from: 'Ab',
     geometry: 'Linien',
@@ -1110,6 +1112,7 @@ export default {
     },
     VehicleTypeInput: {
       id: 'Name des Typs; seine Fahrzeuge heißen danach und nach einer Nummer.',
+      flies: 'Ob es Drohnen sind, die selbst vom Depot fliegen, ohne Fahrzeug.',
       depot: 'Wo Fahrten beginnen und enden. Leer: das erste Depot.',
       start_location: 'Wo die Fahrzeuge den Tag beladen beginnen. Leer: am Depot.',
       start_location_index:
@@ -1146,6 +1149,12 @@ export default {
       reload_duration: 'Zeit am Depot zwischen zwei Fahrten.',
       skills: 'Was die Fahrzeuge und ihre Drohnen können, etwa Hebebühne oder Kühlung.',
       drones: 'Drohnen auf jedem Fahrzeug, einer Art oder mehrerer. Leer: keine.',
+      altitude: 'Wie hoch fliegt, was selbst fliegt, in Metern über Grund.',
+      endurance: 'Längste Fahrt dessen, was selbst fliegt, vom Abheben an. Leer: ohne Grenze.',
+      launch_duration: 'Startzeit dessen, was selbst fliegt, zu Beginn jeder Fahrt.',
+      recovery_duration: 'Landezeit dessen, was selbst fliegt, am Ende jeder Fahrt.',
+      energy: 'Was Fahrten dessen, was selbst fliegt, dem Akku nehmen. Leer: nicht bekannt.',
+      turnaround: 'Was zwischen zwei Fahrten braucht, was selbst fliegt. Leer: nichts.',
       co2_kg_per_km:
         'CO₂ des Fahrzeugs je Kilometer, in kg; steht unter „Kosten“, geplant wird nicht danach.',
       co2_kg_per_kwh:
@@ -1378,6 +1387,8 @@ export default {
     WIND_HOURS: 'Die Stunden des Winds passen nicht zusammen.',
     WIND_ORDER: 'Die Stunden des Winds sind nicht in der Reihenfolge.',
     SWAP_OR_CHARGE: 'Geben Sie Akkuwechsel an oder Laden, nicht beides.',
+    NOT_WHERE_IT_FLIES: 'Fahrzeuge, die selbst fliegen, haben so etwas nicht.',
+    ONLY_WHERE_IT_FLIES: 'So etwas haben nur Fahrzeuge, die selbst fliegen.',
     TOO_MANY_CORNERS: 'Die Flugverbotszonen haben zu viele Ecken.',
     POLYGON_CROSSES_ITSELF: 'Die Grenze dieser Zone kreuzt sich selbst.',
     POLYGON_WITHOUT_AREA: 'Diese Zone hat keine Fläche.',
@@ -1881,6 +1892,7 @@ export default {
     carried: 'passt, wenn {{name}} 1 Akku mitführte',
     works: 'passt, wenn {{name}} {{time}} länger arbeiten dürfte',
     truck: 'passt, wenn ein Fahrzeug ihn bedienen darf',
+    drone: 'passt, wenn eine Drohne ihn bedienen darf',
   },
   legend: {
     title: 'Legende',

@@ -509,6 +509,7 @@ export default {
     max_working_duration: 'The longest working duration',
     max_trip_distance: 'The longest trip',
     drones_endurance: 'The endurance',
+    endurance: 'The endurance',
     drones_max_range: 'The distance to customers',
     drones_max_wind_kmh: 'The strongest wind',
     drones_turnaround_batteries: 'The number of batteries',
@@ -889,6 +890,7 @@ export default {
     energy: 'Energy',
     factor: 'Factor',
     fixed: 'Fixed',
+    flies: 'Flies',
     forbidden: 'Forbidden',
     from: 'From',
     geometry: 'Geometry',
@@ -1093,6 +1095,8 @@ export default {
     },
     VehicleTypeInput: {
       id: "The type's name; its vehicles are called by it and a number.",
+      flies:
+        'Whether these are drones that fly from the depot by themselves, without a truck.',
       depot: 'Where trips begin and end. Empty: the first depot.',
       start_location: 'Where the vehicles begin the day, loaded. Empty: at the depot.',
       start_location_index:
@@ -1124,6 +1128,12 @@ export default {
       reload_duration: 'Time at the depot between two trips.',
       skills: 'What the vehicles and their drones can do, such as a lift or cooling.',
       drones: 'Drones on every truck, of one kind or of several. Empty: none.',
+      altitude: 'How high vehicles fly that do so, in metres above ground.',
+      endurance: 'Longest trip of one that flies, from take-off to landing. Empty: no limit.',
+      launch_duration: 'Time to launch one that flies, as each trip begins.',
+      recovery_duration: 'Time to recover one that flies, as each trip ends.',
+      energy: 'What trips of one that flies take of its battery. Empty: not known.',
+      turnaround: 'What one that flies needs between two trips. Empty: nothing.',
       co2_kg_per_km: 'CO2 of the truck per kilometre, in kg; told in Costs, not planned by.',
       co2_kg_per_kwh:
         "CO2 of the drones' electricity per kWh, in kg; told in Costs, not planned by.",
@@ -1345,6 +1355,8 @@ export default {
     WIND_HOURS: 'The hours of the wind don’t fit together.',
     WIND_ORDER: 'The hours of the wind are not in order.',
     SWAP_OR_CHARGE: 'State swaps of batteries or charging, not both.',
+    NOT_WHERE_IT_FLIES: 'Vehicles that fly by themselves have no such thing.',
+    ONLY_WHERE_IT_FLIES: 'Only vehicles that fly by themselves have such a thing.',
     TOO_MANY_CORNERS: 'The no-fly areas have too many corners.',
     POLYGON_CROSSES_ITSELF: 'The border of this area crosses itself.',
     POLYGON_WITHOUT_AREA: 'This area has no extent.',
@@ -1825,6 +1837,7 @@ export default {
     carried: 'fits if {{name}} carried 1 battery',
     works: 'fits if {{name}} could work {{time}} longer',
     truck: 'fits if a truck may serve it',
+    drone: 'fits if a drone may serve it',
   },
   legend: {
     title: 'Legend',

@@ -129,7 +129,7 @@ const CHANGES = [
       add(request, [...type, 'max_working_duration'], numberOf(more) * SECONDS_PER_MINUTE),
   ],
   [
-    /^fits if a truck may serve it$/,
+    /^fits if a (?:truck|drone) may serve it$/,
     (request, { customer }) => setIn(request, [...customer, 'served_by'], 'either'),
   ],
 ];
@@ -161,7 +161,8 @@ function allowLaunches(request, _, id) {
 
 /** Return where the drones that a remedy names are stated. */
 function dronesAt(request, type, id) {
-  const { drones } = getIn(request, type);
+  const { drones, flies } = getIn(request, type);
+  if (flies) return type;
   const place = Array.isArray(drones) ? [drones.findIndex((each) => each.id === id)] : [];
   return [...type, 'drones', ...place];
 }

@@ -10,6 +10,7 @@ const NAME = '(?<name>.+)';
 /** How the service says remedies, the first that fits; what they are called in the texts. */
 const SAID = [
   ['truck', 'fits if a truck may serve it'],
+  ['drone', 'fits if a drone may serve it'],
   ['mayServe', `fits if ${NAME} may serve it`],
   ['vehicle', 'fits with one more vehicle'],
   ['trip', `fits if ${NAME} could make another trip`],

@@ -1,0 +1,167 @@
+"""Vehicles that fly from depots by themselves, over HTTP."""
+
+from typing import Any
+
+import httpx
+import pytest
+from tests.app.plans.asking import planned
+
+Request = dict[str, Any]
+
+ENERGY = {"battery_wh": 100, "reserve": 0, "power": {"cruise_w": 200, "cruise_w_per_kg": 20}}
+
+
+def by_air(request: Request, **stated: object) -> Request:
+    """Return a request all of whose customers drones of the depot serve."""
+    request["options"] = {"search_iterations": 300}
+    kind = request["fleet"][0]
+    kind |= {"flies": True, "speed_kmh": 60, "max_trips": 10, "launch_duration": 20,
+             "recovery_duration": 10, **stated}
+    return request
+
+
+def searched(client: httpx.Client, searching: httpx.Client, request: Request) -> Request:
+    """Return the plan that a search makes of a service's first one."""
+    plan = planned(client, request)
+    return planned(searching, request | {"replan": {"plan": plan}})
+
+
+def trips_of(plan: Request) -> list[Request]:
+    """Return all trips."""
+    return [trip for route in plan["routes"] for trip in route["trips"]]
+
+
+def is_feasible(client: httpx.Client, request: Request, plan: Request) -> bool:
+    """Tell whether the judge finds nothing wrong with a plan that was sent back."""
+    answer = client.post("/check", json={"problem": request, "plan": plan}).json()
+    return bool(answer["feasible"])
+
+
+def test_drones_fly_from_the_depot(client: httpx.Client, smallest: Request) -> None:
+    for customer in smallest["customers"]:
+        customer["served_by"] = "drone"
+    request = by_air(smallest, energy=ENERGY)
+    plan = planned(client, request)
+    assert plan["status"] == "complete"
+    for trip in trips_of(plan):
+        first, *_, last = trip["stops"]
+        assert first["departure"] - first["arrival"] == 20
+        assert last["departure"] - last["arrival"] == 10
+        assert 0 < trip["energy_wh"] <= 100
+    summary = plan["summary"]
+    assert summary["distance"] == 0
+    assert summary["drone_distance"] == pytest.approx(
+        sum(trip["distance"] for trip in trips_of(plan)))
+    assert summary["energy_wh"] == pytest.approx(
+        sum(trip["energy_wh"] for trip in trips_of(plan)))
+    assert is_feasible(client, request, plan)
+
+
+def test_trips_end_within_endurance(client: httpx.Client, searching: httpx.Client,
+                                    smallest: Request) -> None:
+    whole, = trips_of(planned(client, by_air(smallest)))
+    limit = whole["duration"] - 31
+    request = by_air(smallest, endurance=limit)
+    plan = searched(client, searching, request)
+    assert all(trip["duration"] - 30 <= limit for trip in trips_of(plan))
+    assert len(trips_of(plan)) > 1 or plan["unassigned"]
+    assert is_feasible(searching, request, plan)
+
+
+def test_who_may_not_be_served_by_air_is_told_so(client: httpx.Client, smallest: Request) -> None:
+    smallest["customers"][0]["served_by"] = "truck"
+    plan = planned(client, by_air(smallest))
+    left_out, = plan["unassigned"]
+    reason, = left_out["reasons"]
+    assert reason["code"] == "KIND"
+    assert reason["remedy"] == "fits if a drone may serve it"
+
+
+@pytest.mark.parametrize(("limit", "remedy"), [
+    ({"endurance": 60}, "fits if endurance were"),
+    ({"energy": {**ENERGY, "battery_wh": 0.5}}, "fits with a battery of")])
+def test_who_is_too_far_away_is_told_what_would_help(
+        client: httpx.Client, smallest: Request, limit: Request, remedy: str) -> None:
+    plan = planned(client, by_air(smallest, **limit))
+    assert plan["unassigned"]
+    for left_out in plan["unassigned"]:
+        reason, = left_out["reasons"]
+        assert reason["code"] == "RANGE"
+        assert reason["remedy"].startswith(remedy)
+
+
+def test_batteries_are_swapped_or_charged_between_trips(
+        client: httpx.Client, searching: httpx.Client, smallest: Request) -> None:
+    one_each = {"max_stops": 1, "energy": ENERGY, "count": 1}
+    request = by_air(smallest, **one_each, turnaround={"swap_duration": 300})
+    swapped = searched(client, searching, request)
+    first, second = trips_of(swapped)[:2]
+    assert second["stops"][0]["arrival"] - first["stops"][-1]["departure"] >= 300
+    most = max(trip["energy_wh"] for trip in trips_of(swapped))
+    one_each["energy"] = {**ENERGY, "battery_wh": most + 0.01}
+    request = by_air(smallest, **one_each, turnaround={"charge_w": 50})
+    charged = searched(client, searching, request)
+    first, second = trips_of(charged)[:2]
+    missing = first["energy_wh"] + second["energy_wh"] - most - 0.01
+    rested = second["stops"][0]["arrival"] - first["stops"][-1]["departure"]
+    assert rested >= missing / 50 * 3600 - 0.01
+    assert is_feasible(searching, request, charged)
+
+
+@pytest.mark.parametrize(("stated", "field"), [
+    ({"drones": {"count": 1, "capacity": [1]}}, "drones"),
+    ({"end": "open"}, "end"),
+    ({"max_sorties": 2}, "max_sorties"),
+    ({"turnaround": {"batteries": 3}}, "turnaround.batteries"),
+    ({"speed_profile": [{"from": 0, "factor": 0.5}]}, "speed_profile")])
+def test_what_only_trucks_have_is_refused(client: httpx.Client, smallest: Request,
+                                          stated: Request, field: str) -> None:
+    answer = client.post("/plan", json=by_air(smallest, **stated))
+    assert answer.status_code == 422
+    error, = answer.json()["errors"]
+    assert (error["code"], error["path"]) == ("NOT_WHERE_IT_FLIES", f"$.fleet[0].{field}")
+
+
+def test_what_only_fliers_have_is_refused_of_trucks(client: httpx.Client,
+                                                    smallest: Request) -> None:
+    smallest["fleet"][0]["endurance"] = 600
+    answer = client.post("/plan", json=smallest)
+    assert answer.status_code == 422
+    error, = answer.json()["errors"]
+    assert error["code"] == "ONLY_WHERE_IT_FLIES"
+
+
+def test_no_depot_may_forbid_that_its_drones_take_off(client: httpx.Client,
+                                                      smallest: Request) -> None:
+    smallest["depots"][0]["launch"] = False
+    answer = client.post("/plan", json=by_air(smallest))
+    assert answer.status_code == 422
+    error, = answer.json()["errors"]
+    assert error["path"] == "$.fleet[0].depot"
+
+
+def test_drones_fly_around_areas(client: httpx.Client, smallest: Request) -> None:
+    request = by_air(smallest)
+    straight = planned(client, request)["summary"]["drone_distance"]
+    places = [place["location"] for place in (*request["depots"], *request["customers"])]
+    (x, y), (to_x, to_y) = places[0], places[1]
+    middle, step = ((x + to_x) / 2, (y + to_y) / 2), abs(to_x - x) / 20 + abs(to_y - y) / 20
+    ring = [[middle[0] + step * dx, middle[1] + step * dy]
+            for dx, dy in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    request["airspace"] = {"no_fly": [ring]}
+    around = planned(client, request)
+    assert around["summary"]["drone_distance"] > straight
+    assert is_feasible(client, request, around)
+
+
+def test_trucks_and_drones_share_the_customers(client: httpx.Client, smallest: Request) -> None:
+    truck = {**smallest["fleet"][0], "id": "van"}
+    request = by_air(smallest)
+    request["fleet"].append(truck)
+    request["customers"][0]["served_by"] = "truck"
+    request["customers"][1]["served_by"] = "drone"
+    plan = planned(client, request)
+    served = {stop["id"]: route["type"] for route in plan["routes"] for trip in route["trips"]
+              for stop in trip["stops"] if stop["kind"] == "customer"}
+    assert served[request["customers"][0]["id"]] == "van"
+    assert served[request["customers"][1]["id"]] != "van"
