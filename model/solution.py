@@ -18,6 +18,7 @@ class Stop:
     service_start: int  # equals `arrival` at depots
     departure: int
     setup: int = field(default=0, repr=False, compare=False)  # from arrival; follows from places
+    is_launch_site: bool = field(default=False, repr=False, compare=False)  # follows from `node`
 
     @property
     def ready(self) -> int:
@@ -61,6 +62,11 @@ class Trip:
     stops: tuple[Stop, ...]
     sorties: tuple[Sortie, ...] = ()
 
+    @property
+    def customer_stops(self) -> list[Stop]:
+        """The stops at which the truck serves somebody."""
+        return [stop for stop in self.stops[1:-1] if not stop.is_launch_site]
+
 
 @dataclass(frozen=True, slots=True)
 class Route:
@@ -99,7 +105,7 @@ def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
     """Yield routes with other numbers, as `renumbered` does."""
     def trip(old: Trip) -> Trip:
         return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
-                               stop.setup) for stop in old.stops),
+                               stop.setup, stop.is_launch_site) for stop in old.stops),
                     tuple(sortie(each) for each in old.sorties))
 
     def sortie(old: Sortie) -> Sortie:

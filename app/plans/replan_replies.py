@@ -52,7 +52,7 @@ def _parcels(problem: Problem, replanning: Replanning, solution: Solution) -> li
 
 
 def _customers(trip: Trip) -> Iterator[int]:
-    yield from (stop.node for stop in trip.stops[1:-1])
+    yield from (stop.node for stop in trip.customer_stops)
     for sortie in trip.sorties:
         yield from (visit.node for visit in sortie.visits)
 

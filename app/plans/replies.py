@@ -270,7 +270,7 @@ def _co2(problem: Problem, solution: Solution, evaluation: Evaluation) -> float 
 def _served(problem: Problem, solution: Solution) -> set[int]:
     """Return the nodes of the customers who are served."""
     nodes = {stop.node for route in solution.routes for trip in route.trips
-             for stop in trip.stops[1:-1]}
+             for stop in trip.customer_stops}
     nodes |= {visit.node for route in solution.routes for trip in route.trips
               for sortie in trip.sorties for visit in sortie.visits}
     return {node for node in nodes if problem.num_depots <= node < problem.num_nodes}

@@ -403,7 +403,7 @@ typedef struct tandem_vehicle_features {
 /* A stop of a truck: what is chosen, and all that follows. */
 typedef struct tandem_stop {
     int64_t node;
-    int64_t kind;    /* a customer, or where a trip starts or ends */
+    int64_t kind;    /* a customer, where a trip starts or ends, or a launch site */
     int64_t release; /* of the trip that starts here */
     int64_t leave;   /* when the truck leaves */
     int64_t latest;  /* the last arrival that keeps all rules behind */
@@ -459,6 +459,7 @@ typedef struct tandem_sortie {
 typedef struct tandem_trip {
     int64_t first;
     int64_t last;
+    int64_t halts; /* stops at launch sites */
     int64_t release;
     int64_t distance;
     int64_t barred;
@@ -496,6 +497,8 @@ typedef struct tandem_move {
     int64_t drone;
     int64_t sortie;
     int64_t type;
+    int64_t halt;    /* the launch site */
+    int64_t landing; /* that where the drone is recovered, if there are two */
 } tandem_move;
 
 /* How many there are of each; the turn; the last stamp that was given. */
@@ -996,8 +999,13 @@ typedef struct tandem_problem_data {
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
     tandem_bool_1d
         no_launch; /* (node,) no drone takes off or is recovered there; none where any may */
-    tandem_vehicle_type_1d type;     /* (row,) */
-    tandem_rate_1d rate;             /* (row,) per mm and per ms */
+    tandem_bool_2d
+        halts; /* (type, depot) launch sites where it may stop; (0, 0) if there are none */
+    tandem_i64_1d halt_after;    /* (depot,) who is served before a stop there, or -1 */
+    tandem_f64_1d halt_cost;     /* (depot,) of each stop there */
+    tandem_i32_2d near_halts;    /* (node, rank) launch sites near a customer, -1 behind the last */
+    tandem_vehicle_type_1d type; /* (row,) */
+    tandem_rate_1d rate;         /* (row,) per mm and per ms */
     tandem_evaluation_1d evaluation; /* (row,) */
     tandem_bool_2d reload;           /* (type, node) where a trip may end and the next begin */
     tandem_i64_1d visits;            /* (row,) customers on a sortie */

@@ -12,4 +12,9 @@ inline bool is_launch_place(View<const bool, 1> forbidden, Int node) {
     return forbidden.empty() || !forbidden[node];
 }
 
+// Whether trucks of a type may stop at a launch site for their drones alone.
+inline bool may_halt(View<const bool, 2> allowed, Int k, Int node) {
+    return !allowed.empty() && allowed(k, node);
+}
+
 }  // namespace tandem

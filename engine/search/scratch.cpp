@@ -18,9 +18,10 @@ Int most_offers(const ProblemData& data, const Fleet& fleet) {
     for (Int k = 0; k < data.num_types; ++k) rows = std::max(rows, num_drone_rows(data.type, k));
     const Int stops = fleet.stop.shape(1), trips = fleet.trip.shape(1);
     const Int sorties = fleet.sortie.shape(1);
-    return std::max({at_one_stop * rows * stops + sorties * (data.max_visits + 1),
+    const Int halts = data.near_halts.shape(1) * at_one_halt * rows;
+    return std::max({(at_one_stop * rows + halts) * stops + sorties * (data.max_visits + 1),
                      data.num_nodes + fleet.route.size() * (2 + rows) * (trips + 1),
-                     2 * at_one_stop * rows * data.granular.shape(1)});
+                     2 * (at_one_stop * rows + halts) * data.granular.shape(1)});
 }
 
 // Returns how many slots a ruin touches at most, or stops move.

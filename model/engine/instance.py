@@ -181,6 +181,11 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
             changes = len(kind.speed_profile.times)
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
+    for site in problem.launch_sites:
+        place = problem.depots[site]
+        for name, time in (("window_earliest", place.earliest), ("arrival_limit", place.latest),
+                           ("window_latest", place.latest)):
+            instance.node[row, :, site, 0][name] = time
     if problem.forbids_launches:
         instance.no_launch[row, :problem.num_nodes] = [
             not problem.may_launch_at(node) for node in range(problem.num_nodes)]

@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
+from model.judge.launch_sites import site_violations, with_launch_sites
 from model.judge.metrics import (
     RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
 )
@@ -72,6 +73,7 @@ class JudgedRoute:
 def judge_route(problem: Problem, route: Route, path: str,
                 past: Past = EVERYTHING_OPEN) -> JudgedRoute:
     """Judge a route by the rules that concern it alone."""
+    route = with_launch_sites(problem, route)
     violations, nodes = list(_unreadable(problem, route, path)), tuple(_nodes(route))
     if violations:
         return JudgedRoute(violations, RouteMetrics(), Cost(), 0, nodes)
@@ -85,6 +87,7 @@ def judge_route(problem: Problem, route: Route, path: str,
     for stated, trip in zip(route.trips, trips, strict=True):
         violations += _mismatches(stated, trip.trip, trip.path)
         violations += trip_violations(problem, route.vehicle_type, trip)
+    violations += site_violations(problem, route.vehicle_type, trips)
     violations += route_violations(problem, vehicle_type, trips, measured, path,
                                    len(known) == len(trips))
     return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes)
@@ -92,7 +95,7 @@ def judge_route(problem: Problem, route: Route, path: str,
 
 def _nodes(route: Route) -> Iterator[int]:
     for trip in route.trips:
-        yield from [stop.node for stop in trip.stops[1:-1]]
+        yield from [stop.node for stop in trip.customer_stops]
         for sortie in trip.sorties:
             yield from [visit.node for visit in sortie.visits]
 
@@ -183,7 +186,8 @@ def _unreadable_stops(problem: Problem, trip: Trip, path: str) -> Iterator[Viola
     first, end, last = problem.num_depots, problem.num_nodes, len(trip.stops) - 1
     for index, stop in enumerate(trip.stops):
         node = stop.node
-        if (0 < index < last and first <= node < end) or (index in (0, last) and 0 <= node < first):
+        if (0 < index < last and (first <= node < end or stop.is_launch_site)) or (
+                index in (0, last) and 0 <= node < first):
             continue
         stop_path = f"{path}.stops[{index}]"
         if not 0 <= node < end:

@@ -21,5 +21,5 @@ def excess_aboard(problem: Problem, kind: VehicleType, trip: Trip, halt: Stop | 
 def most_excess(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return by how much a parcel is too long aboard at most; 0 if none is."""
     halts: list[Stop | Visit] = [
-        *trip.stops[1:-1], *(visit for sortie in trip.sorties for visit in sortie.visits)]
+        *trip.customer_stops, *(visit for sortie in trip.sorties for visit in sortie.visits)]
     return max([0, *(excess_aboard(problem, kind, trip, halt) for halt in halts)])

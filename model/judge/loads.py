@@ -55,7 +55,8 @@ def _coming(problem: Problem, trip: Trip) -> list[list[Customer]]:
 def _by_stop(problem: Problem, trip: Trip, flown_at: list[int]) -> list[list[Customer]]:
     """Return who counts at each stop: whom the truck serves there, and those of sorties."""
     customers, first = problem.customers, problem.num_depots
-    groups = [[], *([customers[stop.node - first]] for stop in trip.stops[1:-1]), []]
+    groups = [[], *([] if stop.is_launch_site else [customers[stop.node - first]]
+                    for stop in trip.stops[1:-1]), []]
     for sortie, stop in zip(trip.sorties, flown_at, strict=True):
         groups[stop] += [customers[visit.node - first] for visit in sortie.visits]
     return groups

@@ -107,7 +107,7 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
     customers, first = problem.customers, len(problem.depots)
     lateness = earliness = 0.0
     for trip in route.trips:
-        halts: list[Stop | Visit] = [*trip.stops[1:-1]]
+        halts: list[Stop | Visit] = [*trip.customer_stops]
         for sortie in trip.sorties:
             halts += sortie.visits
         for halt in halts:
@@ -163,7 +163,10 @@ def measure_route(
     working = end - begin
     over = overtime(vehicle_type, end, working)
     over_rate = vehicle_type.overtime.cost_per_hour if vehicle_type.overtime else 0.0
-    stops = sum([len(trip.stops) - 2 for trip in route.trips])
+    stops = sum([len(trip.customer_stops) for trip in route.trips]) * vehicle_type.cost_per_stop
+    if problem.launch_sites:
+        stops += sum([problem.depots[stop.node].stop_cost for trip in route.trips
+                      for stop in trip.stops if stop.is_launch_site])
     distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
     time = working * vehicle_type.cost_per_hour
     if vehicle_type.cost_per_load_km:
@@ -176,7 +179,7 @@ def measure_route(
     lateness, earliness = _window_costs(problem, route)
     cost = Cost(
         fixed=vehicle_type.fixed_cost, distance=distance / MM_PER_KM,
-        stops=stops * vehicle_type.cost_per_stop, time=time / MS_PER_HOUR,
+        stops=stops, time=time / MS_PER_HOUR,
         overtime=over * over_rate / MS_PER_HOUR, lateness=lateness, earliness=earliness)
     limit = vehicle_type.max_working_duration
     rate = None if limit is None else _rate(working, limit)

@@ -8,6 +8,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
+from model.judge.clock import service_start
 from model.judge.launches import launch_begins
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
@@ -145,7 +146,7 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
     is_over = left == len(trip.stops)
     if not is_over:
         stops.append(_bound_for(problem, trip.stops[left], now))
-    nodes = [stop.node for stop in trip.stops[1:-1]]
+    nodes = [stop.node for stop in trip.customer_stops]
     nodes += [visit.node for sortie in trip.sorties for visit in sortie.visits]
     sorties = tuple(_known_sortie(sortie, trip, len(stops), now) for sortie in launched)
     return KnownTrip(tuple(stops), sorties, frozenset(node for node in nodes if node >= 0),
@@ -209,3 +210,18 @@ def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: lis
     landing = landings[-1]
     return sortie._replace(visits=visits, recovery_node=nodes[landing],
                            recovery_stop=landing if landing < known_stops else None)
+
+
+def resumed_service(problem: Problem, vehicle_type: VehicleType, node: int, ready: int,
+                    fact: KnownStop | None, now: int) -> tuple[int, int]:
+    """Return when service at a stop begins and ends; at depots, when the truck is there.
+
+    At launch sites, when drones may take off.
+    """
+    if node < problem.num_depots:
+        opened = max(ready, problem.depots[node].earliest)
+        return opened, opened
+    customer = problem.customer_at(node)
+    begun = None if fact is None else fact.service_start
+    start = service_start(customer, max(ready, now)) if begun is None else begun
+    return start, start + vehicle_type.service_at(customer)

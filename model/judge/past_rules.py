@@ -106,7 +106,7 @@ class _Served(NamedTuple):
 
 def _served(route: Route) -> Iterator[_Served]:
     for number, trip in enumerate(route.trips):
-        for index, stop in enumerate(trip.stops[1:-1]):
+        for index, stop in enumerate(trip.customer_stops):
             yield _Served(stop.node, stop.service_start, (number, index))
         for sortie in trip.sorties:
             yield from (_Served(visit.node, visit.service_start, None) for visit in sortie.visits)
@@ -115,7 +115,7 @@ def _served(route: Route) -> Iterator[_Served]:
 def _new_customers(trip: Trip, begun: KnownTrip | None) -> Iterator[int]:
     """Yield the customers of a trip of whom nothing was known."""
     stops, flights = (0, 0) if begun is None else (len(begun.stops), len(begun.sorties))
-    yield from (stop.node for stop in trip.stops[max(1, stops):-1])
+    yield from (stop.node for stop in trip.stops[max(1, stops):-1] if not stop.is_launch_site)
     for sortie in trip.sorties[flights:]:
         yield from (visit.node for visit in sortie.visits)
 

@@ -44,7 +44,7 @@ class Found:
 
 def halts(trip: Trip) -> list[Stop | Visit]:
     """Return where a trip's customers are served, by truck and then by drone."""
-    found: list[Stop | Visit] = [*trip.stops[1:-1]]
+    found: list[Stop | Visit] = [*trip.customer_stops]
     for sortie in trip.sorties:
         found += sortie.visits
     return found
@@ -57,7 +57,7 @@ def find_place(solution: Solution, node: int) -> Found | None:
             vehicle = Vehicle(route.vehicle_type, route.vehicle)
             is_alone = len(halts(trip)) == 1
             for stop, halt in enumerate(trip.stops[1:-1], 1):
-                if halt.node == node:
+                if halt.node == node and not halt.is_launch_site:
                     return Found(index, Place(vehicle, number, "truck", stop,
                                               own_trip=is_alone))
             for flight, sortie in enumerate(trip.sorties):

@@ -110,7 +110,7 @@ class _Timer:
 
     def _free_from(self, trip: TripDecision) -> int:
         """Return when all parcels of a trip are at the depot."""
-        nodes = [*trip.nodes[1:-1], *[node for sortie in trip.sorties for node in sortie.nodes]]
+        nodes = trip.customers(self._problem.num_depots)
         back = max([self._past.returned.get(node, 0) for node in nodes], default=0)
         return max(back, latest_release(self._problem, trip))
 
@@ -132,7 +132,8 @@ class _Timer:
 
     def _delay(self, decision: TripDecision, trip: Trip, room: int) -> int:
         """Return how much later a trip may begin that may end `room` later."""
-        if not trip.sorties and self._type.speed_profile is None and not self._type.busy_until:
+        if not (trip.sorties or self._type.speed_profile or self._type.busy_until
+                or self._problem.launch_sites):
             return _plain_delay(self._problem, trip, room)
         high = room + sum([halt.service_start - halt.ready for halt in halts(trip)])
         low, latest = 0, trip.stops[-1].departure + room

@@ -1,6 +1,6 @@
 """The rules that a timed route has to keep."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from operator import gt
 
@@ -70,7 +70,8 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     """What a trip by a type of vehicle breaks on its own."""
     vehicle_type = problem.vehicle_types[kind]
     trip, metrics, path = timed.trip, timed.metrics, timed.path
-    if len(trip.stops) == 2 and not any(sortie.visits for sortie in trip.sorties):
+    served = trip.customer_stops
+    if not served and not any(sortie.visits for sortie in trip.sorties):
         yield Violation("EMPTY_TRIP", "a trip without customers", path)
     if _exceeds(metrics.highest_load, vehicle_type.capacity):
         message = (f"load {amounts(problem, metrics.highest_load)} exceeds "
@@ -91,7 +92,9 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
         yield Violation("RELEASE", message, path)
-    yield from _halt_violations(problem, kind, trip.stops[1:-1], f"{path}.stops", 1)
+    stops = list(enumerate(trip.stops))[1:-1]
+    yield from _halt_violations(problem, kind, [(index, stop) for index, stop in stops
+                                                if not stop.is_launch_site], f"{path}.stops")
     if problem.limits_time_aboard:
         yield from _aboard_violations(problem, vehicle_type, timed)
     if vehicle_type.flies and airborne(trip) > vehicle_type.endurance:
@@ -111,7 +114,7 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
 
 def _count_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
     """What a trip has too many of."""
-    for code, count, limit in (("MAX_STOPS", len(trip.stops) - 2, vehicle_type.max_stops),
+    for code, count, limit in (("MAX_STOPS", len(trip.customer_stops), vehicle_type.max_stops),
                                ("MAX_SORTIES", len(trip.sorties), vehicle_type.max_sorties)):
         if limit is not None and count > limit:
             what = "customers of the truck" if code == "MAX_STOPS" else "sorties"
@@ -132,13 +135,12 @@ def _battery_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Ite
 def _halt_violations(
     problem: Problem,
     kind: int,
-    halts: Sequence[Stop | Visit],
+    halts: Iterable[tuple[int, Stop | Visit]],
     path: str,
-    first_index: int,
 ) -> Iterator[Violation]:
     """What customers demand of those who come: type and kind of vehicle, skills and window."""
     first_customer, vehicle_type = len(problem.depots), problem.vehicle_types[kind]
-    for index, halt in enumerate(halts, first_index):
+    for index, halt in halts:
         customer = problem.customers[halt.node - first_customer]
         if not problem.allows(kind, halt.node):
             message = f"{vehicle_type.id} may not serve customer {customer.id}"
@@ -162,7 +164,7 @@ def _goods_violations(problem: Problem, trips: list[TimedTrip], scope: str,
     for incompatible in problem.incompatible_goods:
         if incompatible.scope != scope:
             continue
-        carried = {goods for timed in trips for node in timed.decision.customers
+        carried = {goods for timed in trips for node in timed.decision.customers(problem.num_depots)
                    for goods in problem.customer_at(node).goods & incompatible.goods}
         if len(carried) > 1:
             message = f"{' and '.join(sorted(carried))} may not be carried together"
@@ -174,7 +176,8 @@ def _aboard_violations(problem: Problem, kind: VehicleType,
     """Parcels that are too long aboard before their customers are served."""
     trip, path = timed.trip, timed.path
     halts: list[tuple[str, Stop | Visit]] = [
-        (f"{path}.stops[{index}]", stop) for index, stop in enumerate(trip.stops[1:-1], 1)]
+        (f"{path}.stops[{index}]", stop) for index, stop in enumerate(trip.stops[1:-1], 1)
+        if not stop.is_launch_site]
     halts += [(f"{path}.sorties[{index}].visits[{number}]", visit)
               for index, sortie in enumerate(trip.sorties)
               for number, visit in enumerate(sortie.visits)]
@@ -230,7 +233,7 @@ def _sortie_violations(
     if not 1 <= len(sortie.visits) <= drones.max_customers_per_sortie:
         message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
         yield Violation("SORTIE_SIZE", message, path)
-    yield from _halt_violations(problem, kind, sortie.visits, f"{path}.visits", 0)
+    yield from _halt_violations(problem, kind, enumerate(sortie.visits), f"{path}.visits")
     payload = highest(sortie_loads(problem, sortie))
     if _exceeds(payload, drones.capacity):
         message = (f"payload {amounts(problem, payload)} exceeds "

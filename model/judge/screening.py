@@ -249,6 +249,10 @@ def _slacks(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
     slack = max(0, shift_ends - trip.stops[-1].departure)
     slacks = [slack]
     for stop in reversed(trip.stops[1:-1]):
+        if stop.is_launch_site:
+            slack = min(slack, max(0, problem.depots[stop.node].latest - stop.arrival))
+            slacks.append(slack)
+            continue
         customer = problem.customer_at(stop.node)
         slack += stop.service_start - stop.ready
         if customer.late_cost_per_hour is None:

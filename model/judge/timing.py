@@ -14,7 +14,7 @@ from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
 from model.judge.flown_trips import charged_start, excess_of
 from model.judge.launches import launch_begins, launch_duration
-from model.judge.past import KnownStop, KnownTrip
+from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
 from model.problem import DroneType, Problem, VehicleType
 from model.solution import Route, Sortie, Stop, Trip, Visit
@@ -46,10 +46,10 @@ class TripDecision:
     operations: tuple[tuple[Operation, ...], ...] | None = None  # per stop; None: by arrival
     start: int | None = None  # arrival at the first stop; None: as soon as possible
 
-    @property
-    def customers(self) -> tuple[int, ...]:
-        """Nodes of those whom it serves, the truck's first."""
-        return (*self.nodes[1:-1], *(node for sortie in self.sorties for node in sortie.nodes))
+    def customers(self, first: int) -> tuple[int, ...]:
+        """Return those whom it serves, whose nodes begin at `first`, the truck's first."""
+        return (*[node for node in self.nodes[1:-1] if node >= first],
+                *(node for sortie in self.sorties for node in sortie.nodes))
 
     def path_of(self, sortie: SortieDecision) -> tuple[int, ...]:
         """Return the nodes of a sortie: where it is launched, customers, where it is recovered."""
@@ -132,7 +132,8 @@ def read_decision(trip: Trip, kind: VehicleType) -> TripDecision:
 def latest_release(problem: Problem, decision: TripDecision) -> int:
     """Return when the last parcel of a trip is at the depot."""
     customers, first = problem.customers, len(problem.depots)
-    return max([customers[node - first].release_time for node in decision.customers], default=0)
+    return max([customers[node - first].release_time for node in decision.customers(first)],
+               default=0)
 
 
 def _fly(problem: Problem, drones: DroneType, decision: TripDecision, sortie: SortieDecision,
@@ -301,15 +302,17 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
             departure = max(arrival, vehicle_type.busy_until) + vehicle_type.launch_duration
         if index == last:
             departure = arrival + vehicle_type.recovery_duration
-        if 0 < index < last:
+        if 0 < index < last and node < first:
+            start = departure = max(arrival, problem.depots[node].earliest)
+        elif 0 < index < last:
             customer = customers[node - first]
             start = service_start(customer, arrival + setup)
             departure = start + vehicle_type.service_at(customer)
         if drones is not None and decision.sorties:
             departure = max(departure,
-                            _operate(problem, vehicle_type, decision, index, arrival + setup,
-                                     flights))
-        stops.append(Stop(node, arrival, start, departure, setup))
+                            _operate(problem, vehicle_type, decision, index,
+                                     start if node < first else arrival + setup, flights))
+        stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type))
@@ -337,28 +340,19 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             arrival = arrival if problem.is_nowhere(node) else max(now, arrival)
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         ready = arrival + setup
-        start, departure = _resume_service(problem, vehicle_type, node, ready, fact, now)
+        start, departure = resumed_service(problem, vehicle_type, node, ready, fact, now)
+        if problem.is_launch_site(node):
+            ready = start
         if drones is not None and decision.sorties:
             departure = max(departure, _operate(problem, vehicle_type, decision, index, ready,
                                                 flights, known, now))
         departure = departure if problem.is_nowhere(node) else max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure
-        stops.append(Stop(node, arrival, start, departure, setup))
+        stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops))
     return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type))
-
-
-def _resume_service(problem: Problem, vehicle_type: VehicleType, node: int, ready: int,
-                    fact: KnownStop | None, now: int) -> tuple[int, int]:
-    """Return when service at a stop begins and ends; at depots, when the truck is there."""
-    if node < problem.num_depots:
-        return ready, ready
-    customer = problem.customer_at(node)
-    begun = None if fact is None else fact.service_start
-    start = service_start(customer, max(ready, now)) if begun is None else begun
-    return start, start + vehicle_type.service_at(customer)
 
 
 def schedule(problem: Problem, decision: RouteDecision) -> Route:
@@ -390,5 +384,7 @@ def _require_known(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     for node in (decision.nodes[0], decision.nodes[-1]):
         if not 0 <= node < problem.num_depots:
             raise ValueError(f"trip depot: {node!r} is not allowed")
-    for node in decision.customers:
-        problem.customer_at(node)
+    for node in (*decision.nodes[1:-1], *(node for sortie in decision.sorties
+                                          for node in sortie.nodes)):
+        if not problem.is_launch_site(node):
+            problem.customer_at(node)

@@ -5,19 +5,34 @@ from typing import Literal
 
 from model.problem.quantities import UNLIMITED, require, require_quantity, require_rate
 
-DepotKind = Literal["depot", "start", "end", "nowhere"]
+DepotKind = Literal["depot", "start", "end", "nowhere", "launch_site"]
 ServedBy = Literal["truck", "drone", "either"]
 
 
 @dataclass(frozen=True, slots=True)
 class Depot:
-    """A place where trips may begin or end."""
+    """A place where trips may begin or end, or where trucks may stop for their drones alone."""
 
     id: str
     kind: DepotKind = "depot"
     """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
     site: int | None = None  # places with equal numbers are one place
     launch: bool = True  # drones may take off, and be recovered, there
+    earliest: int = 0  # of a launch site: no drone takes off or is recovered there before
+    latest: int = UNLIMITED  # last arrival there
+    stop_cost: float = 0.0  # of each stop there
+    after: str | None = None  # id of the customer who has been served before, by the same vehicle
+
+    def __post_init__(self) -> None:
+        require_quantity(f"{self.kind} {self.id} earliest", self.earliest)
+        require(self.earliest <= self.latest <= UNLIMITED, f"{self.kind} {self.id} latest",
+                self.latest)
+        require_rate(f"{self.kind} {self.id} stop_cost", self.stop_cost)
+
+    @property
+    def is_launch_site(self) -> bool:
+        """Tell whether trucks may stop there amid a trip."""
+        return self.kind == "launch_site"
 
 
 @dataclass(frozen=True, slots=True)

@@ -30,6 +30,7 @@ class Problem:
     unassigned_cost: float  # per customer left out who states no other
     amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
     may_serve: BoolArray | None = None  # (vehicle type, customer); None: any type anyone
+    may_stop: BoolArray | None = None  # (vehicle type, depot) at launch sites; None: any at any
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
     num_dimensions: int = field(init=False)
@@ -51,6 +52,10 @@ class Problem:
             require(self.may_serve.dtype == np.bool_, "may_serve dtype", self.may_serve.dtype)
             require(self.may_serve.shape == (len(self.vehicle_types), self.num_customers),
                      "may_serve shape", self.may_serve.shape)
+        if self.may_stop is not None:
+            require(self.may_stop.dtype == np.bool_, "may_stop dtype", self.may_stop.dtype)
+            require(self.may_stop.shape == (len(self.vehicle_types), self.num_depots),
+                    "may_stop shape", self.may_stop.shape)
         named = frozenset().union(*(each.goods for each in self.incompatible_goods))
         require(len(named) <= MOST_INCOMPATIBLE, "incompatible goods", len(named))
         for matrix in self.travel:
@@ -74,6 +79,7 @@ class Problem:
         for place in ("depot", "begins_at", "ends_at"):
             node = getattr(vehicle_type, place)
             require(0 <= node < self.num_depots, f"{name} {place}", node)
+            require(not self.depots[node].is_launch_site, f"{name} {place}", node)
         require(set(vehicle_type.reload_places) <= set(range(self.num_depots)),
                  f"{name} reload_depots", vehicle_type.reload_depots)
         require(len(vehicle_type.initial_load) in (0, self.num_dimensions), f"{name} initial_load",
@@ -114,6 +120,20 @@ class Problem:
     def allows(self, vehicle_type: int, node: int) -> bool:
         """Tell whether the table lets vehicles of a type serve the customer at a node."""
         return self.may_serve is None or bool(self.may_serve[vehicle_type, node - self.num_depots])
+
+    @cached_property
+    def launch_sites(self) -> tuple[int, ...]:
+        """Nodes where trucks may stop for their drones alone; they are among the depots."""
+        return tuple([node for node, depot in enumerate(self.depots) if depot.is_launch_site])
+
+    def is_launch_site(self, node: int) -> bool:
+        """Tell whether trucks may stop at a node for their drones alone."""
+        return 0 <= node < self.num_depots and self.depots[node].is_launch_site
+
+    def allows_stop(self, vehicle_type: int, node: int) -> bool:
+        """Tell whether vehicles of a type may stop at a launch site."""
+        return (self.vehicle_types[vehicle_type].drones is not None
+                and (self.may_stop is None or bool(self.may_stop[vehicle_type, node])))
 
     def find_vehicle(self, type_id: str, number: int) -> tuple[int, int]:
         """Return the index of a vehicle's type, and its number there, from 0.

@@ -49,7 +49,7 @@ def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
 
 def customers_of(decision: TripDecision) -> list[int]:
     """Return whom a trip serves: the truck's customers in order, then the drones'."""
-    return list(decision.customers)
+    return list(decision.customers(0))
 
 
 def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],

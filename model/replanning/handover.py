@@ -123,7 +123,7 @@ def served_by(plan: Solution) -> set[int]:
 
 
 def _served(trip: Trip) -> list[int]:
-    return [*(stop.node for stop in trip.stops[1:-1]),
+    return [*(stop.node for stop in trip.customer_stops),
             *(visit.node for sortie in trip.sorties for visit in sortie.visits)]
 
 

@@ -68,7 +68,7 @@ def _ordered(stops: Sequence[Stop], places: Mapping[int, int]) -> tuple[Stop, ..
 
 
 def _stops(route: Route) -> list[Stop]:
-    return [stop for trip in route.trips for stop in trip.stops[1:-1]]
+    return [stop for trip in route.trips for stop in trip.customer_stops]
 
 
 class _Bound(NamedTuple):

@@ -143,7 +143,7 @@ def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence
             continue
         carried = {"vehicle": route.served, "trip": frozenset[int]()}
         if owner.is_under_way:
-            carried["trip"] = frozenset(route.decision.trips[-1].customers)
+            carried["trip"] = frozenset(route.decision.trips[-1].customers(0))
         elif route.way_on is not None:
             carried["vehicle"] = route.served | set(route.way_on.aboard)
         barred = frozenset().union(*(

@@ -237,7 +237,7 @@ def _past(problem: Problem, terms: Terms) -> Past:
         known = known_trips(problem, terms.plan, terms.now, terms.unavailable)
     pinned = {node: Vehicle(route.vehicle_type, route.vehicle)
               for route in terms.plan.routes for trip in route.trips
-              for node in (*(stop.node for stop in trip.stops[1:-1]),
+              for node in (*(stop.node for stop in trip.customer_stops),
                            *(visit.node for sortie in trip.sorties for visit in sortie.visits))
               if node in terms.pinned
               and (route.vehicle_type, route.vehicle) not in terms.unavailable}

@@ -10,6 +10,7 @@ from model.engine.leg import are_the_same_back
 from model.engine.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.evaluation import evaluate
+from model.search.halts import halts_of
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import ProblemData
@@ -36,6 +37,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     types, evaluation = instance.type[0], evaluate(instance)
     swap, visits = _swaps(problem, types, evaluation), visits_of(problem)
     most_visits = max(1, int(visits.max()))
+    halts = halts_of(problem, neighbourhood.numbering)
     must_serve, more = _must_serve(problem, instance), instance.unassigned_more[0]
     return ProblemData(
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
@@ -46,7 +48,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         unassigned_costs_differ=bool(more.any()), must_serve=must_serve,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
         setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
-        no_launch=instance.no_launch[0],
+        no_launch=instance.no_launch[0], **halts._asdict(),
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),
         evaluation=evaluation, reload=instance.reload[0], visits=visits,
         can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),

@@ -69,7 +69,7 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
         scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,
-        give_up_early=not _may_save(instance, evaluation), blink=blink)
+        give_up_early=not (_may_save(instance, evaluation) or problem.launch_sites), blink=blink)
 
 
 def grounded(instance: Instance) -> Instance:

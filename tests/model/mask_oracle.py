@@ -296,7 +296,7 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
     if _end(late) > _end(soon):
         return False
     for trip, other in zip(soon.trips, late.trips, strict=True):
-        if not all(map(may_be, trip.stops[1:-1], other.stops[1:-1])):
+        if not all(map(may_be, trip.customer_stops, other.customer_stops)):
             return False
         if any(_drained(problem, kind, other, index) for index in range(len(other.sorties))):
             return False

@@ -4,7 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.problem import Problem
+from model.problem import UNLIMITED, Depot, Problem
+from model.problem.revisits import with_revisits
+from tests.model.tiny import MINUTE
 
 
 def with_few_launch_places(rng: np.random.Generator, problem: Problem) -> Problem:
@@ -14,3 +16,35 @@ def with_few_launch_places(rng: np.random.Generator, problem: Problem) -> Proble
                               for depot in problem.depots),
         customers=tuple(replace(customer, launch=bool(rng.random() < 0.6))
                         for customer in problem.customers))
+
+
+def with_launch_sites(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem some of whose places are launch sites, with windows and costs of their own.
+
+    Those of the last customers, of whom one is left at least. Not all vehicles stop at all.
+    """
+    number = min(int(rng.integers(1, 3)), problem.num_customers - 1)
+    first, end = problem.num_depots, problem.num_nodes
+    gone = range(end - number, end)
+
+    def site(index: int) -> Depot:
+        earliest = int(rng.integers(0, 20)) * MINUTE if rng.random() < 0.3 else 0
+        width = int(rng.integers(0, 30)) * MINUTE
+        return Depot(f"site {index}", "launch_site", earliest=earliest,
+                     latest=earliest + width if rng.random() < 0.4 else UNLIMITED,
+                     stop_cost=float(rng.integers(0, 3)))
+
+    nodes = np.array([*range(first), *gone, *range(first, end - number)])
+    may_stop = rng.random((len(problem.vehicle_types), first + number)) < 0.8
+    table = problem.may_serve
+    return replace(
+        problem, depots=(*problem.depots, *map(site, range(number))),
+        customers=problem.customers[:-number], coordinates=problem.coordinates[nodes],
+        travel=tuple(travel.among(nodes) for travel in problem.travel), may_stop=may_stop,
+        may_serve=None if table is None else table[:, :-number])
+
+
+def with_some_revisits(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which vehicles of some types may come back to places for their drones."""
+    kinds = [kind for kind in range(len(problem.vehicle_types)) if rng.random() < 0.7]
+    return with_revisits(problem, kinds)

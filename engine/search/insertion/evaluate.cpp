@@ -69,6 +69,8 @@ Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& 
     Int p = move.first, q = p + 1;
     if (move.kind == by_sortie) {
         q = move.last;
+    } else if (uses_halt(move)) {
+        q = std::max(q, move.last + (move.kind == from_halt ? 0 : 1));
     } else if (move.kind == on_sortie) {
         p = fleet.sortie(slot, move.sortie).launch;
         q = fleet.sortie(slot, move.sortie).recovery;
@@ -76,9 +78,10 @@ Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& 
     p = std::max(p, Int{0});
     q = std::min(q, fleet.route[slot].length - 1);
     const Trip& trip = fleet.trip(slot, stops[p].trip);
-    if (move.kind == by_sortie || move.kind == trip_from || move.kind == trip_until) {
-        q = std::max(q, launch_changed(type, fleet.route[slot], fleet.sortie[slot], trip, p,
-                                       move.kind == by_sortie));
+    const bool is_sortie = move.kind == by_sortie || uses_halt(move);
+    if (is_sortie || move.kind == trip_from || move.kind == trip_until) {
+        q = std::max(
+            q, launch_changed(type, fleet.route[slot], fleet.sortie[slot], trip, p, is_sortie));
     }
     const bool whole = bounds_trips(type) && move.kind != new_trip;
     if (held || whole) p = trip.first;
@@ -244,7 +247,7 @@ Ending follow(const ProblemData& data, const Route& route, View<const Stop, 1> s
     for (Int q = p; q <= last; ++q) {
         const Stop& stop = stops[q];
         Int leave = time;
-        if (stop.kind == customer_stop) {
+        if (has_window(stop)) {
             const Windows place = places[stop.node];
             cost += window_cost(data, stop.node, time) - stop.window_cost;
             depart = std::min(depart, place.as_late(time) - cum);
@@ -269,18 +272,27 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
     const bool one_place = data.type[k].begins_at == data.type[k].ends_at;
     const Int first_way = by_drone ? from_start : by_truck;
     const Int options = by_drone && !one_place ? ways - from_start : 1;
-    const Int number = by_drone ? options * num_drone_rows(data.type, k) : 1;
+    const Int rows = num_drone_rows(data.type, k);
+    const Int flights = by_drone ? options * rows : 1;
+    const Int halts = by_drone && has_halts(data) ? data.near_halts.shape(1) : 0;
+    const Int number = flights + ways_by_halt * halts * rows;
     double best = infeasible;
     Int chosen = 0;
     bool done = false;
     // The last time, the best of them is written once more.
     for (Int tried = 0; tried < (number == 1 ? number : number + 1); ++tried) {
         const Int option = tried == number ? chosen : tried;
-        const Int row = drone_row_at(data.type, k, option / options);
+        const bool halting = option >= flights;
+        const Int place = halting ? (option - flights) / ways_by_halt : option;
+        const Int row = drone_row_at(data.type, k, place / (halting ? halts : options));
         done = !by_drone || data.can(row, 1, node);
+        const Int way =
+            halting ? at_halt + (option - flights) % ways_by_halt : first_way + option % options;
+        const Int halt = halting ? data.near_halts(node, place % halts) : nowhere;
+        if (halting && halt < 0) done = false;
         if (done) {
-            begin_route(sequence_in(fleet, slot), data.type[k], k, node,
-                        first_way + option % options, first_drone(data.type, k, row));
+            begin_route(sequence_in(fleet, slot), data.type[k], k, node, way,
+                        first_drone(data.type, k, row), halt);
             done = refresh(data, fleet, slot);
         }
         if (done && fleet.cost[slot] < best) {
@@ -313,6 +325,9 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     double cost = price_part(data, fleet, slot, part, to);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
         cost += data.rate[k].stop;
+    } else if (uses_halt(move)) {
+        cost += data.halt_cost[move.halt];
+        if (move.kind == by_halts) cost += data.halt_cost[move.landing];
     }
     return cost;
 }

@@ -63,15 +63,29 @@ struct LeastCost {
     }
 };
 
-// Returns a drone of a row that is aboard from stop `launch` to `recovery`; `nowhere`: there is
-// none.
+// From where to where a drone is wanted, in half stops: a stop to come is between two.
+struct Stretch {
+    Int launch;
+    Int recovery;
+};
+
+Stretch stretch_of(const Move& move) {
+    const Int first = 2 * move.first, last = 2 * move.last;
+    if (move.kind == by_halts) return {first + 1, last + 1};
+    if (move.kind == to_halt) return {first, last + 1};
+    if (move.kind == from_halt) return {first + 1, move.last == move.first ? first + 1 : last};
+    return {first, last};
+}
+
+// Returns a drone of a row that is aboard from launch to recovery; `nowhere`: there is none.
 //
 // That which flies least from and to these stops, so that drones fly side by side; on the trip, if
 // drones are charged aboard.
-Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Int launch, Int recovery,
-               Int row) {
+Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Stretch stretch, Int row) {
     const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
     const View<const Stop, 1> stops = fleet.stop[slot];
+    const auto [launch, recovery] = stretch;
+    const Int trip = stops[launch / 2].trip;
     const bool charging = charges_aboard(data.type[row]);
     Int chosen = nowhere, fewest = 0;
     const Int number = first_drone(data.type, fleet.route[slot].type, row);
@@ -80,10 +94,10 @@ Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Int launch
         Int beside = 0;
         for (const Sortie& sortie : sorties) {
             if (sortie.drone != drone) continue;
-            const Int first = sortie.launch, last = sortie.recovery;
+            const Int first = 2 * sortie.launch, last = 2 * sortie.recovery;
             // Sorties are in the order of their launches.
             if (first > recovery && !charging) break;
-            const bool same_trip = charging && stops[first].trip == stops[launch].trip;
+            const bool same_trip = charging && stops[sortie.launch].trip == trip;
             if (same_trip || (first <= recovery && launch <= last)) ++beside;
             if ((first < recovery && launch < last) ||
                 (launch == recovery && first < launch && launch < last) ||
@@ -107,8 +121,8 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
                    double least) {
     const Fleet& now = searcher.now;
     const Int kind = move.kind, slot = move.slot, p = move.first;
-    if (kind == by_sortie) {
-        move.drone = free_drone(data, now, slot, p, move.last, move.type);
+    if (kind == by_sortie || uses_halt(move)) {
+        move.drone = free_drone(data, now, slot, stretch_of(move), move.type);
         if (move.drone < 0) return infeasible;
     } else if (kind == at_stop) {
         if (stands_alone(data, now, slot, p, node)) {

@@ -12,6 +12,11 @@ constexpr Int max_span = 8;  // how many stops after its launch a sortie is reco
 // How many insertions begin at a stop at most, a customer behind it and sorties from there.
 constexpr Int at_one_stop = max_span + 2;
 
+constexpr Int max_landings = 2;  // launch sites where a sortie is recovered that begins at another
+
+// How many begin or end at a launch site behind a stop at most, by each type of drones.
+constexpr Int at_one_halt = (2 + max_landings) * max_span + 2;
+
 // Lists a customer behind each stop of a trip from `first` to `last`, if that may be cheaper.
 //
 // For where more than distance counts.
@@ -20,6 +25,10 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last);
 // Lists sorties to a customer from each stop of a trip from `first` to `last`, by each type of
 // drones.
 void offer_sorties(const Insertion& insertion, Int slot, Int first, Int last);
+
+// Lists sorties to a customer for which the truck stops at a launch site near by more, between
+// stops of a trip from `first` to the one behind `last`.
+void offer_halts(const Insertion& insertion, Int slot, Int first, Int last);
 
 // Lists a customer on each sortie of a route.
 void offer_joining(const Insertion& insertion, Int slot);

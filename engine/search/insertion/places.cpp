@@ -11,6 +11,7 @@
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
+#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/vehicles.h"
@@ -41,6 +42,7 @@ void try_route(const Insertion& insertion, Int slot) {
         }
         if (!flies || !may_launch(type, route, now.sortie[slot], trip)) continue;
         offer_sorties(insertion, slot, first, last - 1);
+        if (has_halts(data)) offer_halts(insertion, slot, first, last - 1);
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
         const Int soonest = held_until(data.place[0][node].opening(leave), endurance_of(type));
@@ -119,6 +121,7 @@ void offer_beside(const Insertion& insertion, Int other) {
     if (drives) offer_stops(insertion, slot, first, std::min(p, trip.last - 1));
     if (!flies) return;
     offer_sorties(insertion, slot, first, p);
+    if (has_halts(data)) offer_halts(insertion, slot, first, std::min(p, trip.last - 1));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "rules/window.h"
 #include "search/insertion/evaluate.h"
 #include "search/insertion/places.h"
+#include "search/moves/halting.h"
 #include "search/route/edit.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -144,6 +145,8 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
             absent[left++] = node;
             continue;
         }
+        if (has_halts(data) && uniform(searcher.rng) < halting_share)
+            halt_for(data, searcher, node);
         const bool opens = opens_first && index == first;
         Best best{data.strategy.blink, searcher.rng};
         const Insertion insertion{data, searcher, node, enlarge, best};
@@ -173,6 +176,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         if (spare < 0.0) return false;
     }
     count.absent = left;
+    if (has_halts(data)) drop_idle_halts(data, searcher);
     return true;
 }
 

@@ -66,7 +66,8 @@ Part window(const Fleet& fleet, Int slot, Int p) {
     return part;
 }
 
-// How many places there are in a line, 0 if a sortie serves several customers, and whether all that
+// How many places there are in a line, 0 if a sortie serves several customers or the truck stops at
+// a launch site, and whether all that
 // the drone does is operations.
 struct LinedUp {
     Int length;
@@ -85,6 +86,7 @@ LinedUp line_up(const Fleet& fleet, Int slot, Part part, View<Line, 1> line) {
     bool exact = true;
     while (s < sorties.size() && sorties[s].launch < part.first) ++s;
     for (Int p = part.first; p <= part.last; ++p) {
+        if (stops[p].kind == halt_stop) return {0, false};
         line[length].node = stops[p].node;
         if (p == landing) {
             line[length].before = begin;

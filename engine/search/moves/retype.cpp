@@ -2,6 +2,7 @@
 
 #include "randomness.h"
 #include "rules/drone_types.h"
+#include "rules/launch_place.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/stop_loads.h"
@@ -54,6 +55,7 @@ bool may_drive(const ProblemData& data, const Fleet& fleet, Int slot, Int k) {
     }
     for (const Stop& stop : fleet.stop[slot].first(route.length)) {
         if (stop.kind == customer_stop && !data.can(k, 0, stop.node)) return false;
+        if (stop.kind == halt_stop && !may_halt(data.halts, k, stop.node)) return false;
     }
     for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
         if (!may_fly(data, k, sortie)) return false;

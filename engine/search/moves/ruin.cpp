@@ -39,7 +39,8 @@ Int mark_string(const Fleet& fleet, Int slot, Int index, Int p, Int size, View<b
     const Int gap = spared > 0 ? 1 + below(rng, size - 1) : size;
     for (Int offset = 0; offset < span; ++offset) {
         if (offset >= gap && offset < gap + spared) continue;
-        num_absent = mark(marked, absent, num_absent, fleet.stop(slot, begin + offset).node);
+        const Stop& stop = fleet.stop(slot, begin + offset);
+        if (stop.kind == customer_stop) num_absent = mark(marked, absent, num_absent, stop.node);
     }
     return num_absent;
 }
@@ -137,7 +138,7 @@ Int remove_marked(const ProblemData& data, Fleet& fleet, Int slot, View<bool, 1>
                   View<Int, 1> absent, Int num_absent, View<Int, 1> moved) {
     Route& route = fleet.route[slot];
     const Sequence sequence = sequence_in(fleet, slot);
-    num_absent = keep_sorties(sequence, marked, absent, num_absent);
+    num_absent = keep_sorties(sequence, data.halt_after, marked, absent, num_absent);
     close_ranks(sequence, marked, moved);
     if (route.length > 0 && !refresh(data, fleet, slot)) {
         num_absent = mark_all(fleet, slot, marked, absent, num_absent);

@@ -111,11 +111,10 @@ bool overloads(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     Int count = 0;
     const auto add = [&](const Stop& stop) {
         load = plus(load, demand_of(data.place[0][stop.node]));
-        ++count;
+        if (stop.kind == customer_stop) ++count;
     };
-    for (Int p = a.stop; fleet.stop(a.slot, p).kind == customer_stop; --p)
-        add(fleet.stop(a.slot, p));
-    for (Int p = b.stop + 1; fleet.stop(b.slot, p).kind == customer_stop; ++p) {
+    for (Int p = a.stop; has_window(fleet.stop(a.slot, p)); --p) add(fleet.stop(a.slot, p));
+    for (Int p = b.stop + 1; has_window(fleet.stop(b.slot, p)); ++p) {
         add(fleet.stop(b.slot, p));
     }
     const VehicleType& type = data.type[fleet.route[a.slot].type];
@@ -130,10 +129,10 @@ bool overloads(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
 bool clashes(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     if (data.goods.empty()) return false;
     Int barred = 0;
-    for (Int p = a.stop; fleet.stop(a.slot, p).kind == customer_stop; --p) {
+    for (Int p = a.stop; has_window(fleet.stop(a.slot, p)); --p) {
         barred |= barred_on_trip(data.goods[fleet.stop(a.slot, p).node]);
     }
-    for (Int p = b.stop + 1; fleet.stop(b.slot, p).kind == customer_stop; ++p) {
+    for (Int p = b.stop + 1; has_window(fleet.stop(b.slot, p)); ++p) {
         if (!go_together(data.goods[fleet.stop(b.slot, p).node], barred, 0)) return true;
     }
     return false;
@@ -203,7 +202,7 @@ Cut find_tail(const ProblemData& data, const Searcher& searcher, Cut a, double l
         chosen = b;
         best = cost;
     }
-    if (now.stop(a.slot, a.stop + 1).kind == customer_stop && cost_apart(data, now, a) < best) {
+    if (has_window(now.stop(a.slot, a.stop + 1)) && cost_apart(data, now, a) < best) {
         const Int slot = free_slot(data, searcher, k);
         if (slot >= 0) return {slot, 0};
     }

@@ -308,8 +308,14 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
         Stop& stop = stops[p];
         stop.arrival = std::max(time + d, c);
         stop.block = first;
-        if (stop.kind == customer_stop) {
-            if (!reach(truck.places[stop.node], {d, c}, sums)) return -1;
+        if (has_window(stop)) {
+            const Windows place = truck.places[stop.node];
+            if (!reach(place, {d, c}, sums)) return -1;
+            if (stop.kind == halt_stop) {
+                const auto [start_d, start_c] = place.start_within(time, {d, c});
+                d = start_d;
+                c = start_c;
+            }
         } else if (stop.kind == start_stop) {
             c = std::max(c, std::max(stop.release, stop.hold));
         }

@@ -71,7 +71,7 @@ struct Truck {
 
     // Return when what it does at a stop by itself ends.
     TimeSegment serve(const Stop& stop, Int time, TimeSegment reached) const {
-        if (stop.kind == customer_stop) {
+        if (has_window(stop)) {
             const Windows place = places[stop.node];
             const auto [d, c] = place.start_within(time, reached);
             return {d + place.service_duration(), c + place.service_duration()};
@@ -91,7 +91,7 @@ struct Truck {
         stop.lo = none;
         stop.hi = far;
         stop.dep = far;
-        if (stop.kind == customer_stop) {
+        if (has_window(stop)) {
             const Windows place = own[stop.node];
             stop.hi = place.latest_allowed();
             stop.dep = place.in_same_window(time);

@@ -15,11 +15,18 @@ void move_stop(const Stop& stop, Stop& to) {
 bool is_empty_trip(View<const Stop, 1> stops, View<const Sortie, 1> sorties,
                    View<const bool, 1> marked, Int p) {
     Int q = p + 1;
-    for (; stops[q].kind == customer_stop; ++q) {
-        if (!marked[stops[q].node]) return false;
+    for (; stops[q].kind != end_stop; ++q) {
+        if (stops[q].kind == customer_stop && !marked[stops[q].node]) return false;
     }
     return std::none_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
         return p <= sortie.launch && sortie.launch <= q;
+    });
+}
+
+// Tell whether a drone is launched or recovered at stop `p`.
+bool is_used(View<const Sortie, 1> sorties, Int p) {
+    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+        return sortie.launch == p || sortie.recovery == p;
     });
 }
 
@@ -89,13 +96,27 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node) {
         case trip_until:
             insert_stops(sequence, behind, {served, end, start});
             break;
+        case from_halt:
+            insert_stops(sequence, behind, {{move.halt, halt_stop}});
+            add_sortie(route, sorties, behind, move.last == move.first ? behind : move.last + 1,
+                       move.drone, node);
+            break;
+        case to_halt:
+            insert_stops(sequence, move.last + 1, {{move.halt, halt_stop}});
+            add_sortie(route, sorties, move.first, move.last + 1, move.drone, node);
+            break;
+        case by_halts:
+            insert_stops(sequence, move.last + 1, {{move.landing, halt_stop}});
+            insert_stops(sequence, behind, {{move.halt, halt_stop}});
+            add_sortie(route, sorties, behind, move.last + 2, move.drone, node);
+            break;
         default:
             break;
     }
 }
 
 void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
-                 Int drone) {
+                 Int drone, Int halt) {
     const auto& [route, stops, sorties] = sequence;
     route.length = route.trips = route.sorties = route.end = route.cum = route.working = 0;
     route.offset = route.stamp = 0;
@@ -103,16 +124,22 @@ void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int n
     insert_stops(sequence, 0, {{type.begins_at, start_stop}, {type.ends_at, end_stop}});
     if (way == by_truck) {
         insert_stops(sequence, 1, {{node, customer_stop}});
+    } else if (way >= at_halt) {
+        insert_stops(sequence, 1, {{halt, halt_stop}});
+        add_sortie(route, sorties, way == start_to_halt ? 0 : 1, way == halt_to_end ? 2 : 1, drone,
+                   node);
     } else {
         add_sortie(route, sorties, way == from_end ? 1 : 0, way == from_start ? 0 : 1, drone, node);
     }
 }
 
-Int keep_sorties(const Sequence& sequence, View<bool, 1> marked, View<Int, 1> absent,
-                 Int num_absent) {
+Int keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, View<bool, 1> marked,
+                 View<Int, 1> absent, Int num_absent) {
     const auto& [route, stops, sorties] = sequence;
     const auto is_removed = [&](Int p) {
-        return stops[p].kind == customer_stop && marked[stops[p].node];
+        Int node = stops[p].node;
+        if (stops[p].kind == halt_stop) node = halt_after[node];
+        return has_window(stops[p]) && node >= 0 && marked[node];
     };
     Int kept = 0;
     for (Sortie& sortie : sorties.first(route.sorties)) {
@@ -143,6 +170,7 @@ void close_ranks(const Sequence& sequence, View<const bool, 1> marked, View<Int,
         if (stop.kind == start_stop) dropping = is_empty_trip(stops, flown, marked, p);
         moved[p] = kept;
         if (dropping || (stop.kind == customer_stop && marked[stop.node])) continue;
+        if (stop.kind == halt_stop && !is_used(flown, p)) continue;
         if (kept < p) move_stop(stop, stops[kept]);
         ++kept;
     }

@@ -29,13 +29,28 @@ constexpr Int trip_until = 6;   // likewise, where one ends
 constexpr Int new_route = 7;    // on a route of its own
 constexpr Int new_flight = 8;   // by drone from there
 
+constexpr Int from_halt = 9;  // on a sortie from a stop at a launch site behind `first`, to stop
+                              // `last`, or back there if that is `first`
+constexpr Int to_halt = 10;   // on a sortie from `first` to a stop at a launch site behind `last`
+
+constexpr Int by_halts = 11;  // on a sortie from a stop at a launch site behind `first` to one at
+                              // another behind `last`, which comes later
+
+// Tell whether a customer is served by way of stops more at launch sites.
+inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }
+
 // How a route serves one customer alone: by truck, or by a drone from the start and back, from the
-// start to the end, or from the end and back.
+// start to the end, or from the end and back; from a launch site and back, from the start to it, or
+// from it to the end.
 constexpr Int by_truck = 0;
 constexpr Int from_start = 1;
 constexpr Int across = 2;
 constexpr Int from_end = 3;
 constexpr Int ways = 4;
+constexpr Int at_halt = 4;
+constexpr Int start_to_halt = 5;
+constexpr Int halt_to_end = 6;
+constexpr Int ways_by_halt = 3;
 
 // Write a stop's place in the sequence. In place.
 inline void put(View<Stop, 1> stops, Int p, Int node, Int kind) {
@@ -65,17 +80,20 @@ void join_sortie(Sortie& sortie, Int place, Int node);
 // Insert a customer, on trips from a depot. In place.
 void apply(Int depot, const Sequence& sequence, const Move& move, Int node);
 
-// Write a route that serves one customer in one of the `ways`, by a `drone`. In place.
+// Write a route that serves one customer in one of the `ways`, by a `drone`, or from a launch site.
+// In place.
 void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
-                 Int drone);
+                 Int drone, Int halt);
 
-// Drop marked customers from sorties, and sorties that begin or end at marked stops.
+// Drop marked customers from sorties, and sorties that begin or end at marked stops, or at launch
+// sites where a marked customer is served before, as `halt_after` tells.
 //
 // In place; their other customers are marked and listed in `absent`. Returns how many are there.
-Int keep_sorties(const Sequence& sequence, View<bool, 1> marked, View<Int, 1> absent,
-                 Int num_absent);
+Int keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, View<bool, 1> marked,
+                 View<Int, 1> absent, Int num_absent);
 
-// Remove marked stops and empty trips; sorties have been dealt with. In place.
+// Remove marked stops, empty trips, and stops at launch sites where no drone is launched or
+// recovered any more; sorties have been dealt with. In place.
 //
 // `moved` is scratch for a position per stop.
 void close_ranks(const Sequence& sequence, View<const bool, 1> marked, View<Int, 1> moved);

@@ -33,6 +33,7 @@ using Strategy = tandem_strategy;
 constexpr Int customer_stop = 0;
 constexpr Int start_stop = 1;
 constexpr Int end_stop = 2;
+constexpr Int halt_stop = 3;  // a launch site, where the truck stops for its drones alone
 
 // `Sortie.state`.
 constexpr Int sortie_waits = 0;
@@ -51,6 +52,11 @@ constexpr Int elsewhere = -2;
 
 // `SearchCounts.changed` where any slot may have changed since the best.
 constexpr Int all_slots = -1;
+
+// Tell whether the truck comes to a stop within a window: to a customer, or a launch site.
+inline bool has_window(const tandem_stop& stop) {
+    return stop.kind == customer_stop || stop.kind == halt_stop;
+}
 
 struct ProblemData {
     std::int64_t num_depots;
@@ -71,13 +77,17 @@ struct ProblemData {
     View<const Setup, 1> setup;                   // (node,) none where nobody sets up
     View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
     View<const bool, 1> no_launch;                // (node,) none where drones may take off anywhere
-    View<const VehicleType, 1> type;              // (row,)
-    View<const Rate, 1> rate;                     // (row,) per mm and per ms
-    View<const Evaluation, 1> evaluation;         // (row,)
-    View<const bool, 2> reload;          // (type, node) where a trip may end and the next begin
-    View<const std::int64_t, 1> visits;  // (row,) customers on a sortie
-    View<const bool, 3> can;             // (row, 2, node) by truck, by drone
-    View<const bool, 2> splice;          // (type, type) vehicles may end each other's routes
+    View<const bool, 2> halts;  // (type, depot) launch sites where it may stop; (0, 0) if none
+    View<const std::int64_t, 1> halt_after;  // (depot,) who is served before, or `nowhere`
+    View<const double, 1> halt_cost;         // (depot,) of each stop there
+    View<const std::int32_t, 2> near_halts;  // (node, rank) launch sites near a customer
+    View<const VehicleType, 1> type;         // (row,)
+    View<const Rate, 1> rate;                // (row,) per mm and per ms
+    View<const Evaluation, 1> evaluation;    // (row,)
+    View<const bool, 2> reload;              // (type, node) where a trip may end and the next begin
+    View<const std::int64_t, 1> visits;      // (row,) customers on a sortie
+    View<const bool, 3> can;                 // (row, 2, node) by truck, by drone
+    View<const bool, 2> splice;              // (type, type) vehicles may end each other's routes
     View<const bool, 2>
         swap;   // (type, type) may drive each other's routes at a cost by distance alone
     Legs leg;   // duration, distance
@@ -108,6 +118,10 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.setup,
             from.max_time_aboard,
             from.no_launch,
+            from.halts,
+            from.halt_after,
+            from.halt_cost,
+            from.near_halts,
             from.type,
             from.rate,
             from.evaluation,
@@ -202,7 +216,7 @@ inline void copy_sequence(const Stop& stop, Stop& to) {
 
 // Let a trip be empty. In place.
 inline void clear_trip(Trip& trip) {
-    trip.first = trip.last = trip.release = trip.distance = 0;
+    trip.first = trip.last = trip.halts = trip.release = trip.distance = 0;
     for (Int dimension = 0; dimension < dimensions_per_tier; ++dimension) trip.load[dimension] = 0;
 }
 

@@ -11,6 +11,9 @@ inline Int tiers_of(const ProblemData& data) { return data.amount.shape(1); }
 // As `tiers_of`, by the routes.
 inline Int tiers_aboard(const Fleet& fleet) { return fleet.stop_load.shape(1); }
 
+// Tell whether trucks may stop at places for their drones alone.
+inline bool has_halts(const ProblemData& data) { return !data.halts.empty(); }
+
 // Tell whether some goods must not go with others.
 inline bool goods_count(const ProblemData& data) { return !data.goods.empty(); }
 

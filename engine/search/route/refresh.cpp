@@ -43,9 +43,8 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop
         Int arrival = stop.arrival;
         if (p == last && plain) leave = stop.leave;
         if (plain) {
-            arrival = stop.kind == customer_stop
-                          ? places[stop.node].latest_free_arrival(stop.arrival, leave)
-                          : leave;
+            arrival = has_window(stop) ? places[stop.node].latest_free_arrival(stop.arrival, leave)
+                                       : leave;
         }
         leave = arrival;
         if (p == first) break;

@@ -4,13 +4,43 @@
 
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "search/route/block.h"
 #include "search/route/ends.h"
+#include "search/route/rarer.h"
 
 namespace tandem {
+
+namespace {
+
+// Tell whether the truck stops at a launch site only once its customer has been served, if it has
+// one: by the truck before, or by a drone that has been recovered before.
+bool halts_in_order(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                    View<const Sortie, 1> sorties) {
+    for (Int p = 0; p < route.length; ++p) {
+        if (stops[p].kind != halt_stop) continue;
+        const Int node = data.halt_after[stops[p].node];
+        if (node < 0) continue;
+        const View<const Stop, 1> before = stops.first(p);
+        const View<const Sortie, 1> flown = sorties.first(route.sorties);
+        const bool is_served =
+            std::any_of(before.begin(), before.end(),
+                        [&](const Stop& stop) {
+                            return stop.kind == customer_stop && stop.node == node;
+                        }) ||
+            std::any_of(flown.begin(), flown.end(), [&](const Sortie& sortie) {
+                return sortie.recovery < p && std::find(sortie.nodes, sortie.nodes + sortie.count,
+                                                        node) != sortie.nodes + sortie.count;
+            });
+        if (!is_served) return false;
+    }
+    return true;
+}
+
+}  // namespace
 
 bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
                 View<const Sortie, 1> sorties) {
@@ -31,6 +61,10 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         Trip& trip = trips[index];
         stop.trip = index;
         if (stop.kind == customer_stop) carry(data, trip, stop.node);
+        if (stop.kind == halt_stop) {
+            if (!may_halt(data.halts, k, stop.node)) return false;
+            ++trip.halts;
+        }
         for (; s < route.sorties && sorties[s].launch == p; ++s) {
             for (Int visit = 0; visit < sorties[s].count; ++visit) {
                 carry(data, trip, sorties[s].nodes[visit]);
@@ -54,7 +88,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         }
     }
     route.trips = index + 1;
-    return true;
+    return !has_halts(data) || halts_in_order(data, route, stops, sorties);
 }
 
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
@@ -117,7 +151,7 @@ void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops)
         Stop& stop = stops[p];
         const Int leave = latest - gap;
         latest = std::min(stop.hi, leave - stop.d);
-        if (stop.kind == customer_stop && !single) {
+        if (has_window(stop) && !single) {
             // No drone flies, or the route would be retimed.
             latest = places[stop.node].latest_arrival(leave);
         }
@@ -201,10 +235,17 @@ RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1
     const Int k = route.type;
     const Rate& rate = data.rate[k];
     RoutePrice price{rate.fixed, 0.0};
+    Int halts = 0;
     for (const Trip& trip : trips.first(route.trips)) {
         price.cost += drive_cost(rate, trip.distance);
+        halts += trip.halts;
     }
-    price.cost += stops_cost(rate, route.length - 2 * route.trips);
+    price.cost += stops_cost(rate, route.length - 2 * route.trips - halts);
+    if (halts > 0) {
+        for (const Stop& stop : stops.first(route.length)) {
+            if (stop.kind == halt_stop) price.cost += data.halt_cost[stop.node];
+        }
+    }
     price.cost += work_cost(rate, work_of(data.type[k], route));
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         price.cost += sortie_cost(data, k, stops, sortie);

@@ -14,7 +14,7 @@
 namespace tandem {
 
 // Return how many customers the truck itself serves on a trip.
-inline Int stops_on(const Trip& trip) { return trip.last - trip.first - 1; }
+inline Int stops_on(const Trip& trip) { return trip.last - trip.first - 1 - trip.halts; }
 
 // Tell whether a sortie more may be flown on a trip of a route, by their number.
 bool may_launch(const VehicleType& type, const Route& route, View<const Sortie, 1> sorties,

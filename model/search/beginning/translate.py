@@ -11,7 +11,7 @@ from model.engine.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
 from model.search.route.engine import INFEASIBLE
 from model.search.route.layout import (
-    CUSTOMER, END, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
+    CUSTOMER, END, HALT, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
 from model.search.route.state import Searcher
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit, with_handling
@@ -84,8 +84,9 @@ def _sizes(problem: Problem, data: ProblemData, solution: Solution) -> tuple[int
         wanted = number
     trips = min(int(types["max_trips"].max()), max(1, most)) + 1
     flown = most if data.visits.any() else 0
+    halts = 2 * flown if len(data.halts) else 0  # where each is launched, and recovered
     return (max(1, min(count, number, wanted), len(solution.routes)),
-            most + 2 * trips + STOPS_OPENED, trips, flown + 1)
+            most + halts + 2 * trips + STOPS_OPENED, trips, flown + 1)
 
 
 def _most_carried(delivered: IntArray, picked: IntArray, capacity: IntArray) -> int:
@@ -109,7 +110,8 @@ def _most_served(kind: Record) -> int:
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:
     """Write the sequence of a route. In place."""
-    stops = [(stop.node, START if index == 0 else END if index == len(trip.stops) - 1 else CUSTOMER)
+    stops = [(stop.node, START if index == 0 else END if index == len(trip.stops) - 1
+              else HALT if stop.is_launch_site else CUSTOMER)
              for trip in route.trips for index, stop in enumerate(trip.stops)]
     written = fleet.stop[slot, : len(stops)]
     written["node"], written["kind"] = np.array(stops).T
@@ -191,7 +193,9 @@ def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: in
         arrival = begin = max(arrival, release, hold)
     elif kind == CUSTOMER:
         begin, arrival = start, arrival - setup
-    return Stop(node, arrival, begin, leave, setup if kind == CUSTOMER else 0)
+    elif kind == HALT:
+        begin = start
+    return Stop(node, arrival, begin, leave, setup if kind == CUSTOMER else 0, kind == HALT)
 
 
 def _sortie(data: ProblemData, k: int, row: Any, launch_node: int, first: int) -> Sortie:

@@ -30,7 +30,7 @@ def vehicle_of(route: Route) -> Vehicle:
 def customers_of(route: Route) -> Iterator[int]:
     """Yield the customers that a route serves."""
     for trip in route.trips:
-        for stop in trip.stops[1:-1]:
+        for stop in trip.customer_stops:
             yield stop.node
         for sortie in trip.sorties:
             for visit in sortie.visits:

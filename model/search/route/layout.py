@@ -25,7 +25,7 @@ from model.problem import BoolArray, FloatArray, Int32Array, IntArray
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
 
-CUSTOMER, START, END = range(3)
+CUSTOMER, START, END, HALT = range(4)
 
 OTHERS = -1
 """Stamp of a route of the best plan that was not made turn by turn: no route as it is has it."""
@@ -69,6 +69,10 @@ class ProblemData(NamedTuple):
     setup: Records  # (node,), none where nobody sets up
     max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
+    halts: BoolArray  # (type, depot) launch sites where it may stop; (0, 0) if there are none
+    halt_after: IntArray  # (depot,) who is served before a stop there, or NOWHERE
+    halt_cost: FloatArray  # (depot,) of each stop there
+    near_halts: Int32Array  # (node, rank) launch sites near a customer, NOWHERE behind the last
     type: Records  # (row,)
     rate: Records  # (row,), per mm and per ms
     evaluation: Records  # (row,)

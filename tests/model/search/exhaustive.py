@@ -9,7 +9,9 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache, partial
-from itertools import combinations, pairwise, permutations
+from itertools import (
+    combinations, combinations_with_replacement, pairwise, permutations, product,
+)
 
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
@@ -95,7 +97,8 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
 
 def _least_duration(problem: Problem, kind: VehicleType, trip: TripDecision) -> int:
     """Return what driving and serving take on a trip, which lasts no shorter."""
-    served = sum(kind.service_at(problem.customer_at(node)) for node in trip.nodes[1:-1])
+    served = sum(kind.service_at(problem.customer_at(node)) for node in trip.nodes[1:-1]
+                 if node >= problem.num_depots)
     return _sum(problem.travel[kind.travel].duration[:], trip.nodes) + served
 
 
@@ -163,10 +166,35 @@ def _trips(problem: Problem, kind: VehicleType, nodes: Nodes,
                     or any(problem.customer_at(node).served_by == barred for node in driven)):
                 continue
             for order in permutations(driven):
-                stops = (ends[0], *order, ends[1])
-                for queue in permutations(flown):
-                    for sorties in _sorties(kind, queue, len(stops), 0):
-                        yield TripDecision(stops, sorties)
+                for halting in _with_halts(problem, kind, order, 2 * len(flown)):
+                    stops = (ends[0], *halting, ends[1])
+                    for queue in permutations(flown):
+                        for sorties in _sorties(kind, queue, len(stops), 0):
+                            if _uses_all(problem, stops, sorties):
+                                yield TripDecision(stops, sorties)
+
+
+def _with_halts(problem: Problem, kind: VehicleType, order: Nodes,
+                most: int) -> Iterator[Nodes]:
+    """Yield the truck's customers in order, with up to so many stops at launch sites, two at most.
+    """
+    yield order
+    sites = problem.launch_sites if kind.drones else ()
+    for places in (*combinations(range(len(order) + 1), 1),
+                   *combinations_with_replacement(range(len(order) + 1), 2)):
+        if len(places) <= most:
+            for chosen in product(sites, repeat=len(places)):
+                stops = list(order)
+                for place, site in zip(reversed(places), chosen, strict=True):
+                    stops.insert(place, site)
+                yield tuple(stops)
+
+
+def _uses_all(problem: Problem, stops: Nodes, sorties: tuple[SortieDecision, ...]) -> bool:
+    """Tell whether a drone is launched or recovered at each stop at a launch site."""
+    used = {stop for sortie in sorties for stop in (sortie.launch_stop, sortie.recovery_stop)}
+    return all(index in used for index, node in enumerate(stops[1:-1], 1)
+               if node < problem.num_depots)
 
 
 def _sorties(kind: VehicleType, queue: Nodes, num_stops: int,

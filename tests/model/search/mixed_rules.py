@@ -10,7 +10,9 @@ from tests.model.tiny import (
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
     with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
 )
-from tests.model.tiny_launches import with_few_launch_places
+from tests.model.tiny_launches import (
+    with_few_launch_places, with_launch_sites, with_some_revisits,
+)
 
 
 def all_rules(rng: np.random.Generator) -> Problem:
@@ -138,6 +140,24 @@ def all_rules_few_launch_places(rng: np.random.Generator) -> Problem:
         problem = with_few_launch_places(rng, all_rules(rng))
         if problem.forbids_launches and any(kind.drones for kind in problem.vehicle_types):
             return problem
+
+
+def all_rules_launch_sites(rng: np.random.Generator) -> Problem:
+    """Return problems in which some truck may stop at launch sites."""
+    while True:
+        problem = draw_tiny(rng, drone_share=1.0)
+        if 3 <= problem.num_customers <= 4 and not any(kind.speed_profile
+                                                       for kind in problem.vehicle_types):
+            problem = with_launch_sites(rng, problem)
+            if problem.num_customers == 2:
+                return problem
+
+
+def all_rules_revisits(rng: np.random.Generator) -> Problem:
+    while True:
+        problem = all_rules(rng)
+        if problem.num_customers == 2 and any(kind.drones for kind in problem.vehicle_types):
+            return with_some_revisits(rng, problem)
 
 
 def all_rules_at_once(rng: np.random.Generator) -> Problem:

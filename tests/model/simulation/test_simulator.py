@@ -24,7 +24,7 @@ from tests.model.tiny import (
     with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
     with_table, with_turnaround,
 )
-from tests.model.tiny_launches import with_few_launch_places
+from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
 
 pytestmark = pytest.mark.slow
 
@@ -154,7 +154,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, with_storms,
-    storms_among_all, fliers_in_range])
+    storms_among_all, fliers_in_range, with_launch_sites])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):

@@ -1,0 +1,199 @@
+#include <algorithm>
+
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/launch_place.h"
+#include "rules/leg.h"
+#include "rules/shift.h"
+#include "search/insertion/listing.h"
+#include "search/insertion/newcomer.h"
+#include "search/insertion/offers.h"
+#include "search/route/drone_data.h"
+#include "search/route/edit.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+// Which stops at launch sites are inserted where, as `Move` has it.
+struct Way {
+    Int kind;
+    Int first;
+    Int last;
+    Int halt;
+    Int landing;
+};
+
+// Sorties to a customer by drones of a row that begin or end at stops at launch sites to come.
+class Halting {
+public:
+    Halting(const Insertion& insertion, Int slot, Int row)
+        : data_(insertion.data),
+          searcher_(insertion.searcher),
+          slot_(slot),
+          row_(row),
+          node_(insertion.node),
+          k_(searcher_.now.route[slot].type),
+          stops_(searcher_.now.stop[slot]),
+          type_(data_.type[row]),
+          rate_(data_.rate[row]),
+          place_(data_.place.by_air(type_)[node_]),
+          inward_(legs_to(data_.back, type_.drone_travel, node_)),
+          onward_(legs_from(data_.leg, type_.home_travel, node_)),
+          crossing_(data_.strategy.crossings && !waits_for_drones(data_.type[k_])),
+          best_(insertion.best.cost),
+          early_(searcher_.now.early[slot]),
+          idle_(idle_time(searcher_.now.route[slot])) {}
+
+    // Lists those for which the truck stops at a launch site behind stop `p`.
+    void offer_behind(Int p, Int halt) const {
+        if (!may_halt(data_.halts, k_, halt) || !in_range(data_, type_, halt, node_) ||
+            !is_served_by(p, data_.halt_after[halt])) {
+            return;
+        }
+        const TravelLegs legs = legs_of(data_.leg, data_.type[k_].travel);
+        const Stop &here = stops_[p], &behind = stops_[p + 1];
+        const Leg there = leg(legs, here.node, halt), on = leg(legs, halt, behind.node);
+        const Leg out = leg_from(inward_, halt), home = leg_to(onward_, halt);
+        const Trip& trip = searcher_.now.trip(slot_, here.trip);
+        const Int distance = there.distance + on.distance - here.leg;
+        if (distance > longest_trip(data_.type[k_]) - trip.distance) return;
+        const double driven = drive_cost(data_.rate[k_], distance) + data_.halt_cost[halt] - early_;
+        if (driven + flown_cost(rate_, std::min(out.distance, home.distance)) >= best_) return;
+        // While drones fly, the truck may have time before they are back.
+        const Int detour = there.duration + on.duration - here.gap;
+        const Int longer = detour - idle_ - here.idle;
+        const Int handled = handling_duration(type_);
+        if (data_.strategy.loops) {
+            const Flight loop{type_, place_, out.duration, home.duration};
+            offer({from_halt, p, p, halt, nowhere}, loop, driven, out.distance + home.distance,
+                  longer + loop.duration() + type_.recovery_duration);
+        }
+        if (!crossing_) return;
+        offer_landings(p, halt, out, driven, longer);
+        const Int last = std::min(trip.last, p + max_span);
+        for (Int recovery = p + 1; recovery <= last; ++recovery) {
+            const Stop& to = stops_[recovery];
+            const Leg back = leg_to(onward_, to.node);
+            if (!may_end_at(to)) continue;
+            const Flight flight{type_, place_, out.duration, back.duration};
+            const Int begun = here.leave + there.duration + type_.recovery_duration;
+            offer({from_halt, p, recovery, halt, nowhere}, flight, driven,
+                  out.distance + back.distance,
+                  std::max(longer, begun + flight.duration() - to.leave - idle_));
+        }
+        for (Int launch = std::max(trip.first, p - max_span + 1); launch <= p; ++launch) {
+            const Stop& from = stops_[launch];
+            if (!may_end_at(from)) continue;
+            const Leg way = leg_from(inward_, from.node);
+            const Flight flight{type_, place_, way.duration, home.duration};
+            const Int begun = from.arrival + type_.recovery_duration + on.duration;
+            offer({to_halt, launch, p, halt, nowhere}, flight, driven, way.distance + home.distance,
+                  std::max(longer - handled, begun + flight.duration() - behind.leave - idle_));
+        }
+    }
+
+private:
+    // Lists those from a launch site behind stop `p` to one more behind a later stop.
+    //
+    // `driven` and `longer` are what the first stop costs, and how much longer it takes.
+    void offer_landings(Int p, Int halt, const Leg& out, double driven, Int longer) const {
+        const TravelLegs legs = legs_of(data_.leg, data_.type[k_].travel);
+        const View<const std::int32_t, 1> near = data_.near_halts[node_];
+        const Int last = std::min(searcher_.now.trip(slot_, stops_[p].trip).last - 1, p + max_span);
+        for (Int rank = 0; rank < std::min(max_landings, near.size()); ++rank) {
+            const Int landing = near[rank];
+            if (landing < 0) break;
+            if (!may_halt(data_.halts, k_, landing) || !in_range(data_, type_, landing, node_)) {
+                continue;
+            }
+            const Leg home = leg_to(onward_, landing);
+            const Flight flight{type_, place_, out.duration, home.duration};
+            for (Int q = p + 1; q <= last; ++q) {
+                const Stop &here = stops_[q], &behind = stops_[q + 1];
+                const Leg there = leg(legs, here.node, landing),
+                          on = leg(legs, landing, behind.node);
+                const Int detour = there.duration + on.duration - here.gap - here.idle;
+                const double cost =
+                    driven + data_.halt_cost[landing] +
+                    drive_cost(data_.rate[k_], there.distance + on.distance - here.leg);
+                if (cost >= best_ || !is_served_by(q, data_.halt_after[landing])) continue;
+                offer({by_halts, p, q, halt, landing}, flight, cost, out.distance + home.distance,
+                      longer + std::max(Int{0}, detour));
+            }
+        }
+    }
+
+    // Tells whether a drone may leave, or come to, a stop as it flies to the customer.
+    bool may_end_at(const Stop& stop) const {
+        return is_launch_place(data_.no_launch, stop.node) &&
+               in_range(data_, type_, stop.node, node_);
+    }
+
+    // Tells whether somebody, if anybody, is served up to stop `p`, drones being recovered by then.
+    bool is_served_by(Int p, Int customer) const {
+        if (customer < 0) return true;
+        const Place& place = searcher_.now.where[customer];
+        if (place.slot != slot_) return false;
+        if (place.position >= 0) return place.position <= p;
+        return searcher_.now.sortie(slot_, place.sortie).recovery <= p;
+    }
+
+    // Lists an insertion, if that may be cheapest, by how much longer the vehicle works at least.
+    void offer(const Way& way, const Flight& flight, double driven, Int flown, Int longer) const {
+        const double cost = driven + flown_cost(rate_, flown) +
+                            usual_work_cost(data_.rate[k_], std::max(Int{0}, longer));
+        if (cost >= best_ || unreachable(std::max(flight.out, flight.home)) ||
+            !flight.can_serve()) {
+            return;
+        }
+        Move& move = add_offer(searcher_, cost, way.kind, slot_, way.first);
+        move.last = way.last;
+        move.type = row_;
+        move.halt = way.halt;
+        move.landing = way.landing;
+    }
+
+    const ProblemData& data_;
+    const Searcher& searcher_;
+    Int slot_;
+    Int row_;
+    Int node_;
+    Int k_;
+    View<const Stop, 1> stops_;
+    const VehicleType& type_;
+    Rate rate_;
+    Windows place_;
+    LegRow inward_;
+    LegRow onward_;
+    bool crossing_;  // drones may be recovered elsewhere than they are launched
+    double best_;
+    double early_;  // what the route's waiting costs, which may become less
+    Int idle_;      // how long the route could work longer at no cost
+};
+
+}  // namespace
+
+void offer_halts(const Insertion& insertion, Int slot, Int first, Int last) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const Trip& trip = now.trip(slot, now.stop(slot, first).trip);
+    for (Int row = first_drone_row(data.type, route.type); row >= 0;
+         row = next_drone_row(data.type, row)) {
+        if (!data.can(row, 1, node) ||
+            !has_battery(data.type, route, now.sortie[slot], trip, row)) {
+            continue;
+        }
+        const Halting halting(insertion, slot, row);
+        for (const Int halt : data.near_halts[node]) {
+            if (halt < 0) break;
+            for (Int p = first; p <= last; ++p) halting.offer_behind(p, halt);
+        }
+    }
+}
+
+}  // namespace tandem
