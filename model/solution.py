@@ -65,7 +65,13 @@ class Trip:
     @property
     def customer_stops(self) -> list[Stop]:
         """The stops at which the truck serves somebody."""
-        return [stop for stop in self.stops[1:-1] if not stop.is_launch_site]
+        return [stop for _, stop in self.numbered_stops]
+
+    @property
+    def numbered_stops(self) -> list[tuple[int, Stop]]:
+        """The stops at which the truck serves somebody, each with its index."""
+        return [(index, stop) for index, stop in enumerate(self.stops[1:-1], 1)
+                if not stop.is_launch_site]
 
 
 @dataclass(frozen=True, slots=True)

@@ -91,8 +91,9 @@ def read_about_plan(body: bytes, bounds: Bounds, kind: type[Kind]) -> Kind:
         raise _refusal(error, body, bounds, kind) from error
     problem = request.whole_problem
     errors = [*_within(PROBLEM, request_errors(problem, None, bounds)),
-              *plan_errors(request.plan, Known.of(problem.depots, problem.customers,
-                                                  problem.fleet), (PLAN,))]
+              *plan_errors(request.plan, Known.of(
+                  problem.depots, problem.customers, problem.fleet, problem.launch_sites),
+                  (PLAN,))]
     if errors:
         raise InvalidRequestError([
             error.model_copy(update={"path": request.path_of(error.path)}) for error in errors])
@@ -140,4 +141,5 @@ def _plan_errors(raw: dict[str, Any], details: Sequence[ErrorDetails],
     if PLAN not in raw or any(item["loc"][:1] == (PLAN,) for item in details):
         return []
     plan = read_body(UntimedPlanInput, to_json(raw[PLAN]), day)
-    return plan_errors(plan, Known.of(draft.depots, draft.customers, draft.fleet), (PLAN,))
+    return plan_errors(plan, Known.of(draft.depots, draft.customers, draft.fleet,
+                                      draft.launch_sites), (PLAN,))

@@ -8,7 +8,7 @@ from app.requests.conversion.groups import Roster, groups_of
 from app.requests.conversion.names import drones_of
 from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
-from app.schemas.customer import TimeWindowInput
+from app.schemas.customer import TimeWindowInput, VehiclesInput
 
 Entry = TypeVar("Entry")
 
@@ -35,8 +35,10 @@ def vehicle_errors(draft: Draft) -> Errors:
     """Say which vehicles that customers name aren't there, and which are told in two ways."""
     fleet = _whole(draft.fleet)
     roster = None if fleet is None else Roster(fleet)
-    for path, customer in draft.known_customers():
-        vehicles = customer.vehicles
+    choosy: list[tuple[Path, VehiclesInput | None]] = [
+        *((path, customer.vehicles) for path, customer in draft.known_customers()),
+        *((path, site.vehicles) for path, site in draft.known_launch_sites())]
+    for path, vehicles in choosy:
         if vehicles is None:
             continue
         if vehicles.allowed is not None and vehicles.forbidden is not None:
@@ -54,9 +56,11 @@ def vehicle_errors(draft: Draft) -> Errors:
 def group_errors(draft: Draft) -> Errors:
     """Say whether customers tell too many groups of vehicles apart, if all else is right."""
     fleet, customers = _whole(draft.fleet), _whole(draft.customers)
-    if fleet is None or customers is None:
+    sites = _whole(draft.launch_sites)
+    if fleet is None or customers is None or sites is None:
         return
-    if sum(1 for _ in islice(groups_of(fleet, customers), MAX_GROUPS + 1)) > MAX_GROUPS:
+    groups = groups_of(fleet, [*customers, *sites])
+    if sum(1 for _ in islice(groups, MAX_GROUPS + 1)) > MAX_GROUPS:
         yield error_at("TOO_MANY_GROUPS", ("customers",),
                        f"By their vehicles, customers tell more than {MAX_GROUPS} groups of "
                        "vehicles apart: name types, or fewer vehicles.")

@@ -12,6 +12,7 @@ from app.schemas.day import Day
 from app.schemas.drones import DronesInput, Flyer
 from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.fields import Location
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import (
     AirspaceInput, DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput,
     OptionsInput, ReplanInput,
@@ -60,12 +61,15 @@ class Draft:
     load_dimensions: Sequence[LoadDimensionInput] | None = None
     day: Day | None = None
     incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
+    launch_sites: Sequence[LaunchSiteInput | None] | None = ()
 
     def places(self, customers: bool = True) -> Iterator[Placed]:
-        """Yield depots, customers unless they are not asked for, and where vehicles start and end.
+        """Yield depots, launch sites, customers unless they are not asked for, and where vehicles
+        start and end.
         """
         asked = self.customers if customers else ()
-        for name, entries in (("depots", self.depots), ("customers", asked)):
+        for name, entries in (("depots", self.depots), ("launch_sites", self.launch_sites),
+                              ("customers", asked)):
             for index, entry in enumerate(entries or ()):
                 if entry is not None:
                     yield Placed(entry, (name, index, "location"), (name, index, "location_index"))
@@ -78,6 +82,12 @@ class Draft:
         for index, entry in enumerate(self.customers or ()):
             if entry is not None:
                 yield ("customers", index), entry
+
+    def known_launch_sites(self) -> Iterator[tuple[Path, LaunchSiteInput]]:
+        """Yield launch sites with their paths."""
+        for index, entry in enumerate(self.launch_sites or ()):
+            if entry is not None:
+                yield ("launch_sites", index), entry
 
     def vehicle_types(self) -> Iterator[tuple[Path, VehicleTypeInput]]:
         """Yield vehicle types with their paths."""

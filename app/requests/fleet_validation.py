@@ -106,7 +106,7 @@ def _is_countable(draft: Draft, drones: Flyer, energy: EnergyInput) -> bool:
 
 
 TRUCKS = ("drones", "speed_profile", "start_location", "start_location_index", "max_sorties",
-          "max_airborne", "truck_waits")
+          "max_airborne", "truck_waits", "revisits")
 """Fields of a vehicle type that nothing has which flies by itself."""
 
 FLYING = ("altitude", "endurance", "launch_duration", "recovery_duration", "energy", "turnaround")

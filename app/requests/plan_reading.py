@@ -7,12 +7,13 @@ from typing import NamedTuple, TypeVar
 from pydantic import ValidationError
 
 from app.requests.conversion.names import number_in
-from app.requests.conversion.places import stands_of
+from app.requests.conversion.places import revisits, stands_of
 from app.requests.conversion.units import thousandths
 from app.requests.reading import read_json
 from app.schemas.customer import CustomerInput
 from app.schemas.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
 from app.schemas.hints import with_hints
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
 from app.schemas.request import DepotInput
 from app.schemas.times import read_body
@@ -33,6 +34,7 @@ _UNKNOWN: dict[str, ErrorCode] = {
     "depot": "UNKNOWN_DEPOT",
     "start": "UNKNOWN_DEPOT",
     "end": "UNKNOWN_DEPOT",
+    "launch_site": "UNKNOWN_DEPOT",
     "vehicle type": "UNKNOWN_VEHICLE_TYPE",
 }
 
@@ -156,12 +158,17 @@ class Known:
     @classmethod
     def of(cls, depots: Sequence[DepotInput | None] | None,
            customers: Sequence[CustomerInput | None] | None,
-           fleet: Sequence[VehicleTypeInput | None] | None) -> "Known":
+           fleet: Sequence[VehicleTypeInput | None] | None,
+           sites: Sequence[LaunchSiteInput | None] | None = ()) -> "Known":
         """Return what the parts of a request have; their numbers mean nothing."""
         stands = None
         if fleet is not None and None not in fleet:
             stands = {(str(stand.depot.kind), stand.depot.id): 0
                       for kind in fleet if kind is not None for stand in stands_of(kind)}
+            places: list[DepotInput | CustomerInput | LaunchSiteInput | None] = [*(sites or ())]
+            if any(revisits(kind) for kind in fleet if kind is not None):
+                places += [*(depots or ()), *(customers or ())]
+            stands |= {("launch_site", place.id): 0 for place in places if place is not None}
         kinds = _by_name(fleet)
         return cls(_by_name(depots), stands, _by_name(customers),
                    None if kinds is None else dict.fromkeys(kinds, KnownType()))
@@ -224,6 +231,7 @@ class _PlanReader:
 
     def _stop(self, path: Path, stop: StopInput) -> Stop:
         return Stop(
+            is_launch_site=stop.kind == "launch_site",
             node=self._place((*path, "id"), stop),
             arrival=thousandths(stop.arrival),
             service_start=thousandths(stop.service_start),

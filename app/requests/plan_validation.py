@@ -174,13 +174,13 @@ class _Checker:
         inner = kinds[1:] if is_open else kinds[1:-1]
         if (len(kinds) < 2 - is_open or kinds[0] not in ("depot", "start")
                 or (not is_open and kinds[-1] not in ("depot", "end"))
-                or any(kind != "customer" for kind in inner)):
+                or any(kind not in ("customer", "launch_site") for kind in inner)):
             yield _error("TRIP_SHAPE", (*path, "stops"),
                          "A trip begins and ends at a depot, or where its vehicle does, with "
                          "customers between: state it so.")
         # Whoever drove to a launch that there is no more ends its trip there.
         has_moved = has_begun and _place(trip.stops[0]) != _place(trip.stops[-1])
-        if not inner and not trip.sorties and not has_moved:
+        if "customer" not in inner and not trip.sorties and not has_moved:
             yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
         for index, stop in enumerate(trip.stops):
             if (stop.kind == "depot" and self._names.depots is not None

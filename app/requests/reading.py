@@ -16,6 +16,7 @@ from app.schemas.errors import (
     InputError, InvalidRequestError, NotJsonError, RequestError, schema_errors,
 )
 from app.schemas.hints import with_hints
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import (
     AirspaceInput,
     DepotInput,
@@ -151,6 +152,7 @@ def _whole_draft(request: PlanRequest) -> Draft:
         day=(None if request.plan_start is None
              else Day.of(request.plan_start, request.time_zone)),
         incompatible_goods=request.incompatible_goods,
+        launch_sites=request.launch_sites,
     )
 
 
@@ -172,6 +174,8 @@ def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails], day: Day
                 else _section(raw, broken, "replan", ReplanInput, day)),
         planar_rounding=raw.get("planar_rounding", "exact"),
         day=None if raw.get("plan_start") is None else day.day,
+        launch_sites=(() if "launch_sites" not in raw else
+                      _entries(raw, broken, "launch_sites", LaunchSiteInput, day)),
     )
 
 

@@ -15,10 +15,12 @@ from app.requests.fleet_validation import (
     turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
+from app.requests.site_validation import site_errors
 from app.requests.wind_validation import wind_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.errors import InputError, json_path
 from app.schemas.fields import point_of
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import DepotInput
 from app.schemas.rows import Row
 from app.schemas.vehicle import VehicleTypeInput
@@ -35,6 +37,8 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_id_errors("depots", draft.depots),
         *_id_errors("customers", draft.customers),
         *_id_errors("fleet", draft.fleet),
+        *_id_errors("launch_sites", draft.launch_sites),
+        *site_errors(draft),
         *_emptiness_errors(draft),
         *window_errors(draft),
         *(of_vehicles or group_errors(draft)),
@@ -62,7 +66,8 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
 
 
 def _id_errors(name: str,
-               entries: Sequence[DepotInput | CustomerInput | VehicleTypeInput | None] | None,
+               entries: Sequence[DepotInput | CustomerInput | VehicleTypeInput | LaunchSiteInput
+                                 | None] | None,
                ) -> Errors:
     seen: dict[str, int] = {}
     for index, entry in enumerate(entries or ()):

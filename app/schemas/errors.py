@@ -112,6 +112,8 @@ ErrorCode = Literal[
     "NO_FLIGHTS",
     "NO_WAY_AROUND",
     "BEYOND_FORMAT",
+    "NOT_REPLANNED",
+    "TOO_MANY_REVISITS",
 ]
 
 _STATED_CODES = frozenset(get_args(ErrorCode))

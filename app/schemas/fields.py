@@ -14,6 +14,7 @@ MAX_AMOUNT = MAX_QUANTITY // 1000
 """Largest amount, duration in seconds or distance in metres: all are held as thousandths."""
 
 MAX_DEPOTS = 100
+MAX_LAUNCH_SITES = 100
 
 Name = Annotated[str, Field(min_length=1, max_length=200)]
 Count = Annotated[int, Field(ge=0, le=1_000_000)]
@@ -28,7 +29,8 @@ Money = Annotated[float, Field(ge=0, le=MAX_MONEY)]
 Speed = Annotated[float, Field(ge=1, le=1000)]
 Demand = Annotated[list[Amount], Field(min_length=1, max_length=MAX_DIMENSIONS)]
 Location = tuple[float, float]
-LocationIndex = Annotated[int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS)]
+LocationIndex = Annotated[
+    int, Field(ge=0, le=MAX_CUSTOMERS + MAX_DEPOTS + MAX_LAUNCH_SITES)]
 Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]
 Skills = Annotated[list[Name], Field(max_length=100)]
 Goods = Annotated[list[Name], Field(max_length=100)]
@@ -39,7 +41,7 @@ Info = Annotated[
     dict[Name, Annotated[str, Field(max_length=MAX_INFO_LENGTH)]],
     Field(max_length=MAX_INFO_ENTRIES),
 ]
-MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + 1
+MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + MAX_LAUNCH_SITES + 1
 """Most rows of a matrix, and columns: what `location_index` can name."""
 
 _Row = Annotated[Row, HeldAsArray(Annotated[

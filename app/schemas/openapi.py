@@ -22,6 +22,7 @@ EXAMPLES = {
     "berlin": "Forty places in Berlin, two vans with a drone each, a no-fly area",
     "drones": "Trucks with a drone each, time windows and a shift",
     "hubs": "Drones that fly from two hubs by themselves, beside a truck",
+    "launch_sites": "A truck stops for its drone alone, at a pier, and comes back to customers",
     "table1": "The paper's hundred customers, four trucks with a drone each",
     "hetero_day": "A heterogeneous fleet on several trips within working hours",
     "city_day": "A city: true addresses, rush hours, a no-fly area, wind",

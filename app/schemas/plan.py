@@ -55,10 +55,14 @@ class VisitInput(_Plan):
 class StopInput(_Plan):
     """A place where the truck halts. Times in seconds since plan start."""
 
-    kind: Literal["depot", "customer", "start", "end"] = Field(
-        description="What the place is: `start` and `end` are those of a vehicle type."
+    kind: Literal["depot", "customer", "start", "end", "launch_site"] = Field(
+        description="What the place is: `start` and `end` are those of a vehicle type. At a "
+        "`launch_site` the truck stops for its drones alone."
     )
-    id: str = Field(description="Id of the depot, the customer or the vehicle type.")
+    id: str = Field(
+        description="Id of the depot, the customer, the vehicle type or the launch site; of the "
+        "customer or depot where a truck comes back to."
+    )
     arrival: Instant = Field(
         description="Arrival; at the trip's first stop, when loading is done."
     )

@@ -12,9 +12,10 @@ from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
-    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, Input, Instant, Location,
-    LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
+    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Input, Instant,
+    Location, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
 )
@@ -301,6 +302,11 @@ class PlanRequest(Input):
     )
     fleet: Annotated[list[VehicleTypeInput], Field(max_length=MAX_VEHICLE_TYPES)] = Field(
         description="Vehicle types, at least one."
+    )
+    launch_sites: Annotated[list[LaunchSiteInput], Field(max_length=MAX_LAUNCH_SITES)] = Field(
+        [],
+        description="Places where trucks may stop for their drones alone, as often as it pays. In "
+        "plans they are stops of kind `launch_site`.",
     )
     matrices: Annotated[dict[Name, MatrixInput], Field(max_length=100)] | None = Field(
         None,

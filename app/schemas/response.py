@@ -38,10 +38,14 @@ class CostReply(_Reply):
 class StopReply(_Reply):
     """A place where the truck halts."""
 
-    kind: Literal["depot", "customer", "start", "end"] = Field(
-        description="What the place is: `start` and `end` are those of a vehicle type."
+    kind: Literal["depot", "customer", "start", "end", "launch_site"] = Field(
+        description="What the place is: `start` and `end` are those of a vehicle type. At a "
+        "`launch_site` the truck stops for its drones alone."
     )
-    id: str = Field(description="Id of the depot, the customer or the vehicle type.")
+    id: str = Field(
+        description="Id of the depot, the customer, the vehicle type or the launch site; of the "
+        "customer or depot where a truck comes back to."
+    )
     arrival: InstantReply = Field(
         description="Arrival; at the trip's first stop, when loading is done.")
     service_start: InstantReply = Field(description="Start of service; at depots the arrival.")

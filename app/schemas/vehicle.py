@@ -201,6 +201,11 @@ class VehicleTypeInput(Input):
         description="Whether the truck stands still while any of its drones is out: each is "
         "launched and recovered at the same stop.",
     )
+    revisits: bool = Field(
+        False,
+        description="Whether the truck may stop again at a depot, or at a place whose customer it "
+        "or its drones have served before, for its drones alone: each is a launch site then.",
+    )
     reload_duration: Duration = Field(
         0.0, description="Time at the depot between two trips in seconds."
     )

@@ -1,6 +1,6 @@
 """The rules that a timed route has to keep."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from operator import gt
 
@@ -92,9 +92,7 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     if trip.stops[0].arrival < release:
         message = f"begins at {seconds(trip.stops[0].arrival)}, released at {seconds(release)}"
         yield Violation("RELEASE", message, path)
-    stops = list(enumerate(trip.stops))[1:-1]
-    yield from _halt_violations(problem, kind, [(index, stop) for index, stop in stops
-                                                if not stop.is_launch_site], f"{path}.stops")
+    yield from _halt_violations(problem, kind, trip.numbered_stops, f"{path}.stops")
     if problem.limits_time_aboard:
         yield from _aboard_violations(problem, vehicle_type, timed)
     if vehicle_type.flies and airborne(trip) > vehicle_type.endurance:
@@ -176,8 +174,7 @@ def _aboard_violations(problem: Problem, kind: VehicleType,
     """Parcels that are too long aboard before their customers are served."""
     trip, path = timed.trip, timed.path
     halts: list[tuple[str, Stop | Visit]] = [
-        (f"{path}.stops[{index}]", stop) for index, stop in enumerate(trip.stops[1:-1], 1)
-        if not stop.is_launch_site]
+        (f"{path}.stops[{index}]", stop) for index, stop in trip.numbered_stops]
     halts += [(f"{path}.sorties[{index}].visits[{number}]", visit)
               for index, sortie in enumerate(trip.sorties)
               for number, visit in enumerate(sortie.visits)]

@@ -48,13 +48,15 @@ class Attempt(NamedTuple):
 
 
 def small_problem(problem: Problem, kind: int, nodes: list[int],
-                  drones: DroneType | None = None) -> Problem:
+                  drones: DroneType | None = None, sites: tuple[int, ...] = ()) -> Problem:
     """Return a problem of one type of vehicle, where it begins and ends, and some customers.
 
-    The first depot is where it begins, the last one where it ends. It has no other `drones`.
+    The first depot is where it begins; where it ends is the last but for launch `sites`. It has no
+    other `drones`.
     """
     vehicle_type, table = problem.vehicle_types[kind], problem.may_serve
     depots = list(dict.fromkeys((vehicle_type.begins_at, vehicle_type.ends_at)))
+    ends, depots = len(depots) - 1, [*depots, *sites]
     places = np.array([*depots, *nodes])
     rows = places[:, None]
     travels = [problem.travel[vehicle_type.travel]]
@@ -66,7 +68,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
     return Problem(
         depots=tuple([problem.depots[depot] for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
-        vehicle_types=(replace(vehicle_type, depot=0, start=0, end=len(depots) - 1, travel=0,
+        vehicle_types=(replace(vehicle_type, depot=0, start=0, end=ends, travel=0,
                                straight=len(travels) - 1, drones=drones, more_drones=(),
                                charge_left=(), reload_depots=()),),
         travel=tuple([Travel(each.duration[rows, places], each.distance[rows, places])
@@ -107,6 +109,10 @@ def _try_drones(problem: Problem, kind: int, drones: DroneType, node: int) -> It
     loops = [_try_loop(small, drones, opens) for opens in customer.openings]
     yield from loops
     if not loops[0].codes & {*HOPELESS, "PAYLOAD"}:
+        for site in _sites_near(problem, kind, drones, node):
+            small = small_problem(problem, kind, [node], drones, (site,))
+            for opens in customer.openings:
+                yield _try_loop_from_site(small, drones, opens)
         for place in _launch_places(problem, kind, drones, node):
             small = small_problem(problem, kind, [place, node], drones)
             for opens in customer.openings:
@@ -191,6 +197,30 @@ def _try_loop(problem: Problem, drones: DroneType, opens: int) -> Attempt:
     start = max(problem.vehicle_types[0].earliest, customer.release_time,
                 opens - flight - launch_duration(drones, True))
     return _judge(problem, TripDecision((0, end), (SortieDecision((node,), 0, 0),), start=start))
+
+
+def _try_loop_from_site(problem: Problem, drones: DroneType, opens: int) -> Attempt:
+    """Return a trip to the launch site with a loop to a customer, as its window opens."""
+    vehicle_type, node = problem.vehicle_types[0], problem.num_depots
+    site = problem.num_depots - 1
+    approach = (launch_duration(drones, True) + problem.travel[1].duration.item(site, node)
+                + problem.setup_between(site, node))
+    arrival = min(max(problem.depots[site].earliest, opens - approach), problem.depots[site].latest)
+    start = max(vehicle_type.earliest, problem.customers[0].release_time,
+                leg_start(arrival, problem.travel[0].duration.item(0, site),
+                          vehicle_type.speed_profile))
+    return _judge(problem, TripDecision((0, site, vehicle_type.ends_at),
+                                        (SortieDecision((node,), 1, 1),), start=start))
+
+
+def _sites_near(problem: Problem, kind: int, drones: DroneType, node: int) -> list[int]:
+    """Return launch sites near enough to fly from, where a truck of this type may always stop."""
+    duration = problem.travel[drones.travel].duration
+    longest = drones.endurance - drones.service_at(problem.customer_at(node))
+    loops = [(duration.item(site, node) + duration.item(node, site), site)
+             for site in problem.launch_sites
+             if problem.depots[site].after is None and problem.allows_stop(kind, site)]
+    return [site for loop, site in sorted(loops) if loop <= longest][:MAX_LAUNCH_PLACES]
 
 
 def _try_loop_from_customer(problem: Problem, drones: DroneType, opens: int) -> Attempt:

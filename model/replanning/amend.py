@@ -49,7 +49,7 @@ def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
 
 def customers_of(decision: TripDecision) -> list[int]:
     """Return whom a trip serves: the truck's customers in order, then the drones'."""
-    return list(decision.customers(0))
+    return [*decision.nodes[1:-1], *(node for sortie in decision.sorties for node in sortie.nodes)]
 
 
 def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],

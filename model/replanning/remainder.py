@@ -12,6 +12,7 @@ import numpy as np
 from model.judge.freshness import first_departure
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
+from model.replanning.amend import customers_of
 from model.replanning.kept import Kept
 from model.replanning.workers import Worker, from_now_on
 
@@ -143,7 +144,7 @@ def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence
             continue
         carried = {"vehicle": route.served, "trip": frozenset[int]()}
         if owner.is_under_way:
-            carried["trip"] = frozenset(route.decision.trips[-1].customers(0))
+            carried["trip"] = frozenset(customers_of(route.decision.trips[-1]))
         elif route.way_on is not None:
             carried["vehicle"] = route.served | set(route.way_on.aboard)
         barred = frozenset().union(*(

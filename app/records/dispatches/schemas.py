@@ -89,7 +89,7 @@ class StepReply(_Reply):
     trip: int = Field(description="Trip, from 1.")
     stop: int = Field(description="Position of its stop in the trip, from 0.")
     place: str = Field(description="Id of the place.")
-    place_kind: Literal["depot", "customer", "start", "end"] = Field(
+    place_kind: Literal["depot", "customer", "start", "end", "launch_site"] = Field(
         description="What is there; `start` and `end` are a vehicle's own.")
     location: DestinationReply | None = Field(
         description="Null: not known as latitude and longitude.")

@@ -9,6 +9,7 @@ import numpy as np
 
 from app.requests.conversion.names import number_in
 from app.schemas.customer import CustomerInput
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import BoolArray, VehicleType
 
@@ -20,12 +21,12 @@ Place = tuple[int, int | None]
 
 
 class Group(NamedTuple):
-    """Vehicles of a type whom all customers treat alike."""
+    """Vehicles of a type whom all customers, and all launch sites, treat alike."""
 
     type: int  # index in the fleet
     numbers: tuple[int, ...] | None  # from 0, ascending; None: all of the type
     is_named: bool  # customers name them: one more vehicle of the type would be none of them
-    serves: BoolArray  # (customer,)
+    serves: BoolArray  # (customer,), then (launch site,)
 
 
 class Roster:
@@ -45,10 +46,11 @@ class Roster:
 
 
 def groups_of(fleet: Sequence[VehicleTypeInput],
-              customers: Sequence[CustomerInput]) -> Iterator[Group]:
+              customers: Sequence[CustomerInput | LaunchSiteInput]) -> Iterator[Group]:
     """Yield vehicles by whom they may serve, as few groups as need be; none if anybody anyone.
 
-    What customers name is there. A type's groups follow one another, unnamed vehicles first.
+    Launch sites come behind customers. What they name is there. A type's groups follow one another,
+    unnamed vehicles first.
     """
     choosy = [(column, customer.vehicles) for column, customer in enumerate(customers)
               if customer.vehicles is not None and customer.vehicles.names]

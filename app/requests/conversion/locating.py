@@ -110,6 +110,8 @@ def with_locations(request: PlanRequest, points: Mapping[str, Location]) -> Plan
                    for index, depot in enumerate(request.depots)],
         "customers": [placed(customer, "customers", index)
                       for index, customer in enumerate(request.customers)],
+        "launch_sites": [placed(site, "launch_sites", index)
+                         for index, site in enumerate(request.launch_sites)],
         "fleet": [ended(placed(kind, "fleet", index, field="start_location"), index)
                   for index, kind in enumerate(request.fleet)],
     })

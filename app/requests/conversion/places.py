@@ -5,12 +5,16 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import NamedTuple
 
+import numpy as np
+
+from app.requests.conversion.units import thousandths
 from app.schemas.customer import CustomerInput
+from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import DepotInput, PlanRequest
 from app.schemas.vehicle import PlaceInput, VehicleTypeInput
-from model.problem import Depot
+from model.problem import UNLIMITED, BoolArray, Depot
 
-Place = DepotInput | PlaceInput | CustomerInput
+Place = DepotInput | PlaceInput | CustomerInput | LaunchSiteInput
 Path = tuple[str | int, ...]
 
 NOWHERE = Depot("nowhere", "nowhere")
@@ -48,10 +52,30 @@ class PlacedRequest:
                 for stand in stands_of(kind)]
 
     @cached_property
+    def _sites(self) -> list[tuple[Depot, Place, Path]]:
+        """Launch sites as nodes, what is said of each place, and the path of its location.
+
+        Those stated, then, if a truck may come back to them, depots and customers once more.
+        """
+        request = self.request
+        sites: list[tuple[Depot, Place, Path]] = [
+            (_launch_site(site), site, ("launch_sites", index, "location"))
+            for index, site in enumerate(request.launch_sites)]
+        if not any(revisits(kind) for kind in request.fleet):
+            return sites
+        sites += [(Depot(depot.id, "launch_site"), depot, ("depots", index, "location"))
+                  for index, depot in enumerate(request.depots) if depot.launch]
+        sites += [(Depot(customer.id, "launch_site", after=customer.id), customer,
+                   ("customers", index, "location"))
+                  for index, customer in enumerate(request.customers) if customer.launch]
+        return sites
+
+    @cached_property
     def places(self) -> list[Place]:
         """All places, in the order of the problem's nodes, but for nowhere."""
         request = self.request
-        return [*request.depots, *(stand.place for _, stand in self._stands), *request.customers]
+        return [*request.depots, *(stand.place for _, stand in self._stands),
+                *(place for _, place, _ in self._sites), *request.customers]
 
     @cached_property
     def paths(self) -> list[Path]:
@@ -59,6 +83,7 @@ class PlacedRequest:
         request = self.request
         return [*(("depots", index, "location") for index in range(len(request.depots))),
                 *(("fleet", index, *stand.location) for index, stand in self._stands),
+                *(path for *_, path in self._sites),
                 *(("customers", index, "location") for index in range(len(request.customers)))]
 
     @cached_property
@@ -78,6 +103,7 @@ class PlacedRequest:
         """The nodes where trips may begin or end."""
         depots = [Depot(depot.id) for depot in self.request.depots]
         depots += [stand.depot for _, stand in self._stands]
+        depots += [site for site, *_ in self._sites]
         return tuple(depots if self.nowhere is None else [*depots, NOWHERE])
 
     @property
@@ -108,6 +134,38 @@ class PlacedRequest:
         if self.nowhere is not None:
             sites.insert(self.nowhere, None)
         return sites
+
+
+    def may_stop(self, kinds: Sequence[int], serves: BoolArray | None) -> BoolArray | None:
+        """Return (type, depot) which vehicles may stop at launch sites; None if there are none.
+
+        Parameters
+        ----------
+        kinds
+            By type of the problem: its index in the fleet.
+        serves
+            (type, launch site stated) who is allowed there; None: anybody anywhere.
+        """
+        if not self._sites:
+            return None
+        stated, first = len(self.request.launch_sites), len(self.request.depots) + len(self._stands)
+        table: BoolArray = np.zeros((len(kinds), len(self.depots)), np.bool_)
+        table[:, first:first + stated] = True if serves is None else serves
+        again = [revisits(self.request.fleet[kind]) for kind in kinds]
+        table[again, first + stated:first + len(self._sites)] = True
+        return table
+
+
+def revisits(kind: VehicleTypeInput) -> bool:
+    """Tell whether trucks of a type may come back to places for their drones."""
+    return kind.revisits and any(drones.count > 0 for drones in kind.drone_types)
+
+
+def _launch_site(stated: LaunchSiteInput) -> Depot:
+    window = stated.time_window
+    return Depot(stated.id, "launch_site", earliest=thousandths(window.earliest),
+                 latest=UNLIMITED if window.latest is None else thousandths(window.latest),
+                 stop_cost=stated.cost)
 
 
 class Places(NamedTuple):

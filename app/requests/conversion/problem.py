@@ -37,7 +37,9 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, amounts)
                            for stated in request.fleet])
     vehicle_types = with_service_durations(vehicle_types, request.customers)
-    groups = list(groups_of(request.fleet, request.customers))
+    groups = list(groups_of(request.fleet, [*request.customers, *request.launch_sites]))
+    kinds = [group.type for group in groups] or list(range(len(request.fleet)))
+    serves = np.array([group.serves for group in groups]) if groups else None
     if groups:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
     unassigned_cost = request.unassigned_cost
@@ -54,7 +56,8 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         coordinates=travels.coordinates(),
         unassigned_cost=unassigned_cost,
         amount_decimals=decimals,
-        may_serve=np.array([group.serves for group in groups]) if groups else None,
+        may_serve=None if serves is None else serves[:, :len(customers)],
+        may_stop=placed.may_stop(kinds, None if serves is None else serves[:, len(customers):]),
         must_serve=request.unassigned_cost is None,
         incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
                                  for each in request.incompatible_goods),

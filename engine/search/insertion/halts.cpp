@@ -70,7 +70,7 @@ public:
         if (data_.strategy.loops) {
             const Flight loop{type_, place_, out.duration, home.duration};
             offer({from_halt, p, p, halt, nowhere}, loop, driven, out.distance + home.distance,
-                  longer + loop.duration() + type_.recovery_duration);
+                  recovery_end(type_, longer + loop.duration()));
         }
         if (!crossing_) return;
         offer_landings(p, halt, out, driven, longer);
@@ -80,7 +80,7 @@ public:
             const Leg back = leg_to(onward_, to.node);
             if (!may_end_at(to)) continue;
             const Flight flight{type_, place_, out.duration, back.duration};
-            const Int begun = here.leave + there.duration + type_.recovery_duration;
+            const Int begun = recovery_end(type_, here.leave + there.duration);
             offer({from_halt, p, recovery, halt, nowhere}, flight, driven,
                   out.distance + back.distance,
                   std::max(longer, begun + flight.duration() - to.leave - idle_));
@@ -90,7 +90,7 @@ public:
             if (!may_end_at(from)) continue;
             const Leg way = leg_from(inward_, from.node);
             const Flight flight{type_, place_, way.duration, home.duration};
-            const Int begun = from.arrival + type_.recovery_duration + on.duration;
+            const Int begun = recovery_end(type_, from.arrival + on.duration);
             offer({to_halt, launch, p, halt, nowhere}, flight, driven, way.distance + home.distance,
                   std::max(longer - handled, begun + flight.duration() - behind.leave - idle_));
         }

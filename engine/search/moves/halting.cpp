@@ -10,6 +10,9 @@ namespace tandem {
 
 namespace {
 
+constexpr double near_stop_share =
+    0.5;  // how often a site is near the stop before, not the customer
+
 // Go on from a route that was kept aside. In place.
 void put_back(const ProblemData& data, const Fleet& now, Int slot, Int spare) {
     keep_aside(now, spare, slot);
@@ -22,13 +25,16 @@ void halt_for(const ProblemData& data, const Searcher& searcher, Int node) {
     const Fleet& now = searcher.now;
     const Int touched = searcher.count->touched;
     if (touched == 0) return;
-    const View<const std::int32_t, 1> near = data.near_halts[node];
-    const Int halt = near[below(searcher.rng, near.size())];
     const Int slot = searcher.touched[below(searcher.rng, touched)];
     const Int length = now.route[slot].length;
-    if (halt < 0 || length == 0) return;
+    if (length == 0) return;
     const Int p = below(searcher.rng, length - 1);
-    if (now.stop(slot, p).kind == end_stop) return;
+    const Stop& stop = now.stop(slot, p);
+    if (stop.kind == end_stop) return;
+    const bool near_stop = stop.kind == customer_stop && uniform(searcher.rng) < near_stop_share;
+    const View<const std::int32_t, 1> near = data.near_halts[near_stop ? stop.node : node];
+    const Int halt = near[below(searcher.rng, near.size())];
+    if (halt < 0) return;
     const Int spare = now.route.size() - 2;
     keep_aside(now, slot, spare);
     insert_stops(sequence_in(now, slot), p + 1, {{halt, halt_stop}});

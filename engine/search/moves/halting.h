@@ -10,7 +10,8 @@ namespace tandem {
 
 constexpr double halting_share = 0.3;  // how often that is done
 
-// Put a stop at a launch site near a customer on a route that was touched. In place; maybe nothing.
+// Put a stop at a launch site near a customer, or near where it is put, on a route that was
+// touched. In place; maybe nothing.
 void halt_for(const ProblemData& data, const Searcher& searcher, Int node);
 
 // Take the stops at launch sites that no drone uses off the routes that were touched, if that

@@ -923,6 +923,7 @@ export default {
     latest: 'Spätestens',
     launch: 'Drohnenstarts',
     launch_duration: 'Startdauer',
+    launch_sites: 'Startplätze',
     load_dimensions: 'Lademaße',
     location: 'Ort',
     location_index: 'Zeile in der Matrix',
@@ -956,6 +957,7 @@ export default {
     reload_depots: 'Weitere Depots',
     reload_duration: 'Nachladedauer',
     reserve: 'Reserve',
+    revisits: 'Kommt zurück',
     search_iterations: 'Suchschritte',
     seed: 'Zufallszahl',
     served_by: 'Bedient von',
@@ -1095,6 +1097,18 @@ export default {
         'Fahrzeugtypen oder einzelne Fahrzeuge, die nicht kommen dürfen. Geben Sie ' +
         'diese oder die erlaubten an, nicht beides.',
     },
+    LaunchSiteInput: {
+      id: 'Der Name des Startplatzes; kein anderer hat ihn.',
+      location: 'Wo er liegt: Länge und Breite oder eine Adresse; in der Ebene x und y.',
+      location_index: 'Zeile dieses Ortes in den Wegetabellen, ab 0.',
+      time_window: 'Wann Fahrzeuge kommen dürfen. Leer: jederzeit.',
+      vehicles: 'Welche Fahrzeuge dort halten dürfen. Leer: alle mit Drohnen.',
+      cost: 'Was jeder Halt dort kostet.',
+    },
+    SiteWindowInput: {
+      earliest: 'Wer vorher kommt, wartet; bis dahin startet keine Drohne.',
+      latest: 'Späteste Ankunft. Leer: keine Grenze.',
+    },
     DepotInput: {
       id: 'Name des Depots; kein anderes heißt so.',
       location: 'Wo es ist: Länge und Breite oder eine Adresse; auf einer Ebene x und y.',
@@ -1146,6 +1160,7 @@ export default {
         'Wie viele Drohnen eines Fahrzeugs höchstens zugleich in der Luft sind. Leer: alle.',
       truck_waits: 'Ob das Fahrzeug steht, solange eine seiner Drohnen unterwegs ist.',
       max_sorties: 'Wie viele Flüge eine Fahrt höchstens hat. Leer: ohne Grenze.',
+      revisits: 'Ob das Fahrzeug zu schon bedienten Orten allein für seine Drohnen zurückkommen darf.',
       reload_duration: 'Zeit am Depot zwischen zwei Fahrten.',
       skills: 'Was die Fahrzeuge und ihre Drohnen können, etwa Hebebühne oder Kühlung.',
       drones: 'Drohnen auf jedem Fahrzeug, einer Art oder mehrerer. Leer: keine.',
@@ -1274,6 +1289,7 @@ export default {
       coordinate_system: 'Ob Orte Längen und Breiten sind oder x und y auf einer Ebene.',
       planar_unit: 'Meter je Einheit von x und y.',
       planar_rounding: 'Wie Strecken auf der Ebene gerundet werden.',
+      launch_sites: 'Orte, an denen Fahrzeuge allein für ihre Drohnen halten dürfen.',
       unassigned_cost:
         'Was es kostet, einen Kunden auszulassen, der nichts anderes angibt. Leer: ' +
         'Alle müssen bedient werden, soweit es geht.',
@@ -1304,6 +1320,7 @@ export default {
     customer: 'Kunde {{id}}',
     type: 'Fahrzeugtyp {{id}}',
     depot: 'Depot {{id}}',
+    launchSite: 'Startplatz {{id}}',
     route: 'Tour von {{vehicle}}',
     trip: 'Fahrt {{number}}',
     stop: 'Stopp {{number}} {{id}}',
@@ -1407,6 +1424,8 @@ export default {
     PINNED_TO_UNAVAILABLE: 'Das Fahrzeug, an dem dieser Kunde festgehalten ist, ist ausgefallen.',
     TIMES_DISORDERED: 'Zeiten stehen nicht der Reihe nach.',
     FLIGHTS_ON_PLANE: 'Flüge brauchen Längen und Breiten; dieses Problem liegt auf einer Ebene.',
+    NOT_REPLANNED: 'Startplätze und Rückkehr werden noch nicht umgeplant: weglassen.',
+    TOO_MANY_REVISITS: 'Zu viele Orte, zu denen Fahrzeuge zurückkommen: revisits weglassen.',
     NO_FLIGHTS: 'In diesem Plan fliegt keine Drohne.',
     NO_WAY_AROUND: 'An den Flugverbotszonen führt kein Weg vorbei.',
     BEYOND_FORMAT:
@@ -1493,6 +1512,7 @@ export default {
     TRUCK_WAITS: 'Das Fahrzeug führe weiter, während eine Drohne unterwegs ist.',
     MAX_SORTIES: 'Die Fahrt hätte zu viele Flüge.',
     LAUNCH: 'Dort darf keine Drohne starten.',
+    LAUNCH_SITE: 'Das Fahrzeug darf dort nicht für seine Drohnen halten.',
     SORTIES: 'Es wären zu viele Flüge.',
     STOPS: 'Es wären zu viele Stopps.',
     RELEASE: 'Das Paket ist noch nicht da.',

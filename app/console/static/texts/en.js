@@ -905,6 +905,7 @@ export default {
     latest: 'Latest',
     launch: 'Launches',
     launch_duration: 'Launch duration',
+    launch_sites: 'Launch sites',
     load_dimensions: 'Load dimensions',
     location: 'Location',
     location_index: 'Location index',
@@ -938,6 +939,7 @@ export default {
     reload_depots: 'Reload depots',
     reload_duration: 'Reload duration',
     reserve: 'Reserve',
+    revisits: 'Revisits',
     search_iterations: 'Search iterations',
     seed: 'Seed',
     served_by: 'Served by',
@@ -1076,6 +1078,18 @@ export default {
         'Vehicle types or single vehicles that may not come. State these or those ' +
         'allowed, not both.',
     },
+    LaunchSiteInput: {
+      id: "The launch site's name; no other has it.",
+      location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',
+      location_index: 'Row of this place in the tables of legs, from 0.',
+      time_window: 'When trucks may come. Empty: at any time.',
+      vehicles: 'Which vehicles may stop there. Empty: all with drones.',
+      cost: 'What each stop there costs.',
+    },
+    SiteWindowInput: {
+      earliest: 'Whoever comes before waits, and no drone takes off until then.',
+      latest: 'Latest arrival. Empty: no limit.',
+    },
     DepotInput: {
       id: "The depot's name; no other has it.",
       location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',
@@ -1125,6 +1139,7 @@ export default {
       max_airborne: 'How many drones of one truck are in the air at once. Empty: all.',
       truck_waits: 'Whether the truck stands still while any of its drones is out.',
       max_sorties: 'How many flights one trip has at most. Empty: no limit.',
+      revisits: 'Whether the truck may come back to places already served, for its drones alone.',
       reload_duration: 'Time at the depot between two trips.',
       skills: 'What the vehicles and their drones can do, such as a lift or cooling.',
       drones: 'Drones on every truck, of one kind or of several. Empty: none.',
@@ -1247,6 +1262,7 @@ export default {
       coordinate_system: 'Whether places are longitudes and latitudes, or x and y on a plane.',
       planar_unit: 'Metres per unit of x and y.',
       planar_rounding: 'How distances on the plane are rounded.',
+      launch_sites: 'Places where trucks may stop for their drones alone.',
       unassigned_cost:
         'What leaving out a customer costs who states nothing else. Empty: all must be ' +
         'served as far as possible.',
@@ -1277,6 +1293,7 @@ export default {
     customer: 'Customer {{id}}',
     type: 'Vehicle type {{id}}',
     depot: 'Depot {{id}}',
+    launchSite: 'Launch site {{id}}',
     route: 'Tour of {{vehicle}}',
     trip: 'Trip {{number}}',
     stop: 'Stop {{number}} {{id}}',
@@ -1373,6 +1390,8 @@ export default {
     PINNED_TO_UNAVAILABLE: 'The vehicle to which this customer is pinned has broken down.',
     TIMES_DISORDERED: 'Times are not in order.',
     FLIGHTS_ON_PLANE: 'Flights need longitudes and latitudes; this problem lies on a plane.',
+    NOT_REPLANNED: 'Launch sites and revisits are not replanned yet: leave them out.',
+    TOO_MANY_REVISITS: 'There are too many places to come back to: leave revisits out.',
     NO_FLIGHTS: 'No drone flies in this plan.',
     NO_WAY_AROUND: 'There is no way around the no-fly areas.',
     BEYOND_FORMAT:
@@ -1445,6 +1464,7 @@ export default {
     TRUCK_WAITS: 'The truck would drive on while a drone is out.',
     MAX_SORTIES: 'The trip would have too many flights.',
     LAUNCH: 'No drone may take off there.',
+    LAUNCH_SITE: 'The truck may not stop there for its drones.',
     SORTIES: 'There would be too many flights.',
     STOPS: 'There would be too many stops.',
     RELEASE: 'The parcel is not there yet.',

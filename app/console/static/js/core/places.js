@@ -32,6 +32,9 @@ export function soughtIn(request) {
   request?.depots.forEach(({ id, location }, at) =>
     add(location, `depot ${id}`, ['depots', at, 'location']),
   );
+  request?.launch_sites?.forEach(({ id, location }, at) =>
+    add(location, `launch_site ${id}`, ['launch_sites', at, 'location']),
+  );
   request?.customers.forEach(({ id, location }, at) =>
     add(location, `c:${id}`, ['customers', at, 'location']),
   );

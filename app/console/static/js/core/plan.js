@@ -93,9 +93,12 @@ function indexTrip(index, vehicle, reply, number) {
   trip.stops = reply.stops.map((stop, position) => {
     const isCustomer = stop.kind === 'customer';
     const key = isCustomer ? `c:${stop.id}` : `d:${place}/${position}`;
+    // A truck may come back to a depot or a customer for its drones.
     const source = isCustomer
       ? index.customers.get(stop.id)
-      : index.depots.get(`${stop.kind} ${stop.id}`);
+      : (index.depots.get(`${stop.kind} ${stop.id}`) ??
+        index.depots.get(`depot ${stop.id}`) ??
+        index.customers.get(stop.id));
     return remember(index, {
       ...haltOf(key, stop, trip, source),
       stop: position,

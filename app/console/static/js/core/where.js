@@ -7,7 +7,12 @@ import { labelOf } from './schema.js';
 const BETWEEN = ' \u203a ';
 
 /** Lists whose entries are called by their own names. */
-const NAMED = { customers: 'customer', fleet: 'type', depots: 'depot' };
+const NAMED = {
+  customers: 'customer',
+  fleet: 'type',
+  depots: 'depot',
+  launch_sites: 'launchSite',
+};
 
 /** Lists of a plan, and of what is said of one, whose entries are called by numbers or names. */
 const NUMBERED = {
