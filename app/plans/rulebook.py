@@ -2,17 +2,18 @@
 
 from typing import Any
 
+from app.schemas.drones import DronesInput
 from app.schemas.request import PlanRequest
 from app.schemas.rulebook import RULES
 
 
 def rules_named(request: PlanRequest) -> list[dict[str, Any]]:
-    """Return the numbers of each rule that a type of drones names, and by which it is planned."""
+    """Return the numbers of each rule that what flies names, and by which it is planned."""
     return [{
         "vehicle_type": kind.id,
-        **({} if drones.id is None else {"drone_type": drones.id}),
-        "preset": drones.preset,
-        **RULES[drones.preset]._asdict(),
+        **({"drone_type": flyer.id} if isinstance(flyer, DronesInput) and flyer.id else {}),
+        "preset": flyer.preset,
+        **RULES[flyer.preset]._asdict(),
         "planned": {"max_airborne": kind.max_airborne, "truck_waits": kind.truck_waits,
-                    "max_range": drones.max_range, "altitude": drones.altitude},
-    } for kind in request.fleet for drones in kind.drone_types if drones.preset is not None]
+                    "max_range": flyer.max_range, "altitude": flyer.altitude},
+    } for kind in request.fleet for flyer in kind.flyers if flyer.preset is not None]

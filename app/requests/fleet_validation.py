@@ -109,7 +109,8 @@ TRUCKS = ("drones", "speed_profile", "start_location", "start_location_index", "
           "max_airborne", "truck_waits", "revisits")
 """Fields of a vehicle type that nothing has which flies by itself."""
 
-FLYING = ("altitude", "endurance", "launch_duration", "recovery_duration", "energy", "turnaround")
+FLYING = ("altitude", "endurance", "max_range", "max_wind_kmh", "preset", "launch_duration",
+          "recovery_duration", "energy", "turnaround")
 """Fields that nothing else has."""
 
 

@@ -18,6 +18,7 @@ from app.requests.plan_validation import Names, replan_errors
 from app.requests.site_validation import site_errors
 from app.requests.wind_validation import wind_errors
 from app.schemas.customer import CustomerInput
+from app.schemas.drones import DronesInput
 from app.schemas.errors import InputError, json_path
 from app.schemas.fields import point_of
 from app.schemas.launch_site import LaunchSiteInput
@@ -190,8 +191,9 @@ def _profile_without_matrix(draft: Draft) -> str | None:
             if profile not in draft.matrices:
                 return (f"matrices has no {profile!r}, so legs are computed from locations: add a "
                         "location, or the matrix")
-    for path, drones in draft.drone_types():
-        if drones.count > 0 and drones.max_range is not None:
+    for path, flyer in draft.flyers():
+        is_there = not isinstance(flyer, DronesInput) or flyer.count > 0
+        if is_there and flyer.max_range is not None:
             return ("A max_range is measured straight between locations: add a location, or leave "
                     f"out {json_path((*path, 'max_range'))}")
     for name, matrix in draft.matrices.items():

@@ -8,7 +8,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from app.schemas.energy import EnergyInput, Watts
 from app.schemas.errors import ALONE, LISTED
 from app.schemas.fields import Count, Demand, Duration, Input, Metres, Money, Name, Speed
-from app.schemas.rulebook import RULES, RuleName
+from app.schemas.rulebook import RuleName, fill_in
 
 DEFAULT_DRONE_SPEED_KMH = 60.0
 DEFAULT_ALTITUDE_M = 100.0
@@ -63,6 +63,14 @@ class Flyer(Protocol):
     @property
     def altitude(self) -> float:
         """Metres above ground."""
+
+    @property
+    def max_range(self) -> float | None:
+        """Metres to customers, straight."""
+
+    @property
+    def preset(self) -> RuleName | None:
+        """A published rule."""
 
     @property
     def max_wind_kmh(self) -> float | None:
@@ -147,11 +155,7 @@ class DronesInput(Input):
     @model_validator(mode="after")
     def _keep_rule(self) -> Self:
         """Fill in what the rule named has and the request doesn't state."""
-        if self.preset is not None:
-            rule = RULES[self.preset]
-            for name in ("max_range", "altitude"):
-                if getattr(rule, name) is not None and name not in self.model_fields_set:
-                    object.__setattr__(self, name, getattr(rule, name))
+        fill_in(self, self.preset)
         return self
 
 

@@ -5,6 +5,8 @@
 
 from typing import Literal, NamedTuple
 
+from pydantic import BaseModel
+
 RuleName = Literal["eu-pdra-g01", "eu-pdra-g02", "us-part-107"]
 
 
@@ -36,3 +38,13 @@ RULES: dict[RuleName, Rule] = {
         "people's property for hire (107.25(b)), at most 400 ft above ground (107.51(b)); in sight "
         "(107.31), for which it has no number"),
 }
+
+
+def fill_in(flyer: BaseModel, preset: RuleName | None) -> None:
+    """Give what flies the numbers of the rule that it names, where it states none. In place."""
+    if preset is None:
+        return
+    for name in ("max_range", "altitude"):
+        number = getattr(RULES[preset], name)
+        if number is not None and name not in flyer.model_fields_set:
+            object.__setattr__(flyer, name, number)

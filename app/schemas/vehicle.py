@@ -33,7 +33,7 @@ from app.schemas.fields import (
     Speed,
 )
 from app.schemas.limits import MAX_VEHICLES
-from app.schemas.rulebook import RULES
+from app.schemas.rulebook import RULES, RuleName, fill_in
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 
@@ -225,6 +225,23 @@ class VehicleTypeInput(Input):
         description="Longest trip of a vehicle that flies, from take-off to landing, in seconds. "
         "Null: no limit.",
     )
+    max_range: Metres | None = Field(
+        None,
+        description="How far a customer of a vehicle that flies lies at most from where trips "
+        "begin and end: straight, in metres. Null: no limit.",
+    )
+    max_wind_kmh: Annotated[float, Field(ge=0, le=500)] | None = Field(
+        None,
+        description="Largest gusts in km/h, or wind where no gusts are stated, in which a vehicle "
+        "that flies may be in the air. It flies in the longest time of its shift that has no more. "
+        "Null: any.",
+    )
+    preset: RuleName | None = Field(
+        None,
+        description="A published rule whose `max_range` and `altitude` count for a vehicle that "
+        "flies, unless they are stated; the reply has its numbers. It is no permission to fly. "
+        "Null: none.",
+    )
     launch_duration: Duration = Field(
         0.0, description="Time of the launch as each trip begins, where it flies, in seconds."
     )
@@ -259,16 +276,17 @@ class VehicleTypeInput(Input):
         return self
 
     @model_validator(mode="after")
+    def _keep_own_rule(self) -> Self:
+        """Fill in what the rule of who flies has and the request doesn't state."""
+        fill_in(self, self.preset)
+        return self
+
+    @model_validator(mode="after")
     def _flies_by_flights(self) -> Self:
         """Let the legs of who flies be flights unless another profile is stated."""
         if self.flies and "profile" not in self.model_fields_set:
             object.__setattr__(self, "profile", FLIGHTS)
         return self
-
-    @property
-    def max_wind_kmh(self) -> float | None:
-        """Largest gusts in which it may be in the air; None: any."""
-        return None
 
     @property
     def flyers(self) -> list[Flyer]:

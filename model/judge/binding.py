@@ -14,6 +14,7 @@ from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.energy import charges, sortie_energy
+from model.judge.flight_limits import flight_limits, one_km_more
 from model.judge.freshness import excess_aboard
 from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
@@ -267,7 +268,7 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         longer = kind.max_working_duration + MS_PER_MINUTE
         yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
     yield from _duty_limits(kind, measured, trip)
-    yield from _flight_limits(kind, trip)
+    yield from flight_limits(kind, trip)
     if kind.max_trip_distance is not None:
         slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
         yield ("max_trip_distance", "km", slack,
@@ -291,19 +292,9 @@ def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
         slack = None if trip is None else float(kind.max_sorties - len(trip.sorties))
         yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
     if kind.most_airborne < kind.num_drones:
-        most = kind.most_airborne + 1
-        yield "max_airborne", "unit", None, replace(kind, max_airborne=most)
+        yield "max_airborne", "unit", None, replace(kind, max_airborne=kind.most_airborne + 1)
     if kind.truck_waits:
         yield "truck_waits", "rule", None, replace(kind, truck_waits=False)
-
-
-def _flight_limits(kind: VehicleType, trip: TripMetrics | None) -> Iterator[_Changed]:
-    """Yield how long vehicles that fly by themselves may, and what their battery holds."""
-    handling = kind.launch_duration + kind.recovery_duration
-    if kind.endurance < UNLIMITED:
-        slack = None if trip is None else kind.endurance - trip.duration + handling
-        longer = min(kind.endurance + MS_PER_MINUTE, UNLIMITED)
-        yield "endurance", "minute", _in_minutes(slack), replace(kind, endurance=longer)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:
@@ -360,11 +351,9 @@ def _permit_limits(bench: Bench, drones: DroneType, trip: Trip | None,
         slack = None
         if sortie is not None and trip is not None:
             ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
-            far = max(farthest(bench.problem, drones, ends, visit.node)
-                      for visit in sortie.visits)
+            far = max(farthest(bench.problem, drones, ends, each.node) for each in sortie.visits)
             slack = (drones.max_range - far) / MM_PER_KM
-        longer = min(drones.max_range + MM_PER_KM, MAX_QUANTITY)
-        yield "max_range", "km", slack, replace(drones, max_range=longer)
+        yield "max_range", "km", slack, replace(drones, max_range=one_km_more(drones.max_range))
     if drones.storms:
         yield "max_wind_kmh", "rule", None, replace(drones, storms=())
 

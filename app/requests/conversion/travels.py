@@ -194,8 +194,8 @@ class Travels:
 
     def _keys(self) -> set[_Key]:
         fleet = self._request.fleet
-        measured = {STRAIGHT for kind in fleet for drones in kind.drone_types
-                    if drones.max_range is not None}
+        measured = {STRAIGHT for kind in fleet for flyer in _all_flyers(kind)
+                    if flyer.max_range is not None}
         return ({self._driving(kind)[0] for kind in fleet} | measured
                 | {self._flying(kind, each) for kind in fleet for each in _all_flyers(kind)})
 

@@ -8,6 +8,7 @@ from app.requests.conversion.energy import to_energy
 from app.requests.conversion.places import places_of_type
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths, thousandths
+from app.requests.conversion.winds import longest_calm
 from app.schemas.drones import DronesInput, TurnaroundInput
 from app.schemas.vehicle import OvertimeInput, VehicleTypeInput
 from model.problem import UNLIMITED, Depot, DroneType, Overtime, VehicleType
@@ -55,15 +56,24 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
     )
-    return _flying(kind, stated, decimals, amounts) if stated.flies else kind
+    return _flying(kind, stated, travels, decimals, amounts) if stated.flies else kind
 
 
-def _flying(kind: VehicleType, stated: VehicleTypeInput, decimals: Sequence[int],
+def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decimals: Sequence[int],
             amounts: Collection[Sequence[int]]) -> VehicleType:
-    """Return vehicles that fly by themselves; batteries are swapped while they reload."""
+    """Return vehicles that fly by themselves; batteries are swapped while they reload.
+
+    They work in the longest time of their shift without a storm, with no overtime if there is one.
+    """
     turnaround = stated.turnaround or TurnaroundInput()
+    storms = travels.winds.storms(stated, stated)
+    if storms:
+        begin, end = longest_calm(storms, kind.earliest, kind.latest)
+        kind = replace(kind, earliest=begin, latest=end, overtime=None)
     return replace(
         kind, flies=True,
+        max_range=optional_thousandths(stated.max_range),
+        straight=0 if stated.max_range is None else travels.straight(),
         endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
         launch_duration=thousandths(stated.launch_duration),
         recovery_duration=thousandths(stated.recovery_duration),

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from app.requests.conversion.units import thousandths
 from app.schemas.day import Day
-from app.schemas.drones import DronesInput, Flyer
+from app.schemas.drones import Flyer
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
 from app.schemas.wind import ForecastInput, OpenMeteoInput, Wind, WindInput
@@ -50,7 +50,7 @@ class Winds:
         flown = [hour for hour in hours if not _is_storm(hour, drones)]
         return tuple(sorted({hour.breeze for hour in flown or hours}))
 
-    def storms(self, kind: VehicleTypeInput, drones: DronesInput) -> tuple[tuple[int, int], ...]:
+    def storms(self, kind: VehicleTypeInput, drones: Flyer) -> tuple[tuple[int, int], ...]:
         """Return from and until when it blows too much for drones, on the shift of their truck."""
         storms: list[tuple[int, int]] = []
         for hour in self._of_shift(kind):
@@ -76,6 +76,19 @@ class Winds:
         for hour in self.hours:
             if hour.begin <= end and begin < hour.end:
                 yield hour
+
+
+def longest_calm(storms: Sequence[tuple[int, int]], begin: int, end: int) -> tuple[int, int]:
+    """Return from when until when it doesn't storm for longest between two instants.
+
+    No time at all as the first begins, if it always does.
+    """
+    calms, since = [(begin, begin)], begin
+    for storm in storms:
+        calms.append((since, min(storm[0], end)))
+        since = max(since, storm[1])
+    calms.append((since, end))
+    return max(calms, key=lambda calm: calm[1] - calm[0])
 
 
 def _is_storm(hour: Hour, drones: Flyer) -> bool:

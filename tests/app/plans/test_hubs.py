@@ -165,3 +165,39 @@ def test_trucks_and_drones_share_the_customers(client: httpx.Client, smallest: R
               for stop in trip["stops"] if stop["kind"] == "customer"}
     assert served[request["customers"][0]["id"]] == "van"
     assert served[request["customers"][1]["id"]] != "van"
+
+
+def test_hubs_drones_serve_nobody_beyond_their_range(client: httpx.Client,
+                                                     smallest: Request) -> None:
+    request = by_air(smallest, max_range=5500)
+    plan = planned(client, request)
+    left_out, = plan["unassigned"]
+    reason, = left_out["reasons"]
+    assert (left_out["id"], reason["code"], reason["remedy"]) == (
+        "B", "RANGE", "fits if max_range were 0.5 km longer")
+    assert is_feasible(client, request, plan)
+    farther = planned(client, by_air(request, max_range=6001))
+    assert farther["unassigned"] == []
+    assert not is_feasible(client, by_air(request, max_range=5500), farther)
+
+
+def test_hubs_drones_fly_in_the_longest_calm(client: httpx.Client, smallest: Request) -> None:
+    request = by_air(smallest, max_wind_kmh=40, shift={"latest": 6 * 3600})
+    request["airspace"] = {"wind": [{"from": 3600 * hour, "speed_kmh": 0, "gust_kmh": gust}
+                                    for hour, gust in ((0, 10), (1, 60), (2, 10), (5, 60))]}
+    plan = planned(client, request)
+    assert plan["unassigned"] == []
+    for trip in trips_of(plan):
+        assert trip["stops"][0]["arrival"] >= 7200
+        assert trip["stops"][-1]["departure"] <= 5 * 3600
+    request["airspace"]["wind"] = {"speed_kmh": 50}
+    assert len(planned(client, request)["unassigned"]) == 2
+
+
+def test_hubs_drones_keep_a_rule_by_its_name(client: httpx.Client, smallest: Request) -> None:
+    plan = planned(client, by_air(smallest, preset="eu-pdra-g01"))
+    assert len(plan["unassigned"]) == 2
+    rule, = plan["rules"]
+    assert (rule["planned"]["max_range"], rule["planned"]["altitude"]) == (1000, 150)
+    plan = planned(client, by_air(smallest, preset="eu-pdra-g01", max_range=7000))
+    assert "$.fleet[0].max_range" in {each["path"] for each in plan["warnings"]}

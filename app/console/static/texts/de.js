@@ -524,6 +524,7 @@ export default {
     max_trip_distance: 'Die längste Fahrt',
     drones_endurance: 'Die Flugdauer',
     endurance: 'Die Flugdauer',
+    max_range: 'Die Entfernung zu Kunden',
     drones_max_range: 'Die Entfernung zu Kunden',
     drones_max_wind_kmh: 'Der stärkste Wind',
     drones_turnaround_batteries: 'Die Zahl der Akkus',
@@ -1156,6 +1157,12 @@ export default {
       max_stops:
         'Wie viele Kunden das Fahrzeug selbst auf einer Fahrt höchstens bedient. Leer: ' +
         'ohne Grenze.',
+      max_range:
+        'Wie weit Kunden von Start und Ziel der Touren entfernt liegen, wo es fliegt. Leer: ohne Grenze.',
+      max_wind_kmh:
+        'Böen, bei denen am Boden bleibt, was fliegt. Leer: alle.',
+      preset:
+        'Eine veröffentlichte Vorschrift, deren Zahlen gelten, wo es fliegt.',
       max_airborne:
         'Wie viele Drohnen eines Fahrzeugs höchstens zugleich in der Luft sind. Leer: alle.',
       truck_waits: 'Ob das Fahrzeug steht, solange eine seiner Drohnen unterwegs ist.',

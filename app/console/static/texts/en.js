@@ -510,6 +510,7 @@ export default {
     max_trip_distance: 'The longest trip',
     drones_endurance: 'The endurance',
     endurance: 'The endurance',
+    max_range: 'The distance to customers',
     drones_max_range: 'The distance to customers',
     drones_max_wind_kmh: 'The strongest wind',
     drones_turnaround_batteries: 'The number of batteries',
@@ -1136,6 +1137,12 @@ export default {
       max_trips: 'How many trips a vehicle makes at most.',
       max_stops:
         'How many customers the truck itself serves on one trip at most. Empty: no limit.',
+      max_range:
+        'How far customers lie from where trips begin and end, where it flies. Empty: no limit.',
+      max_wind_kmh:
+        'Gusts in which what flies stays on the ground, if stronger. Empty: any may blow.',
+      preset:
+        'A published rule whose numbers count where it flies, unless others are stated.',
       max_airborne: 'How many drones of one truck are in the air at once. Empty: all.',
       truck_waits: 'Whether the truck stands still while any of its drones is out.',
       max_sorties: 'How many flights one trip has at most. Empty: no limit.',
