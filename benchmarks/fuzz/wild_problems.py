@@ -54,6 +54,8 @@ def wild_request(rng: random.Random) -> Data:
         _share_places(rng, request)
     if rng.random() < 0.2:
         _bar_launches(rng, request)
+    if rng.random() < 0.2:
+        _let_stop(rng, request, place)
     if rng.random() < 0.25:
         _add_matrices(rng, request)
     if rng.random() < 0.5:
@@ -336,9 +338,24 @@ def _bar_launches(rng: random.Random, request: Data) -> None:
             place["launch"] = rng.random() < 0.1
 
 
+def _let_stop(rng: random.Random, request: Data, place: Callable[[], Point]) -> None:
+    """Let trucks stop for their drones alone, or come back for them. In place."""
+    names = [kind["id"] for kind in request["fleet"]]
+    request["launch_sites"] = [{
+        "id": f"🅿 {number}", "location": place(),
+        **_maybe(rng, 0.4, cost=rng.choice((0, 1, RICHEST))),
+        **_maybe(rng, 0.3, time_window=rng.choice((
+            {"earliest": 3600}, {"earliest": 60, "latest": 60}, {"latest": 0},
+            {"earliest": LONGEST}))),
+        **_maybe(rng, 0.3, vehicles={rng.choice(("allowed", "forbidden")): [rng.choice(names)]})}
+        for number in range(rng.choice((0, 1, 1, 3, 20)))]
+    for kind in request["fleet"]:
+        kind["revisits"] = not kind.get("flies") and rng.random() < 0.5
+
+
 def _add_matrices(rng: random.Random, request: Data) -> None:
     """State legs that need not be those of any map. In place."""
-    places = [*request["depots"], *request["customers"]]
+    places = [*request["depots"], *request["customers"], *request.get("launch_sites", ())]
     longest = rng.choice((0, 1, 900, 36000, LONGEST))
     keeps_locations = rng.random() < 0.5
     for index, stated in enumerate(places):

@@ -61,6 +61,7 @@ def part_of(problem: Problem, region: Region) -> Part:
     may_serve = problem.may_serve
     if may_serve is not None:
         may_serve = may_serve[np.ix_(np.array(kinds), chosen[first:] - first)]
+    may_stop = None if problem.may_stop is None else problem.may_stop[kinds]
     return Part(replace(
         problem,
         customers=tuple(problem.customers[node - first] for node in customers),
@@ -68,5 +69,5 @@ def part_of(problem: Problem, region: Region) -> Part:
                             for kind, all_of_it in zip(kinds, vehicles, strict=True)),
         travel=tuple(legs.among(chosen) for legs in problem.travel),
         coordinates=problem.coordinates[chosen],
-        may_serve=may_serve,
+        may_serve=may_serve, may_stop=may_stop,
     ), nodes, vehicles)

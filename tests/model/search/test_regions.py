@@ -18,14 +18,17 @@ from tests.model.tiny import (
     with_dimensions, with_goods, with_own_costs, with_pickups, with_reloads, with_setups,
     with_table,
 )
-from tests.model.tiny_launches import with_few_launch_places
+from tests.model.tiny_launches import (
+    with_few_launch_places, with_launch_sites, with_some_revisits,
+)
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=30)
 PLANNER = Planner(NO_POLICY)
 SEEDS = range(12)
 MORE_RULES = (with_own_costs, with_pickups, with_dimensions, with_goods,
-              with_table, with_reloads, with_setups, with_few_launch_places)
+              with_table, with_reloads, with_setups, with_few_launch_places,
+              with_launch_sites, with_some_revisits)
 
 
 def drawn(seed: int, customers: int = 24) -> Problem:
