@@ -137,6 +137,7 @@ LINKS = Table(
     Column("opened_at", BigInteger),
     Column("revoked_at", BigInteger),
     Column("steps", LargeBinary, nullable=False),  # compressed JSON
+    Column("flights", LargeBinary),  # the same, of its drones; null: none that can be written
     Index("links_by_dispatch", "dispatch", "position"),
 )
 EVENTS = Table(

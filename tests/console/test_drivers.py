@@ -1,5 +1,6 @@
 """Drivers: their page on a phone, with and without network, and what the console makes of it."""
 
+import json
 import re
 import zlib
 from collections.abc import Iterator
@@ -107,6 +108,22 @@ def test_change_of_the_day_reaches_the_phone(client: httpx.Client, phone: Browse
     expect(page.get_by_text("Nothing is planned for you any more.")).to_be_visible()
     page.get_by_role("button", name="I have seen it").click()
     expect(page.get_by_role("alert")).to_have_count(0)
+
+
+def test_flights_of_the_drone_are_saved_by_its_driver(
+        client: httpx.Client, phone: BrowserContext) -> None:
+    truck, van = dispatched(client)["links"]
+    page = open_page(phone, truck)
+    expect(page.locator("footer")).to_contain_text("no permission to fly")
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save flights").click()
+    assert download.value.suggested_filename == "truck-1-drone-1-flight-1.plan"
+    mission = json.loads(Path(download.value.path()).read_bytes())
+    assert mission["mission"]["plannedHomePosition"] == [48.1, 11.51, 0]
+    page.get_by_label("Flights as").select_option("dji-wpml")
+    page.get_by_role("button", name="Save flights").click()
+    expect(page.get_by_role("alert")).to_contain_text("choose another")
+    expect(open_page(phone, van).get_by_role("button", name="Save flights")).to_have_count(0)
 
 
 def test_page_shows_all_that_a_driver_needs_to_everyone(

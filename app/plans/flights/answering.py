@@ -1,6 +1,8 @@
 """Plans -> their flights as a file, for whoever asks."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from datetime import datetime
 
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.checking import PLAN, PROBLEM, read_about_plan
@@ -58,6 +60,19 @@ def judged_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing =
             "without broken rules are written: correct it, or plan anew.") for each in broken])
     placed = PlacedRequest(problem) if task.places is None else task.places.placed
     return flights_of(placed, plan, Ground(placed, preparing, roads.zones))
+
+
+def flights_by_vehicle(problem: PlanRequest, plan: PlanInput, roads: Roads,
+                       start: datetime) -> dict[str, list[Flight]]:
+    """Return a plan's flights as far as they can be written, with another start of its day."""
+    try:
+        flights = planned_flights(problem, plan, roads=roads)
+    except InvalidRequestError:
+        return {}
+    found: dict[str, list[Flight]] = {}
+    for flight in flights:
+        found.setdefault(flight.vehicle, []).append(replace(flight, plan_start=start))
+    return found
 
 
 def planned_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing = UNHURRIED,

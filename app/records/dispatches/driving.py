@@ -2,6 +2,7 @@
 
 from datetime import timedelta
 
+from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
 from app.records.dispatches.errors import LinkOverError, TooManyEventsError
 from app.records.dispatches.instants import instant, milliseconds
@@ -10,6 +11,7 @@ from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
 from app.records.dispatches.schemas import DriverDay, EventInput, EventsReply, EventsRequest
 from app.records.dispatches.standing import Standing, standing_of, standing_reply
 from app.records.dispatches.store import DispatchStore
+from app.schemas.errors import InputError, InvalidRequestError
 
 MAX_EVENTS = 5_000
 """Most events of a vehicle's day."""
@@ -28,9 +30,7 @@ def read_day(store: DispatchStore, token: str) -> DriverDay:
     LinkOverError
         If the link was revoked, or its day is over.
     """
-    link, dispatch = find_link(store, token)
-    if link.revoked_at is not None or dispatch.ends_at <= now_ms():
-        raise LinkOverError(link.revoked_at is not None)
+    link, dispatch = _open_link(store, token)
     if link.opened_at is None:
         store.note_opening(link.id)
     steps = store.steps(link.id)
@@ -38,7 +38,34 @@ def read_day(store: DispatchStore, token: str) -> DriverDay:
         link=link.id, vehicle=link.vehicle, time_zone=dispatch.time_zone,
         plan_start=instant(dispatch.plan_start, dispatch.zone_offset),
         ends_at=instant(dispatch.ends_at, dispatch.zone_offset), steps=steps,
+        flights=len(store.flights(link.id)),
         standing=standing_reply(_standing(store, link, dispatch), steps))
+
+
+def read_flights(store: DispatchStore, token: str) -> list[Flight]:
+    """Return the flights of the drones of the vehicle that a token is for.
+
+    Raises
+    ------
+    InvalidRequestError
+        If there are none.
+    UnknownLinkError, LinkOverError
+        As `read_day` does.
+    """
+    link, _ = _open_link(store, token)
+    flights = store.flights(link.id)
+    if not flights:
+        raise InvalidRequestError([InputError(
+            code="NO_FLIGHTS", path="$", message="No drone flies from this vehicle, or its flights "
+            "can't be written: there is nothing to get.")])
+    return flights
+
+
+def _open_link(store: DispatchStore, token: str) -> tuple[LinkRow, DispatchRow]:
+    link, dispatch = find_link(store, token)
+    if link.revoked_at is not None or dispatch.ends_at <= now_ms():
+        raise LinkOverError(link.revoked_at is not None)
+    return link, dispatch
 
 
 def tell(store: DispatchStore, token: str, request: EventsRequest) -> EventsReply:

@@ -5,18 +5,21 @@ import re
 from pathlib import Path
 from typing import Annotated
 
-from fastapi import APIRouter, FastAPI, Request, Response, Security
+from fastapi import APIRouter, FastAPI, Query, Request, Response, Security
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from fastapi.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from app.records.dispatches.driving import read_day, tell
+from app.plans.flights.files import FORMAT_ASKED, flight_file
+from app.plans.flights.routes import FLIGHTS, sent
+from app.records.dispatches.driving import read_day, read_flights, tell
 from app.records.dispatches.errors import UnknownLinkError
 from app.records.dispatches.links import DRIVER_TOKENS
 from app.records.dispatches.schemas import DriverDay, EventsReply, EventsRequest
 from app.records.dispatches.store import DispatchStore
 from app.records.prepared import Database
 from app.requests.reading import read_model
+from app.schemas.flights import FORMAT_TEXT, PER_TEXT, FlightFormat, Per
 from app.schemas.openapi import json_body, problems
 from app.serving.access.guard import Guard
 from app.serving.load.bodies import Body
@@ -75,6 +78,22 @@ async def driver_day(request: Request, token: Token, database: Database) -> Resp
     except UnknownLinkError:
         raise _unknown(request) from None
     return Response(day.model_dump_json(), media_type="application/json")
+
+
+@router.get("/drive/flights", summary="Write a vehicle's flights", response_class=Response,
+            responses={**FLIGHTS, **REFUSED, **problems(
+                _422="A parameter is not valid, or there is nothing that the format can tell.")})
+async def driver_flights(
+    request: Request, token: Token, database: Database,
+    file_format: Annotated[FlightFormat, Query(alias="format", description=FORMAT_TEXT)],
+    per: Annotated[Per, Query(description=PER_TEXT)] = "sortie",
+) -> Response:
+    """Return the flights of the vehicle's drones as `POST /flights` does; no permission to fly."""
+    try:
+        flights = await database.reach(lambda engine: read_flights(DispatchStore(engine), token))
+    except UnknownLinkError:
+        raise _unknown(request) from None
+    return sent(flight_file(flights, file_format, per, FORMAT_ASKED))
 
 
 @router.post("/drive/events", summary="Tell of a vehicle's day", response_model=EventsReply,

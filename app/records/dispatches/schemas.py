@@ -132,6 +132,8 @@ class DriverDay(_Reply):
     time_zone: str | None = Field(description="Zone in which to read times.")
     ends_at: datetime = Field(description="When the link ends.")
     steps: list[StepReply] = Field(description="What the driver does, in order.")
+    flights: int = Field(
+        description="Flights of its drones that `GET /drive/flights` writes for their controllers.")
     standing: list[StepStanding] = Field(description="What was told of steps so far.")
 
 

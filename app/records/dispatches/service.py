@@ -5,18 +5,20 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
+from app.maps.roads.roads import Roads
+from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
 from app.records.dispatches.errors import (
     DispatchOverError, TooManyDispatchesError, UnknownDispatchError,
 )
 from app.records.dispatches.going_on import OnTheRoad, going_on
-from app.records.dispatches.instants import Day, milliseconds
+from app.records.dispatches.instants import Day, instant, milliseconds
 from app.records.dispatches.links import DRIVER_TOKENS
 from app.records.dispatches.rows import DispatchRow, LinkRow
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply, StepReply
 from app.records.dispatches.standing import Standing, standing_of
 from app.records.dispatches.steps import StepMaker
-from app.records.dispatches.store import DispatchStore
+from app.records.dispatches.store import DispatchStore, Flown
 from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
 from app.schemas.check import PlannedProblem
@@ -58,11 +60,14 @@ class DispatchService:
         Where they are kept.
     settings
         How long, and how many.
+    roads
+        Those that the service has, and its zones.
     """
 
-    def __init__(self, store: DispatchStore, settings: Settings) -> None:
+    def __init__(self, store: DispatchStore, settings: Settings, roads: Roads) -> None:
         self._store = store
         self._settings = settings
+        self._roads = roads
 
     def create(self, request: DispatchRequest, owner: str, client: str) -> Followed:
         """Keep a plan and make a link for each of its vehicles. In place.
@@ -82,7 +87,7 @@ class DispatchService:
                   maker.steps(route))
                  for position, (route, token) in enumerate(
                      zip(request.plan.routes, tokens, strict=True))]
-        self._store.add(row, request.plan, links, self._refuse_more)
+        self._store.add(row, request.plan, links, self._flown(request, row), self._refuse_more)
         return Followed(row, [LinkStanding(link, steps, {}, None) for link, steps in links],
                         {token.id: token for token in tokens})
 
@@ -132,7 +137,8 @@ class DispatchService:
         links = [(LinkRow(token.id, row.id, position, name, token.digest), steps[name])
                  for position, (name, token) in enumerate(tokens.items(), first)]
         self._store.change(row.id, request.plan,
-                           {link.id: steps.get(link.vehicle, []) for link in there}, links)
+                           [(link, steps.get(link.vehicle, [])) for link in there], links,
+                           self._flown(request, row))
         return self._followed(row, {token.id: token for token in tokens.values()})
 
     def end(self, dispatch: str, owner: str) -> Followed:
@@ -180,6 +186,11 @@ class DispatchService:
         vehicles = {followed.link.vehicle: OnTheRoad(followed.steps, followed.standing)
                     for followed in self._followed(row, {}).links}
         return going_on(self._store.plan(row.id), vehicles, now)
+
+    def _flown(self, request: PlannedProblem, row: DispatchRow) -> Flown:
+        """Return the flights of a plan."""
+        return flights_by_vehicle(request.problem, request.plan, self._roads,
+                                  instant(row.plan_start))
 
     def _open(self, dispatch: str, owner: str) -> DispatchRow:
         row = self.find(dispatch, owner)

@@ -9,6 +9,7 @@ from pydantic import TypeAdapter
 from sqlalchemy import Connection, Engine, delete, func, insert, select, update
 
 from app.database.tables import DISPATCHES, EVENTS, LINKS
+from app.plans.flights.flight import Flight
 from app.records.clock import now_ms
 from app.records.dispatches.rows import DispatchRow, EventRow, LinkRow
 from app.records.dispatches.schemas import StepReply
@@ -18,6 +19,10 @@ FAST = 1
 """zlib's level."""
 
 STEPS = TypeAdapter(list[StepReply])
+FLIGHTS = TypeAdapter(list[Flight])
+
+Flown = Mapping[str, Sequence[Flight]]
+"""Flights by the vehicle from which they are flown."""
 
 BATCH = 200
 """Dispatches deleted at a time."""
@@ -36,7 +41,7 @@ LEFT_OUT: dict[str, Any] = {
 """What is left out of plans that are kept."""
 
 _DISPATCH = [column for column in DISPATCHES.c if column.name != "plan"]
-_LINK = [column for column in LINKS.c if column.name != "steps"]
+_LINK = [column for column in LINKS.c if column.name not in ("steps", "flights")]
 _EVENT = [EVENTS.c[name] for name in ("id", "step", "kind", "time", "reason", "number")]
 
 
@@ -47,7 +52,7 @@ class DispatchStore:
         self._engine = engine
 
     def add(self, dispatch: DispatchRow, plan: PlanInput,
-            links: Sequence[tuple[LinkRow, Sequence[StepReply]]],
+            links: Sequence[tuple[LinkRow, Sequence[StepReply]]], flown: Flown,
             refuse: Callable[[int], None]) -> None:
         """Keep a dispatch unless `refuse` raises, told how many its client has open. In place."""
         open_ones = (select(func.count()).select_from(DISPATCHES)
@@ -58,7 +63,7 @@ class DispatchStore:
             connection.execute(insert(DISPATCHES).values(
                 **asdict(dispatch), plan=_packed_plan(plan)))
             for link, steps in links:
-                _add_link(connection, link, _packed(steps))
+                _add_link(connection, link, _packed_work(steps, flown.get(link.vehicle)))
 
     def find(self, dispatch: str) -> DispatchRow | None:
         """Return a dispatch."""
@@ -103,32 +108,40 @@ class DispatchStore:
             content = connection.scalar(select(LINKS.c.steps).where(LINKS.c.id == link))
         return STEPS.validate_json(zlib.decompress(content or b""))
 
+    def flights(self, link: str) -> list[Flight]:
+        """Return the flights of the drones of a link that there is."""
+        with self._engine.connect() as connection:
+            content = connection.scalar(select(LINKS.c.flights).where(LINKS.c.id == link))
+        return [] if content is None else FLIGHTS.validate_json(zlib.decompress(content))
+
     def replace_link(self, former: LinkRow, link: LinkRow) -> None:
         """Put a link in place of another, which is revoked. In place."""
         with self._engine.begin() as connection:
-            steps = connection.scalar(select(LINKS.c.steps).where(LINKS.c.id == former.id))
+            work = connection.execute(select(LINKS.c.steps, LINKS.c.flights).where(
+                LINKS.c.id == former.id)).mappings().one()
             _revoke(connection, [former.id])
-            _add_link(connection, link, steps or b"")
+            _add_link(connection, link, work)
 
-    def change(self, dispatch: str, plan: PlanInput, steps: Mapping[str, Sequence[StepReply]],
-               links: Sequence[tuple[LinkRow, Sequence[StepReply]]]) -> None:
+    def change(self, dispatch: str, plan: PlanInput,
+               steps: Sequence[tuple[LinkRow, Sequence[StepReply]]],
+               links: Sequence[tuple[LinkRow, Sequence[StepReply]]], flown: Flown) -> None:
         """Put another plan in a dispatch's place. In place.
 
         Parameters
         ----------
         steps
-            Those that links have from now on, by their ids.
+            Those that links have from now on.
         links
             Links of vehicles that had none, and their steps.
         """
         with self._engine.begin() as connection:
             connection.execute(update(DISPATCHES).where(DISPATCHES.c.id == dispatch)
                                .values(plan=_packed_plan(plan)))
-            for link, listed in steps.items():
-                connection.execute(update(LINKS).where(LINKS.c.id == link)
-                                   .values(steps=_packed(listed)))
+            for link, listed in steps:
+                connection.execute(update(LINKS).where(LINKS.c.id == link.id).values(
+                    **_packed_work(listed, flown.get(link.vehicle))))
             for new, listed in links:
-                _add_link(connection, new, _packed(listed))
+                _add_link(connection, new, _packed_work(listed, flown.get(new.vehicle)))
 
     def revoke(self, links: Collection[str]) -> None:
         """Let links open nothing any more. In place."""
@@ -195,12 +208,15 @@ def _packed_plan(plan: PlanInput) -> bytes:
     return zlib.compress(content.encode(), FAST)
 
 
-def _packed(steps: Sequence[StepReply]) -> bytes:
-    return zlib.compress(STEPS.dump_json(list(steps)), FAST)
+def _packed_work(steps: Sequence[StepReply],
+                 flights: Sequence[Flight] | None) -> dict[str, bytes | None]:
+    """Return the columns of a link that tell what its vehicle does."""
+    return {"steps": zlib.compress(STEPS.dump_json(list(steps)), FAST),
+            "flights": zlib.compress(FLIGHTS.dump_json(list(flights)), FAST) if flights else None}
 
 
-def _add_link(connection: Connection, link: LinkRow, steps: bytes) -> None:
-    connection.execute(insert(LINKS).values(**asdict(link), steps=steps))
+def _add_link(connection: Connection, link: LinkRow, work: Mapping[Any, Any]) -> None:
+    connection.execute(insert(LINKS).values(**asdict(link), **work))
 
 
 def _revoke(connection: Connection, links: Collection[str]) -> None:

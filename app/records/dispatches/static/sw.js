@@ -8,6 +8,7 @@ const FILES = [
   'manifest.webmanifest',
   'js/clocks.js',
   'js/days.js',
+  'js/flights.js',
   'js/link.js',
   'js/main.js',
   'js/navigators.js',
@@ -47,7 +48,7 @@ self.addEventListener('activate', (event) => {
 // What is told and asked goes its own way, past here.
 self.addEventListener('fetch', (event) => {
   const { request } = event;
-  if (request.method !== 'GET' || /\/drive\/(day|events)$/.test(request.url)) return;
+  if (request.method !== 'GET' || /\/drive\/(day|events|flights)(\?|$)/.test(request.url)) return;
   const answer = async () => {
     const cache = await caches.open(CACHE);
     return (await cache.match(request, { ignoreSearch: true })) ?? fetch(request);

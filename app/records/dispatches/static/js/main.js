@@ -2,6 +2,7 @@
 
 import { html, render } from '../../console/vendor/htm-3.1.1/standalone.module.js';
 import * as days from './days.js';
+import { saveFlights } from './flights.js';
 import { forgetToken, linkOf, tokenOf } from './link.js';
 import { ask, eventOf, LinkOver, Refused, send } from './queue.js';
 import { forgetDraft } from './reasons.js';
@@ -23,7 +24,12 @@ let asked = 0;
 function draw() {
   if (state.day) {
     document.title = state.day.vehicle;
-    const doing = { onTell: tell, onSeen: seeChange, onLanguage: draw };
+    const doing = {
+      onTell: tell,
+      onSeen: seeChange,
+      onLanguage: draw,
+      onFlights: (format) => saveFlights(token, format),
+    };
     render(html`<${Day} ...${state} link=${link} ...${doing} />`, root);
   } else {
     document.title = t('page.title');

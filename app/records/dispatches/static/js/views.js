@@ -2,6 +2,7 @@
 
 import { html, useState } from '../../console/vendor/htm-3.1.1/standalone.module.js';
 import { clock, windowText } from './clocks.js';
+import { chooseFormat, chosenFormat, FORMATS } from './flights.js';
 import {
   chooseNavigator,
   chosenNavigator,
@@ -33,7 +34,7 @@ export function Message({ text }) {
 
 /** The whole day. */
 export function Day({ day, waiting, isReached, isChanged, failure, link, onTell, onSeen,
-  onLanguage }) {
+  onLanguage, onFlights }) {
   const [navigator_, setNavigator] = useState(
     chosenNavigator(localStorage, window.navigator.userAgent),
   );
@@ -61,12 +62,33 @@ export function Day({ day, waiting, isReached, isChanged, failure, link, onTell,
     )}</ol>
     <footer><${Breakdown} broken=${isBroken(found)}
       onTell=${(kind, reason) => onTell(VEHICLE, kind, reason)} />
+    ${day.flights > 0 && html`<${Flights} onFlights=${onFlights} />`}
     <label>${t('page.navigate')} <select value=${navigator_} onChange=${lead}>
       ${Object.keys(NAVIGATORS).map(
         (name) => html`<option key=${name} value=${name}
           selected=${name === navigator_}>${navigatorName(name)}</option>`,
       )}</select></label>
     <${LanguageChoice} onLanguage=${onLanguage} /></footer>`;
+}
+
+/** Flights of the vehicle's drones, to be loaded into what flies them. */
+function Flights({ onFlights }) {
+  const [format, setFormat] = useState(chosenFormat(localStorage));
+  const [failure, setFailure] = useState('');
+  const choose_ = (event) => {
+    chooseFormat(localStorage, event.target.value);
+    setFormat(event.target.value);
+    setFailure('');
+  };
+  return html`<label>${t('flights.format')} <select value=${format} onChange=${choose_}>
+    ${Object.entries(FORMATS).map(
+      ([name, label]) => html`<option key=${name} value=${name}
+        selected=${name === format}>${label}</option>`,
+    )}</select></label>
+    <button type="button" class="button" onClick=${async () =>
+      setFailure(await onFlights(format))}>${t('flights.save')}</button>
+    <p class="hint">${t('flights.facts')}</p>
+    ${failure && html`<p role="alert" class="unsent">${failure}</p>`}`;
 }
 
 function LanguageChoice({ onLanguage }) {

@@ -31,6 +31,13 @@ export default {
     seen: 'Gesehen',
     nothing: 'Für Sie ist nichts mehr geplant.',
   },
+  flights: {
+    format: 'Flüge als',
+    save: 'Flüge sichern',
+    facts: 'Angaben für eine Flugsteuerung, keine Erlaubnis zu fliegen.',
+    offline: 'Der Dienst ist nicht erreichbar: Versuchen Sie es noch einmal.',
+    refused: 'Diese Flüge lassen sich in diesem Format nicht angeben: Wählen Sie ein anderes.',
+  },
   breakdown: {
     told: 'Sie haben eine Panne gemeldet: Andere werden für Ihre Stopps eingeplant.',
     over: 'Es geht wieder weiter',

@@ -26,6 +26,13 @@ export default {
     seen: 'I have seen it',
     nothing: 'Nothing is planned for you any more.',
   },
+  flights: {
+    format: 'Flights as',
+    save: 'Save flights',
+    facts: 'Facts for a flight controller, no permission to fly.',
+    offline: 'The service cannot be reached: try again.',
+    refused: 'These flights cannot be told in this format: choose another.',
+  },
   breakdown: {
     told: 'You told that your vehicle has broken down: others are planned for your stops.',
     over: 'It goes on again',
