@@ -8,7 +8,7 @@ from model.judge.energy import (
     weights_aboard,
 )
 from model.judge.freshness import most_excess
-from model.problem import Problem, VehicleType
+from model.problem import Energy, Problem, VehicleType
 from model.solution import Trip
 
 
@@ -39,6 +39,25 @@ def trip_charges(problem: Problem, kind: VehicleType, trips: Sequence[Trip]) -> 
     return found
 
 
+def _rest_behind(problem: Problem, kind: VehicleType, energy: Energy,
+                 before: Sequence[Trip]) -> Rest:
+    """Return what there is of a battery after some trips, and since when it is charged."""
+    if not before:
+        return first_rest(kind, energy, 0)
+    there = trip_charges(problem, kind, before)[-1]
+    taken = trip_energy(problem, kind, before[-1]) or 0
+    return Rest(there - taken, before[-1].stops[-1].departure)
+
+
+def charged_between(problem: Problem, kind: VehicleType, before: Sequence[Trip],
+                    time: int) -> tuple[int, ...]:
+    """Return what there is of a battery at an instant after some trips, if it is charged then."""
+    energy = kind.energy
+    if energy is None or not energy.charge:
+        return ()
+    return (charge_after(energy, _rest_behind(problem, kind, energy, before), time),)
+
+
 def charged_start(problem: Problem, kind: VehicleType, before: Sequence[Trip],
                   nodes: Sequence[int]) -> int:
     """Return when a trip may begin, for all that the battery lacks after those before.
@@ -48,11 +67,7 @@ def charged_start(problem: Problem, kind: VehicleType, before: Sequence[Trip],
     energy = kind.energy
     if energy is None or not energy.charge:
         return 0
-    rest = first_rest(kind, energy, 0)
-    if before:
-        there = trip_charges(problem, kind, before)[-1]
-        taken = trip_energy(problem, kind, before[-1]) or 0
-        rest = Rest(there - taken, before[-1].stops[-1].departure)
+    rest = _rest_behind(problem, kind, energy, before)
     duration = problem.travel[kind.travel].duration
     legs = [duration.item(*leg) + problem.setup_between(*leg) for leg in pairwise(nodes)]
     services = [kind.service_at(problem.customer_at(node)) for node in nodes[1:-1]]

@@ -139,6 +139,9 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
         trip.sorties, launch_begins(trip.sorties, kind), strict=True) if begin <= now]
     if not left and not launched:
         return None
+    if kind.flies and all(stop.node >= 0 for stop in trip.stops):
+        # Who has taken off flies its trip to the end.
+        left = len(trip.stops)
     first = problem.num_depots
     stops = [KnownStop(stop.node, stop.arrival,
                        stop.service_start if stop.node >= first else stop.arrival, stop.departure)

@@ -188,7 +188,7 @@ class VehicleType:
     def has_begun(self) -> bool:
         """Tell whether its only trip was begun already."""
         return (any(self.initial_load) or self.busy_until > 0 or self.has_delivered
-                or bool(self.charge_left)
+                or (bool(self.charge_left) and not self.flies)
                 or (self.drones is not None and self.drones.has_launched))
 
     def service_at(self, customer: Customer) -> int:

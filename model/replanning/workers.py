@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from operator import le
 from typing import Literal
 
+from model.judge.flown_trips import charged_between
 from model.judge.freshness import first_departure
 from model.judge.loads import highest, trip_loads
 from model.judge.metrics import allowed_overtime
@@ -214,7 +215,8 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -
     if (route.vehicle in past.unavailable or trips_left < 1 or ready > home_by
             or place not in kind.reload_places):
         return None
-    own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place)
+    own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place,
+                  charge_left=charged_between(problem, kind, route.route.trips, ready))
     return Worker(route.vehicle, replace(own, works_since=home) if kind.cost_per_hour else own)
 
 
