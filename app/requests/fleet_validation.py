@@ -6,9 +6,10 @@ from app.requests.conversion.amounts import counted, decimals_of
 from app.requests.conversion.energy import is_countable
 from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
-from app.schemas.drones import Flyer
+from app.schemas.drones import Flyer, TurnaroundInput
 from app.schemas.energy import EnergyInput
 from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
+from model.problem import MAX_QUANTITY
 
 
 def shift_errors(draft: Draft) -> Errors:
@@ -132,7 +133,16 @@ def flight_errors(draft: Draft) -> Errors:
             yield error_at("NOT_WHERE_IT_FLIES", (*path, "turnaround", "batteries"),
                            "Batteries of vehicles that fly are taken to be enough: leave "
                            "batteries out.")
+        if kind.turnaround is not None and _too_long(kind, kind.turnaround):
+            yield error_at("OUT_OF_RANGE", (*path, "turnaround", "swap_duration"),
+                           "Beside reload_duration, that is more than can be counted: lower it.")
         yield from _closed_depots(draft, path, kind)
+
+
+def _too_long(kind: VehicleTypeInput, turnaround: TurnaroundInput) -> bool:
+    """Tell whether swaps and reloads together take longer than can be counted."""
+    between = thousandths(kind.reload_duration) + thousandths(turnaround.swap_duration)
+    return between > MAX_QUANTITY
 
 
 def _stated(kind: VehicleTypeInput, names: Sequence[str]) -> list[str]:

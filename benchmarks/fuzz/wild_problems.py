@@ -133,6 +133,26 @@ def _window(rng: random.Random) -> Data:
 
 
 def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
+    kind = _truck(rng, dimensions)
+    return _flying(rng, kind, dimensions) if rng.random() < 0.2 else kind
+
+
+def _flying(rng: random.Random, kind: Data, dimensions: int) -> Data:
+    """Return a type that flies by itself, which has mostly nothing that only trucks have."""
+    for name in ("drones", "speed_profile", "max_sorties", "max_airborne", "truck_waits"):
+        if rng.random() < 0.98:
+            kind.pop(name, None)
+    return kind | {
+        "flies": True,
+        **_maybe(rng, 0.6, endurance=rng.choice((0, 60, 1200, 1800, LONGEST))),
+        **_maybe(rng, 0.5, launch_duration=rng.choice((0, 30, 60, LONGEST)),
+                 recovery_duration=rng.choice((0, 30, 60, LONGEST))),
+        **_maybe(rng, 0.3, turnaround={"swap_duration": rng.choice((0, 45, LONGEST))}),
+        **_maybe(rng, 0.6, energy=_energy(rng, dimensions),
+                 **_maybe(rng, 0.4, turnaround={"charge_w": rng.choice((0, 1e-9, 40, 1e5))}))}
+
+
+def _truck(rng: random.Random, dimensions: int) -> Data:
     return {
         "count": rng.choice((1, 1, 2, 3, 10_000)),
         "capacity": _amounts(rng, dimensions, (0, 5, 10, 10, 40, 1e-3, LONGEST)),

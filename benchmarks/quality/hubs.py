@@ -17,6 +17,7 @@ from app.requests.conversion.problem import to_problem
 from app.schemas.limits import DEFAULT_POLICY
 from app.schemas.request import PlanRequest
 from app.serving.settings import Settings
+from benchmarks.clock import count_processor_time
 from model.judge.check import check
 from model.planner import PlanOptions, load_planner
 from model.problem import FloatArray
@@ -87,7 +88,8 @@ def main(
     drones: Annotated[int, typer.Option(help="Drones, of three hubs.")] = 100,
     seed: Annotated[int, typer.Option(help="Of what is drawn.")] = 1,
 ) -> None:
-    """Plan a day within several times."""
+    """Plan a day within several times, of the processor."""
+    count_processor_time()
     request = PlanRequest.model_validate_json(json.dumps(draw_day(orders, drones, seed)))
     problem = to_problem(request)
     planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
