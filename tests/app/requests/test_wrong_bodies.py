@@ -25,6 +25,7 @@ from app.schemas.check import CheckRequest
 from app.schemas.errors import InvalidRequestError
 from app.schemas.explain import ExplainRequest
 from app.schemas.fit import FitRequest
+from app.schemas.flights import FlightsRequest
 from app.schemas.request import PlanRequest
 from app.schemas.times import read_body
 from app.serving.settings import Settings
@@ -85,6 +86,8 @@ def _examples() -> Iterator[tuple[type[BaseModel], bytes]]:
             yield ExplainRequest, body
         elif path.name.startswith("fit"):
             yield FitRequest, body
+        elif path.name.startswith("flights"):
+            yield FlightsRequest, body
         else:
             yield PlanRequest, body
 
@@ -95,7 +98,7 @@ def test_what_fits_the_schema_has_its_shape() -> None:
         read_body(model, body)
         read_shape(body, model)
         seen.add(model)
-    assert len(seen) == 5
+    assert len(seen) == 6
 
 
 def _changes(value: Any, path: tuple[str | int, ...] = ()) -> Iterator[tuple[str | int, ...]]:
