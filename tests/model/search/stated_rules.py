@@ -46,6 +46,8 @@ RULES = {
     "speed changes": with_vehicles(
         speed_profile=SpeedProfile((HOUR,), (FULL_SPEED, FULL_SPEED // 2))),
     "drones are charged aboard": with_vehicles(drones=replace(DRONES, energy=BATTERY)),
+    "it is too windy at times": with_vehicles(
+        drones=replace(DRONES, storms=((HOUR, 2 * HOUR),))),
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),
     "what is aboard costs": with_vehicles(cost_per_load_km=1.0),
