@@ -10,13 +10,6 @@ from app.schemas.fields import Location, point_of
 from app.schemas.request import AirspaceInput
 from model.travel.airspace import Ring, invalid_polygon_reason
 from model.travel.matrices import LocalProjection
-from model.travel.obstacles import count_crossings
-
-MAX_AIRSPACE_CORNERS = 1000
-"""Most corners of all no-fly areas together."""
-
-MAX_AIRSPACE_CROSSINGS = 10_000
-"""How often edges of different no-fly areas may meet: to merge areas takes time for each."""
 
 
 def airspace_errors(draft: Draft) -> Errors:
@@ -26,12 +19,6 @@ def airspace_errors(draft: Draft) -> Errors:
     yield from _zone_errors(draft, draft.airspace)
     if not draft.airspace.no_fly:
         return
-    corners = sum(map(len, draft.airspace.no_fly))
-    if corners > MAX_AIRSPACE_CORNERS:
-        yield error_at("TOO_MANY_CORNERS", ("airspace", "no_fly"),
-                       f"The no-fly areas have {corners} corners and at most "
-                       f"{MAX_AIRSPACE_CORNERS} are allowed: simplify them.")
-        return
     wrong = [error for index, ring in enumerate(draft.airspace.no_fly)
              for number, corner in enumerate(ring)
              for error in point_errors(draft, ("airspace", "no_fly", index, number), corner)]
@@ -39,8 +26,8 @@ def airspace_errors(draft: Draft) -> Errors:
     if draft.coordinate_system is None or wrong:
         return
     rings = _rings_m(draft, draft.airspace.no_fly)
-    invalid = [error for index, ring in enumerate(rings) for error in _ring_errors(index, ring)]
-    yield from invalid or _crossing_errors(rings)
+    for index, ring in enumerate(rings):
+        yield from _ring_errors(index, ring)
 
 
 def _zone_errors(draft: Draft, airspace: AirspaceInput) -> Errors:
@@ -80,11 +67,3 @@ def _ring_errors(index: int, ring: Ring) -> Errors:
                        ("airspace", "no_fly", index),
                        f"{reason[0].upper()}{reason[1:]}: list its corners once each, in order "
                        "around the area.")
-
-
-def _crossing_errors(rings: list[Ring]) -> Errors:
-    crossings = count_crossings(rings)
-    if crossings > MAX_AIRSPACE_CROSSINGS:
-        yield error_at("TOO_MANY_CORNERS", ("airspace", "no_fly"),
-                       f"The no-fly areas' edges meet {crossings} times, and at most "
-                       f"{MAX_AIRSPACE_CROSSINGS} times are allowed: merge areas that overlap.")

@@ -1099,6 +1099,9 @@ int tandem_header(uint64_t* digest); /* of this file, the first 64 bits of its S
 int tandem_write_nearest_in(const tandem_cells* cells, int64_t begin, int64_t end,
                             const tandem_i32_2d* nearest);
 
+/* Count the pairs of edges that are near enough to cross, roughly. */
+int tandem_count_nearby(const tandem_f64_2d* edges, int64_t* pairs);
+
 /* Mark the ends that each of some starts doesn't see past edges. */
 int tandem_mark_hidden(const tandem_f64_2d* starts, const tandem_f64_2d* ends,
                        const tandem_f64_2d* edges, const tandem_bool_2d* hidden, int64_t first,
@@ -1108,6 +1111,13 @@ int tandem_mark_hidden(const tandem_f64_2d* starts, const tandem_f64_2d* ends,
 int tandem_mark_dead_ends(const tandem_f64_2d* starts, const tandem_f64_2d* corners,
                           const tandem_f64_2d* before, const tandem_f64_2d* after, double slack,
                           const tandem_bool_2d* hidden, int64_t first, int64_t last);
+
+/* Write the pairs of corners that see each other and that a shortest way may go between, those of
+   some corners with all behind them, while there is room; and how many, and where to go on. */
+int tandem_write_sights(const tandem_f64_2d* corners, const tandem_f64_2d* before,
+                        const tandem_f64_2d* after, const tandem_f64_2d* edges, double slack,
+                        int64_t first, int64_t last, const tandem_i32_2d* pairs, int64_t* written,
+                        int64_t* next);
 
 /* Write the quickest flights that bend at least once. */
 int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between,

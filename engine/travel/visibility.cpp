@@ -1,12 +1,14 @@
 // Who sees whom past obstacles.
 //
-// Obstacles are segments, the edges of areas that no line of sight may meet. Seen from one point,
-// each edge covers a range of angles; it is filed under the few nodes of a binary tree over all
-// angles that make up its range, so that a line of sight is compared only with the edges on its
+// Obstacles are segments, the edges of areas that no line of sight may meet. They are filed under
+// the cells of a grid that they cross, so that a line of sight is compared only with those on its
 // way.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "guard.h"
@@ -15,12 +17,11 @@
 namespace tandem {
 namespace {
 
-constexpr Int levels = 10;
-constexpr Int leaves = Int{1} << levels;  // of the tree of angles
-constexpr Int few_edges = 12;             // with no more, every line of sight is compared with all
-constexpr double narrowest = 1e-9;        // range of angles divided: below, rounding would decide
-constexpr double margin = 0.01;           // share of a leaf by which an edge's range is widened
-constexpr Int outside = -1;
+constexpr Int most_cells = 2048;  // on each side of the grid
+constexpr double margin = 1e-6;   // share of a cell by which what is looked at is widened
+constexpr Int few_edges = 12;     // with no more, every line of sight is compared with all
+constexpr Int nothing = -1;
+constexpr double narrowest = 1e-3;  // metres: cells are no smaller
 
 struct Point2 {
     double x, y;
@@ -30,34 +31,6 @@ struct Point2 {
 struct Edge {
     Point2 a, b;
 };
-
-// The angles that an edge covers, from high to low where it lies across the end of angles.
-struct Range {
-    double low, high;
-};
-
-// Where angles end: opposite to a direction towards the edges, so that few lie across it.
-Point2 middle(const std::vector<Edge>& seen) {
-    double x = 0.0;
-    double y = 0.0;
-    for (const Edge& edge : seen) {
-        x += edge.a.x;
-        y += edge.a.y;
-    }
-    const double length = std::sqrt(x * x + y * y);
-    return length > 0 ? Point2{x / length, y / length} : Point2{1.0, 0.0};
-}
-
-// What grows with the angle from the centre: 0 there, 1 at a right one, -2 to 2.
-double angle_of(const Point2& to, const Point2& centre) {
-    const double along = to.x * centre.x + to.y * centre.y;
-    const double across = to.y * centre.x - to.x * centre.y;
-    const double reach = std::abs(along) + std::abs(across);
-    if (reach == 0) return 0.0;
-    const double share = across / reach;
-    if (along >= 0) return share;
-    return across >= 0 ? 2.0 - share : -2.0 - share;
-}
 
 // Whether the segment from the origin to a point meets an edge.
 bool meets(const Point2& to, const Edge& edge) {
@@ -75,171 +48,301 @@ bool meets(const Point2& to, const Edge& edge) {
     return !((side_origin > 0 && side_end > 0) || (side_origin < 0 && side_end < 0));
 }
 
-// Edges as seen from one point, filed by angle where there are many.
-class Panorama {
+// Edges by the cells that they cross.
+class Grid {
 public:
-    explicit Panorama(View<const double, 2> edges)
-        : edges_(edges), seen_(static_cast<std::size_t>(edges.size())) {}
-
-    // Look from a point.
-    void look_from(const Point2& here) {
-        for (Int row = 0; row < edges_.size(); ++row) {
-            seen_[static_cast<std::size_t>(row)] = {
-                {edges_(row, 0) - here.x, edges_(row, 1) - here.y},
-                {edges_(row, 2) - here.x, edges_(row, 3) - here.y}};
-        }
-        if (!has_few()) file();
+    explicit Grid(View<const double, 2> edges) : edges_(edges) {
+        bound();
+        begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+        for_each_entry([&](Int cell, Int) { ++begin_[static_cast<std::size_t>(cell) + 1]; });
+        for (std::size_t cell = 1; cell < begin_.size(); ++cell) begin_[cell] += begin_[cell - 1];
+        entry_.resize(static_cast<std::size_t>(begin_.back()));
+        std::vector<Int> next(begin_.begin(), begin_.end() - 1);
+        for_each_entry([&](Int cell, Int edge) {
+            entry_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell)]++)] = edge;
+        });
     }
 
-    // Whether the line of sight to what lies there meets an edge.
-    bool hides(const Point2& to) const {
-        if (has_few()) {
-            return std::any_of(seen_.begin(), seen_.end(),
-                               [&](const Edge& edge) { return meets(to, edge); });
+    // How many pairs of edges share a cell, so that they may cross.
+    Int pairs_nearby() const {
+        Int pairs = 0;
+        for (std::size_t cell = 1; cell < begin_.size(); ++cell) {
+            const Int count = begin_[cell] - begin_[cell - 1];
+            pairs += count * (count - 1) / 2;
         }
-        const Int leaf = leaf_of(angle_of(to, centre_));
-        if (leaf == outside) return false;
-        for (Int node = leaf + leaves; node > 0; node >>= 1) {
-            for (Int entry = heads_[static_cast<std::size_t>(node)]; entry >= 0;) {
-                const Filed& filed = filed_[static_cast<std::size_t>(entry)];
-                if (meets(to, seen_[filed.edge])) return true;
-                entry = filed.next;
+        return pairs;
+    }
+
+    bool has_few() const { return edges_.size() <= few_edges; }
+
+    // An edge that the line of sight between two points meets, or nothing.
+    Int hiding(const Point2& here, const Point2& there) const {
+        const Point2 to{there.x - here.x, there.y - here.y};
+        Int found = nothing;
+        if (has_few()) {
+            for (Int edge = 0; edge < edges_.size() && found == nothing; ++edge) {
+                if (meets(to, seen_from(here, edge))) found = edge;
             }
+            return found;
+        }
+        any_cell(here, there, [&](Int cell) {
+            const auto last = static_cast<std::size_t>(begin_[static_cast<std::size_t>(cell) + 1]);
+            for (auto at = static_cast<std::size_t>(begin_[static_cast<std::size_t>(cell)]);
+                 at < last; ++at) {
+                if (!meets(to, seen_from(here, entry_[at]))) continue;
+                found = entry_[at];
+                return true;
+            }
+            return false;
+        });
+        return found;
+    }
+
+    // Whether the line of sight between two points meets this edge.
+    bool is_hiding(Int edge, const Point2& here, const Point2& there) const {
+        return meets({there.x - here.x, there.y - here.y}, seen_from(here, edge));
+    }
+
+private:
+    Edge seen_from(const Point2& here, Int edge) const {
+        return {{edges_(edge, 0) - here.x, edges_(edge, 1) - here.y},
+                {edges_(edge, 2) - here.x, edges_(edge, 3) - here.y}};
+    }
+
+    // As many square cells as there are edges, about.
+    void bound() {
+        Point2 high{-std::numeric_limits<double>::infinity(),
+                    -std::numeric_limits<double>::infinity()};
+        low_ = {-high.x, -high.y};
+        for (Int edge = 0; edge < edges_.size(); ++edge) {
+            for (const Int end : {Int{0}, Int{2}}) {
+                low_ = {std::min(low_.x, edges_(edge, end)),
+                        std::min(low_.y, edges_(edge, end + 1))};
+                high = {std::max(high.x, edges_(edge, end)),
+                        std::max(high.y, edges_(edge, end + 1))};
+            }
+        }
+        if (edges_.size() == 0) low_ = high = {0.0, 0.0};
+        const double width = high.x - low_.x;
+        const double height = high.y - low_.y;
+        const double count = static_cast<double>(std::max(edges_.size(), Int{1}));
+        cell_ = std::max({std::sqrt(width * height / count), width / most_cells,
+                          height / most_cells, narrowest});
+        columns_ = std::min(static_cast<Int>(width / cell_) + 1, most_cells);
+        rows_ = std::min(static_cast<Int>(height / cell_) + 1, most_cells);
+    }
+
+    template <typename Visit>
+    void for_each_entry(const Visit& visit) const {
+        for (Int edge = 0; edge < edges_.size(); ++edge) {
+            any_cell({edges_(edge, 0), edges_(edge, 1)}, {edges_(edge, 2), edges_(edge, 3)},
+                     [&](Int cell) {
+                         visit(cell, edge);
+                         return false;
+                     });
+        }
+    }
+
+    // Whether that is so of any cell that a segment crosses, row by row from its start on.
+    template <typename Test>
+    bool any_cell(const Point2& from, const Point2& to, const Test& test) const {
+        const double pad = margin * cell_;
+        const double lowest = std::min(from.y, to.y) - pad;
+        const double highest = std::max(from.y, to.y) + pad;
+        if (highest < low_.y || lowest > low_.y + cell_ * static_cast<double>(rows_)) return false;
+        const Int bottom = within((lowest - low_.y) / cell_, rows_);
+        const Int top = within((highest - low_.y) / cell_, rows_);
+        const bool up = from.y <= to.y;
+        const double slope = to.y == from.y ? 0.0 : (to.x - from.x) / (to.y - from.y);
+        for (Int number = bottom; number <= top; ++number) {
+            const Int row = up ? number : bottom + top - number;
+            const double floor = low_.y + cell_ * static_cast<double>(row) - pad;
+            const auto [left, right] = slope == 0.0
+                                           ? Span{std::min(from.x, to.x), std::max(from.x, to.x)}
+                                           : crossing(from, to, slope, floor);
+            if (any_in_row(row, left - pad, right + pad, from.x <= to.x, test)) return true;
         }
         return false;
     }
 
-private:
-    // An edge in the list of a node of the tree.
-    struct Filed {
-        std::size_t edge;
-        Int next;
+    struct Span {
+        double left, right;
     };
 
-    bool has_few() const { return edges_.size() <= few_edges; }
+    // From where to where a segment lies within a row that begins at a height.
+    Span crossing(const Point2& from, const Point2& to, double slope, double floor) const {
+        const double ceiling = floor + cell_ * (1 + 2 * margin);
+        const double low = std::clamp(floor, std::min(from.y, to.y), std::max(from.y, to.y));
+        const double high = std::clamp(ceiling, std::min(from.y, to.y), std::max(from.y, to.y));
+        const double one = from.x + slope * (low - from.y);
+        const double other = from.x + slope * (high - from.y);
+        return {std::min(one, other), std::max(one, other)};
+    }
 
-    void file() {
-        heads_.fill(-1);
-        filed_.clear();
-        centre_ = middle(seen_);
-        write_ranges();
-        for (std::size_t edge = 0; edge < seen_.size(); ++edge) {
-            const auto [low, high] = ranges_[edge];
-            const double begin = (low - lowest_) * scale_ - margin;
-            const double end = (high - lowest_) * scale_ + margin;
-            if (low > high) {
-                file(edge, begin, static_cast<double>(leaves));
-                file(edge, 0.0, end);
-            } else {
-                file(edge, begin, end);
-            }
+    template <typename Test>
+    bool any_in_row(Int row, double left, double right, bool rightwards, const Test& test) const {
+        if (right < low_.x || left > low_.x + cell_ * static_cast<double>(columns_)) return false;
+        const Int first = within((left - low_.x) / cell_, columns_);
+        const Int last = within((right - low_.x) / cell_, columns_);
+        for (Int number = first; number <= last; ++number) {
+            const Int column = rightwards ? number : first + last - number;
+            if (test(row * columns_ + column)) return true;
         }
+        return false;
     }
 
-    void write_ranges() {
-        ranges_.clear();
-        lowest_ = 2.0;
-        double highest = -2.0;
-        for (const Edge& edge : seen_) {
-            const double one = angle_of(edge.a, centre_);
-            const double other = angle_of(edge.b, centre_);
-            const double low = std::min(one, other);
-            const double high = std::max(one, other);
-            if (high - low <= 2.0 - 1e-6) {
-                ranges_.push_back({low, high});
-                lowest_ = std::min(lowest_, low);
-                highest = std::max(highest, high);
-                continue;
-            }
-            // It passes behind, or so near that it can't be told on which side.
-            const bool near = high - low < 2.0 + 1e-6;
-            ranges_.push_back(near ? Range{-2.0, 2.0} : Range{high, low});
-            lowest_ = -2.0;
-            highest = 2.0;
-        }
-        scale_ = static_cast<double>(leaves) / std::max(highest - lowest_, narrowest);
-    }
-
-    // File an edge under all nodes of the tree that make up its range, in leaves.
-    void file(std::size_t edge, double begin, double end) {
-        Int left = within(begin) + leaves;
-        Int right = within(end) + leaves + 1;
-        for (; left < right; left >>= 1, right >>= 1) {
-            if (left & 1) put(edge, left++);
-            if (right & 1) put(edge, --right);
-        }
-    }
-
-    void put(std::size_t edge, Int node) {
-        Int& head = heads_[static_cast<std::size_t>(node)];
-        filed_.push_back({edge, head});
-        head = static_cast<Int>(filed_.size()) - 1;
-    }
-
-    static Int within(double place) {
-        return std::clamp(static_cast<Int>(place), Int{0}, leaves - 1);
-    }
-
-    // The leaf of an angle, or `outside` if no edge is there.
-    Int leaf_of(double angle) const {
-        const double place = (angle - lowest_) * scale_;
-        if (place < -margin || place > static_cast<double>(leaves) + margin) return outside;
-        return within(place);
+    static Int within(double place, Int count) {
+        return static_cast<Int>(std::clamp(place, 0.0, static_cast<double>(count - 1)));
     }
 
     View<const double, 2> edges_;  // (edge, 4) x and y of both ends
-    std::vector<Edge> seen_;
-    std::vector<Range> ranges_;  // (edge,)
-    std::vector<Filed> filed_;
-    std::array<Int, 2 * leaves> heads_{};  // (node,) the first that is filed there
-    Point2 centre_{};
-    double lowest_ = 0.0;  // angle of all edges
-    double scale_ = 0.0;   // leaves per angle
+    Point2 low_{};                 // corner of the grid
+    double cell_ = 1.0;            // metres
+    Int columns_ = 1, rows_ = 1;
+    std::vector<Int> begin_;  // (cell + 1,) where its edges begin in `entry_`
+    std::vector<Int> entry_;
+};
+
+// Where shortest ways bend: a place, and from there the neighbours on the area's boundary.
+struct Corner {
+    Point2 place, before, after;
+};
+
+// Whether no shortest way that leads along a line bends at a corner.
+//
+// Such a way leaves the area on one side: if the line through the corner has the corner's two edges
+// on different sides, by more than some slack, the way may be cut short there.
+bool is_dead_end(const Point2& line, const Corner& corner, double slack) {
+    const double one = line.x * corner.before.y - line.y * corner.before.x;
+    const double other = line.x * corner.after.y - line.y * corner.after.x;
+    const double near = slack * slack * (line.x * line.x + line.y * line.y);
+    return (one * other < 0) & (one * one > near) & (other * other > near);
+}
+
+// Corners by number, each coordinate of all of them in an array of its own.
+class Corners {
+public:
+    Corners(View<const double, 2> place, View<const double, 2> before, View<const double, 2> after)
+        : x_(size_of(place)), y_(x_), before_x_(x_), before_y_(x_), after_x_(x_), after_y_(x_) {
+        for (std::size_t number = 0; number < x_.size(); ++number) {
+            const auto row = static_cast<Int>(number);
+            x_[number] = place(row, 0);
+            y_[number] = place(row, 1);
+            before_x_[number] = before(row, 0) - place(row, 0);
+            before_y_[number] = before(row, 1) - place(row, 1);
+            after_x_[number] = after(row, 0) - place(row, 0);
+            after_y_[number] = after(row, 1) - place(row, 1);
+        }
+    }
+
+    Int size() const { return static_cast<Int>(x_.size()); }
+
+    Corner operator[](Int number) const { return at(static_cast<std::size_t>(number)); }
+
+    // Mark those behind a corner between which and that one no shortest way leads straight.
+    void mark_dead_ends_from(Int number, double slack, std::vector<std::int64_t>& dead) const {
+        const Corner here = (*this)[number];
+        std::int64_t* const marks = dead.data();
+        for (std::size_t other = static_cast<std::size_t>(number) + 1; other < x_.size(); ++other) {
+            const Point2 line{x_[other] - here.place.x, y_[other] - here.place.y};
+            marks[other] = is_dead_end(line, here, slack) | is_dead_end(line, at(other), slack);
+        }
+    }
+
+private:
+    static std::size_t size_of(View<const double, 2> place) {
+        return static_cast<std::size_t>(place.size());
+    }
+
+    Corner at(std::size_t number) const {
+        return {{x_[number], y_[number]},
+                {before_x_[number], before_y_[number]},
+                {after_x_[number], after_y_[number]}};
+    }
+
+    std::vector<double> x_, y_;                // (corner,) where it is
+    std::vector<double> before_x_, before_y_;  // (corner,) from there to the neighbour
+    std::vector<double> after_x_, after_y_;
+};
+
+// What hid the last that was looked at in each direction: it hides most others there, too.
+class Screens {
+public:
+    explicit Screens(const Grid& grid) : grid_(grid) { last_.fill(nothing); }
+
+    bool hide(const Point2& here, const Point2& there) {
+        if (grid_.has_few()) return grid_.hiding(here, there) != nothing;
+        Int& last = last_[direction(there.x - here.x, there.y - here.y)];
+        if (last != nothing && grid_.is_hiding(last, here, there)) return true;
+        const Int found = grid_.hiding(here, there);
+        if (found != nothing) last = found;
+        return found != nothing;
+    }
+
+private:
+    static constexpr std::size_t directions = 1024;
+
+    static std::size_t direction(double x, double y) {
+        const double reach = std::abs(x) + std::abs(y);
+        if (reach == 0) return 0;
+        const double quarter = y / reach;  // grows from -1 to 1 on the right, and falls on the left
+        const double turn = x >= 0 ? quarter + 1 : 3 - quarter;
+        return std::min(static_cast<std::size_t>(turn * (directions / 4.0)), directions - 1);
+    }
+
+    const Grid& grid_;
+    std::array<Int, directions> last_{};
 };
 
 // Mark the ends that each of some starts doesn't see. Pairs that are marked already are not looked
 // at, and only the ends behind each start where the ends are the starts (`mutual`).
-void mark_hidden(View<const double, 2> starts, View<const double, 2> ends, Panorama& panorama,
+void mark_hidden(View<const double, 2> starts, View<const double, 2> ends, const Grid& grid,
                  View<bool, 2> hidden, Int first, Int last, bool mutual) {
+    Screens screens(grid);
     for (Int row = first; row < last; ++row) {
-        const Point2 here{starts(row, 0), starts(row, 1)};
-        panorama.look_from(here);
         for (Int column = mutual ? row + 1 : 0; column < ends.size(); ++column) {
             if (hidden(row, column)) continue;
             hidden(row, column) =
-                panorama.hides({ends(column, 0) - here.x, ends(column, 1) - here.y});
+                screens.hide({starts(row, 0), starts(row, 1)}, {ends(column, 0), ends(column, 1)});
         }
     }
 }
 
-// Corners, and their neighbours on their area's boundary: (corner, 2) each.
-struct Corners {
-    View<const double, 2> place, before, after;
-};
-
 // Mark the corners that no shortest way from each of some starts bends at.
-//
-// Such a way leaves the area on one side: if the line through a start and a corner has the corner's
-// two edges on different sides, by more than some slack, the way may be cut short there.
 void mark_dead_ends(View<const double, 2> starts, const Corners& corners, double slack,
                     View<bool, 2> hidden, Int first, Int last) {
-    const auto& [place, before, after] = corners;
     for (Int row = first; row < last; ++row) {
-        for (Int corner = 0; corner < place.size(); ++corner) {
-            const double x = place(corner, 0) - starts(row, 0);
-            const double y = place(corner, 1) - starts(row, 1);
-            const auto side = [&](View<const double, 2> of) {
-                return x * (of(corner, 1) - place(corner, 1)) -
-                       y * (of(corner, 0) - place(corner, 0));
-            };
-            const double near = slack * std::sqrt(x * x + y * y);
-            const double one = side(before);
-            const double other = side(after);
-            if ((one > near && other < -near) || (one < -near && other > near)) {
-                hidden(row, corner) = true;
-            }
+        for (Int corner = 0; corner < corners.size(); ++corner) {
+            const Corner there = corners[corner];
+            const Point2 line{there.place.x - starts(row, 0), there.place.y - starts(row, 1)};
+            if (is_dead_end(line, there, slack)) hidden(row, corner) = true;
         }
     }
+}
+
+// Write pairs of corners that see each other and between which a shortest way may go, each once,
+// those of some of the corners with all behind them, as long as all of one surely have room.
+// Returns how many there are, and the corner to go on with.
+std::pair<Int, Int> write_sights(const Corners& corners, const Grid& grid, double slack, Int first,
+                                 Int last, View<std::int32_t, 2> pairs) {
+    const Int count = corners.size();
+    std::vector<std::int64_t> dead(static_cast<std::size_t>(count));
+    Screens screens(grid);
+    Int written = 0;
+    Int one = first;
+    for (; one < last && written + count <= pairs.size(); ++one) {
+        corners.mark_dead_ends_from(one, slack, dead);
+        for (Int other = one + 1; other < count; ++other) {
+            if (dead[static_cast<std::size_t>(other)] ||
+                screens.hide(corners[one].place, corners[other].place)) {
+                continue;
+            }
+            pairs(written, 0) = static_cast<std::int32_t>(one);
+            pairs(written, 1) = static_cast<std::int32_t>(other);
+            ++written;
+        }
+    }
+    return {written, one};
 }
 
 }  // namespace
@@ -249,9 +352,13 @@ extern "C" int tandem_mark_hidden(const tandem_f64_2d* starts, const tandem_f64_
                                   const tandem_f64_2d* edges, const tandem_bool_2d* hidden,
                                   int64_t first, int64_t last, bool mutual) {
     return tandem::guarded([&] {
-        tandem::Panorama panorama(*edges);
-        tandem::mark_hidden(*starts, *ends, panorama, *hidden, first, last, mutual);
+        const tandem::Grid grid(*edges);
+        tandem::mark_hidden(*starts, *ends, grid, *hidden, first, last, mutual);
     });
+}
+
+extern "C" int tandem_count_nearby(const tandem_f64_2d* edges, int64_t* pairs) {
+    return tandem::guarded([&] { *pairs = tandem::Grid(*edges).pairs_nearby(); });
 }
 
 extern "C" int tandem_mark_dead_ends(const tandem_f64_2d* starts, const tandem_f64_2d* corners,
@@ -260,5 +367,16 @@ extern "C" int tandem_mark_dead_ends(const tandem_f64_2d* starts, const tandem_f
                                      int64_t last) {
     return tandem::guarded([&] {
         tandem::mark_dead_ends(*starts, {*corners, *before, *after}, slack, *hidden, first, last);
+    });
+}
+
+extern "C" int tandem_write_sights(const tandem_f64_2d* corners, const tandem_f64_2d* before,
+                                   const tandem_f64_2d* after, const tandem_f64_2d* edges,
+                                   double slack, int64_t first, int64_t last,
+                                   const tandem_i32_2d* pairs, int64_t* written, int64_t* next) {
+    return tandem::guarded([&] {
+        const tandem::Grid grid(*edges);
+        std::tie(*written, *next) =
+            tandem::write_sights({*corners, *before, *after}, grid, slack, first, last, *pairs);
     });
 }

@@ -5,9 +5,10 @@ from typing import NamedTuple
 
 import numpy as np
 import shapely
-from shapely import LineString, MultiPolygon, Polygon
+from shapely import MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
+from model.engine.library import call
 from model.problem import BoolArray, FloatArray
 
 TOUCH_M = 0.0005
@@ -41,32 +42,42 @@ class Obstacles(NamedTuple):
 
 def obstacles_of(rings: Sequence[Sequence[tuple[float, float]]],
                  zones: Sequence[Polygon] = (), low: Sequence[Polygon] = ()) -> Obstacles:
-    """Merge areas, given by their corners or as polygons; `low` ones are flown over."""
-    areas = shapely.union_all([*[Polygon(ring) for ring in rings], *zones])
-    parts = _blocking_parts(areas)
+    """Merge areas, given by their corners, and zones, which lie apart; `low` ones are flown over.
+    """
+    if rings:
+        areas = shapely.union_all([*[Polygon(ring) for ring in rings], *zones])
+        parts = _shrunk(areas.buffer(TOUCH_M, join_style="mitre"), 2 * TOUCH_M)
+    else:
+        areas = MultiPolygon(list(zones))
+        parts = _shrunk(areas, TOUCH_M)
     corners = _corners(areas)
     free = ~_inside(parts, corners.place)
-    return Obstacles(parts, _edges(parts), Corners(*(places[free] for places in corners)),
-                     shapely.union_all(list(low)))
+    return Obstacles(parts, edges_of(_polygons(parts)),
+                     Corners(*(places[free] for places in corners)), shapely.union_all(list(low)))
 
 
-def count_crossings(rings: Sequence[Sequence[tuple[float, float]]]) -> int:
-    """Return how often edges of different areas meet, by which merging them takes longer."""
-    edges = [np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in map(np.array, rings)]
-    lines = [LineString(edge) for edge in np.concatenate(edges)]
-    area = np.repeat(np.arange(len(rings)), [len(ring) for ring in rings])
-    one, other = shapely.STRtree(lines).query(lines, predicate="intersects")
-    return int(np.count_nonzero(area[one] < area[other]))
+def edges_of(areas: Sequence[BaseGeometry]) -> FloatArray:
+    """Return the (edge, 4) x and y of both ends of the edges of areas."""
+    if not areas:
+        return np.empty((0, 4))
+    rings = shapely.get_rings(np.array(areas, dtype=object))
+    corners, ring = shapely.get_coordinates(rings, return_index=True)
+    same = ring[:-1] == ring[1:]
+    return np.concatenate([corners[:-1][same], corners[1:][same]], axis=1)
 
 
-def _blocking_parts(areas: BaseGeometry) -> BaseGeometry:
-    """Return what no flight may meet: the areas, a little shrunk, hairline gaps closed.
+def count_nearby(edges: FloatArray) -> int:
+    """Return how many pairs of edges may cross, about, by which merging them takes longer."""
+    return int(call("tandem_count_nearby", edges))
+
+
+def _shrunk(areas: BaseGeometry, by: float) -> BaseGeometry:
+    """Return what no flight may meet: areas, hairline gaps between which are closed, a bit smaller.
 
     Against shrunk areas, flights along an edge or past a corner are clear by a margin, so that no
     rounding of coordinates decides whether they touch or cut.
     """
-    closed = areas.buffer(TOUCH_M, join_style="mitre")
-    shrunk = MultiPolygon(_polygons(closed.buffer(-2 * TOUCH_M, join_style="mitre")))
+    shrunk = MultiPolygon(_polygons(areas.buffer(-by, join_style="mitre")))
     shapely.prepare(shrunk)
     return shrunk
 
@@ -79,14 +90,6 @@ def _polygons(geometry: BaseGeometry) -> list[Polygon]:
 def _inside(parts: BaseGeometry, points: FloatArray) -> BoolArray:
     inside: BoolArray = shapely.intersects_xy(parts, points[:, 0], points[:, 1])
     return inside
-
-
-def _edges(parts: BaseGeometry) -> FloatArray:
-    edges = [np.empty((0, 4))]
-    for ring in _rings(parts):
-        corners = shapely.get_coordinates(ring)
-        edges.append(np.concatenate([corners[:-1], corners[1:]], axis=1))
-    return np.concatenate(edges)
 
 
 def _corners(areas: BaseGeometry) -> Corners:

@@ -15,7 +15,13 @@ SLACK_M = 2 * TOUCH_M
 """How far a corner's neighbour may be on the wrong side of a flight that bends there."""
 
 LOOKS_AT_ONCE = 200_000
-"""Edges and lines of sight between two pauses: some milliseconds' work."""
+"""Lines of sight between two pauses: some milliseconds' work."""
+
+PAIRS_AT_ONCE = 10_000_000
+"""Pairs of corners between two pauses, most of which need no look."""
+
+ROOM_FOR_SIGHTS = 100_000
+"""Pairs of corners that are found at once, beside those of one with all others."""
 
 FLIGHTS_AT_ONCE = 2_000_000
 """Flights from or to corners put together between two pauses."""
@@ -141,12 +147,9 @@ def find_ways(points: FloatArray, obstacles: Obstacles, pause: Pause) -> Ways:
     hidden = _dead_ends(points, corners, pause)
     hidden[inside] = True
     _look(points, corners.place, obstacles, hidden, pause)
-    apart = _dead_ends(corners.place, corners, pause)
-    apart |= apart.T
-    np.fill_diagonal(apart, True)
-    _look_around(corners.place, obstacles, apart, pause)
-    return Ways(blocked, _pairs(points, corners.place, hidden),
-                _pairs(corners.place, corners.place, apart))
+    row, column = np.nonzero(~hidden)
+    return Ways(blocked, _pairs(points, corners.place, row, column),
+                _pairs(corners.place, corners.place, *_sights(corners, obstacles, pause)))
 
 
 def _look_around(points: FloatArray, obstacles: Obstacles, hidden: BoolArray,
@@ -162,7 +165,7 @@ def _look(starts: FloatArray, ends: FloatArray, obstacles: Obstacles, hidden: Bo
     """Mark the ends that each start doesn't see; mutually, those behind it alone. In place."""
     if len(obstacles.edges) == 0:
         return
-    size = 1 + LOOKS_AT_ONCE // (len(obstacles.edges) + len(ends))
+    size = 1 + LOOKS_AT_ONCE // (1 + len(ends))
     for rows in row_blocks(len(starts), size, pause):
         call("tandem_mark_hidden", starts, ends, obstacles.edges, hidden, rows.start, rows.stop,
              mutual)
@@ -176,8 +179,25 @@ def _dead_ends(starts: FloatArray, corners: Corners, pause: Pause) -> BoolArray:
     return dead
 
 
-def _pairs(starts: FloatArray, ends: FloatArray, hidden: BoolArray) -> Pairs:
-    row, column = np.nonzero(~hidden)
+def _sights(corners: Corners, obstacles: Obstacles, pause: Pause) -> tuple[IntArray, IntArray]:
+    """Return the rows and columns of corners that see one another, row after row."""
+    count = len(corners.place)
+    size = 1 + PAIRS_AT_ONCE // (1 + count)
+    room = np.empty((count + ROOM_FOR_SIGHTS, 2), np.int32)
+    found = [np.empty((0, 2), np.int32)]
+    first = 0
+    while first < count:
+        pause()
+        written, first = call("tandem_write_sights", *corners, obstacles.edges, SLACK_M, first,
+                              min(first + size, count), room)
+        found.append(room[:written].copy())
+    one, other = np.concatenate(found).astype(np.int64).T
+    row, column = np.concatenate([one, other]), np.concatenate([other, one])
+    order = np.lexsort((column, row))
+    return row[order], column[order]
+
+
+def _pairs(starts: FloatArray, ends: FloatArray, row: IntArray, column: IntArray) -> Pairs:
     begin = np.zeros(len(starts) + 1, np.int64)
     np.cumsum(np.bincount(row, minlength=len(starts)), out=begin[1:])
     row, column = np.ascontiguousarray(row), np.ascontiguousarray(column)

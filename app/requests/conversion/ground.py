@@ -13,7 +13,7 @@ from app.maps.airspace.zone import Zone
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.rounding import ROUNDINGS
-from app.requests.conversion.work import sights_seconds
+from app.requests.conversion.work import merging_seconds, sights_seconds
 from app.requests.conversion.zones import Met, Part, ZonesMet, span_of
 from app.schemas.fields import point_of
 from app.schemas.wind import WindInput
@@ -26,6 +26,7 @@ from model.travel.matrices import (
     points_of,
     straight_distances,
 )
+from model.travel.obstacles import count_nearby, edges_of
 from model.travel.ways import Ways, find_ways
 from model.travel.wind import Breeze, Wind
 from model.travel.zones import WIDER_M, dissolved, holding, within_reach, without_holes
@@ -202,12 +203,14 @@ class Ground:
         steady = stated.wind if isinstance(stated.wind, WindInput) else WindInput()
         rings = [self.planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
         around, over = self._projected(met.around), self._projected(met.over)
-        near = within_reach(around, self.points_m)
+        near = [around[number] for number in within_reach(around, self.points_m)]
+        edges = edges_of([*map(Polygon, rings), *near])
+        self._preparing.expect(merging_seconds(len(edges), count_nearby(edges)))
         return Airspace(
             no_fly=tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings),
             wind_speed_kmh=steady.speed_kmh,
             wind_direction_deg=steady.direction_deg,
-            zones=dissolved([around[number] for number in near]),
+            zones=dissolved(near),
             low_zones=tuple(over[number] for number in holding(over, self.points_m)),
         )
 

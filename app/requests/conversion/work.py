@@ -20,9 +20,12 @@ COMPUTED = 1.6e-4
 """Seconds for each place where legs are computed, from a request that was read to a first plan that
 was checked."""
 
-EDGE, LOOK, LOOK_AT_FEW = 1e-7, 1e-7, 3e-8
-"""Seconds for each edge seen from a place or corner, and for each line of sight between two of
-these: the last where areas have few edges."""
+CORNER, CROSSING = 1e-5, 3e-6
+"""Seconds to merge areas, for each of their edges and for each pair of edges that may cross."""
+
+LOOK, LOOK_AT_FEW, BEND, REACH = 7e-8, 2e-8, 4e-9, 2e-7
+"""Seconds for each line of sight from a place, to another or to a corner: the second where areas
+have few edges; for each pair of corners; and for each corner that is reached from a place."""
 
 REPLANNED_ROUTE, REPLANNED_CUSTOMER = 4e-4, 1e-4
 """Seconds for each route, and each customer on it, of a plan to go on from: it is handed over,
@@ -46,8 +49,13 @@ def legs_seconds(places: int, drives: int, flights: int, geographic: bool) -> fl
     return each * places**2
 
 
+def merging_seconds(edges: int, crossings: int) -> float:
+    """Estimate how long it takes to merge areas, by how many pairs of their edges may cross."""
+    return edges * CORNER + crossings * CROSSING
+
+
 def sights_seconds(places: int, corners: int, edges: int) -> float:
-    """Estimate how long it takes to find out which places and corners of areas see each other."""
-    looks = places**2 / 2 + places * corners + corners**2 / 2
+    """Estimate how long it takes to find ways around areas between all places."""
+    looks = places**2 / 2 + places * corners
     each = LOOK_AT_FEW if edges <= FEW_EDGES else LOOK
-    return (2 * places + corners) * edges * EDGE + looks * each
+    return looks * each + corners**2 / 2 * BEND + places * corners * REACH
