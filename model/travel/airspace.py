@@ -7,7 +7,7 @@ and north is the centre's.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 import shapely
@@ -19,6 +19,7 @@ from model.travel.matrices import planar_distances
 from model.travel.obstacles import Obstacles, obstacles_of
 from model.travel.ways import Legs, Ways, find_ways
 from model.travel.wind import Breeze, Wind
+from model.travel.zones import KEPT, read_back, written
 
 Ring = tuple[tuple[float, float], ...]
 
@@ -51,11 +52,17 @@ class Airspace:
     @cached_property
     def obstacles(self) -> Obstacles:
         """The areas, merged."""
-        return obstacles_of(self.no_fly, self.zones, self.low_zones)
+        return _obstacles_of(self.no_fly, written(self.zones), written(self.low_zones))
 
     def wind(self, airspeed_kmh: float) -> Wind:
         """Return what the wind does to drones of a speed through the air."""
         return Wind.blowing(self.wind_speed_kmh, self.wind_direction_deg, airspeed_kmh)
+
+
+@lru_cache(maxsize=KEPT)
+def _obstacles_of(no_fly: tuple[Ring, ...], zones: tuple[bytes, ...],
+                  low_zones: tuple[bytes, ...]) -> Obstacles:
+    return obstacles_of(no_fly, read_back(zones), read_back(low_zones))
 
 
 def invalid_polygon_reason(ring: Sequence[tuple[float, float]]) -> str | None:

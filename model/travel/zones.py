@@ -1,6 +1,7 @@
 """Zones of the airspace on the plane: cut to what matters, merged, with fewer corners."""
 
 from collections.abc import Sequence
+from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -18,6 +19,9 @@ SIMPLER_M = 2.0
 LONGEST_MITRE = 2.0
 """By how much a corner may be moved farther than edges are."""
 
+KEPT = 16
+"""Merged areas that are kept, as requests with the same follow one another."""
+
 WIDER_M = LONGEST_MITRE * (SIMPLER_M + EDGE_M) + SIMPLER_M
 """How far what is flown around may reach beyond what was published."""
 
@@ -25,15 +29,15 @@ WIDER_M = LONGEST_MITRE * (SIMPLER_M + EDGE_M) + SIMPLER_M
 def within_reach(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
     """Return the indices of the areas that shortest flights between (point, 2) points may meet.
 
-    A shortest way around some areas lies within the convex hull of its ends and of those areas. So
-    once a hull meets no others, these don't matter.
+    A shortest way around some areas, made wider, lies within the convex hull of its ends and of
+    those areas, or hardly beside it. So once that meets no others, these don't matter.
     """
     tree = shapely.STRtree(areas)
     hull = shapely.MultiPoint(points).convex_hull
-    found = tree.query(hull, predicate="intersects")
+    found = tree.query(hull, predicate="dwithin", distance=WIDER_M)
     while True:
         hull = GeometryCollection([hull, *(areas[index] for index in found)]).convex_hull
-        more = tree.query(hull, predicate="intersects")
+        more = tree.query(hull, predicate="dwithin", distance=2 * WIDER_M)
         if len(more) == len(found):
             return np.sort(found)
         found = more
@@ -47,10 +51,25 @@ def holding(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
 
 
 def dissolved(areas: Sequence[Polygon]) -> tuple[Polygon, ...]:
-    """Return areas that hold all those given: merged, and with fewer corners."""
+    """Return areas that hold all those given: merged, and with fewer corners. The last are kept."""
+    return _dissolved(written(areas))
+
+
+def written(areas: Sequence[Polygon]) -> tuple[bytes, ...]:
+    """Return areas in binary, by which equal ones are told."""
+    return tuple([shapely.to_wkb(area) for area in areas])
+
+
+def read_back(areas: Sequence[bytes]) -> list[Polygon]:
+    """Return the areas that were `written`."""
+    return list(shapely.from_wkb(np.array(areas, dtype=object))) if areas else []
+
+
+@lru_cache(maxsize=KEPT)
+def _dissolved(areas: tuple[bytes, ...]) -> tuple[Polygon, ...]:
     if not areas:
         return ()
-    merged = shapely.union_all([shapely.make_valid(area) for area in areas])
+    merged = shapely.union_all(read_back(areas))
     simpler = _wider(merged.simplify(SIMPLER_M), SIMPLER_M + EDGE_M)
     # What is simplified may lose what is thin.
     return tuple(_polygons(simpler if simpler.covers(merged) else _wider(merged, EDGE_M)))
