@@ -10,19 +10,15 @@ MOST_REVISITED = 500
 
 
 def site_errors(draft: Draft) -> Errors:
-    """Say which windows end before they start, which names mean two places, and what can't be."""
+    """Say which windows end before they start, and what can't be come back to."""
     for path, site in draft.known_launch_sites():
         window = site.time_window
         if window.latest is not None and window.latest < window.earliest:
             yield error_at("WINDOW_ENDS_BEFORE_START", (*path, "time_window"),
                            f"The window ends at {draft.told(window.latest)}, before it starts at "
                            f"{draft.told(window.earliest)}: correct one.")
-    coming_back = [path for path, kind in draft.vehicle_types() if revisits(kind)]
-    if coming_back:
+    if any(revisits(kind) for _, kind in draft.vehicle_types()):
         yield from _revisit_errors(draft)
-    if draft.replan is not None and (draft.launch_sites or coming_back):
-        yield error_at("NOT_REPLANNED", ("replan",), "Stops at launch sites and revisits are not "
-                       "replanned yet: leave out launch_sites and revisits, or plan anew.")
 
 
 def _revisit_errors(draft: Draft) -> Errors:

@@ -142,9 +142,9 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
     if kind.flies and all(stop.node >= 0 for stop in trip.stops):
         # Who has taken off flies its trip to the end.
         left = len(trip.stops)
-    first = problem.num_depots
     stops = [KnownStop(stop.node, stop.arrival,
-                       stop.service_start if stop.node >= first else stop.arrival, stop.departure)
+                       stop.service_start if _opens(problem, stop) else stop.arrival,
+                       stop.departure)
              for stop in trip.stops[:left]]
     is_over = left == len(trip.stops)
     if not is_over:
@@ -156,9 +156,14 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
                      "nothing" if is_over else "anything")
 
 
+def _opens(problem: Problem, stop: Stop) -> bool:
+    """Tell whether a truck may have to wait at a stop: for a customer, or at a launch site."""
+    return stop.node >= problem.num_depots or stop.is_launch_site
+
+
 def _bound_for(problem: Problem, stop: Stop, now: int) -> KnownStop:
     """Return the stop where a truck is or will be next."""
-    begun = stop.arrival if stop.node < problem.num_depots else (
+    begun = stop.arrival if not _opens(problem, stop) else (
         stop.service_start if stop.service_start <= now else None)
     return KnownStop(stop.node, stop.arrival, begun, None)
 
@@ -178,8 +183,11 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
     """
     vehicle_type = problem.vehicle_types[kind]
     stops, last = known.stops, known.stops[-1]
-    is_home = len(stops) > 1 and last.node < problem.num_depots and last.arrival <= now
-    is_serving = last.node >= problem.num_depots and last.service_start is not None
+    is_there = last.arrival <= now
+    is_home = len(stops) > 1 and is_there and (
+        last.node < problem.num_depots and not problem.is_launch_site(last.node))
+    is_serving = (is_there if problem.is_launch_site(last.node)
+                  else last.node >= problem.num_depots and last.service_start is not None)
     if len(stops) > 1 and last.departure is None and not (is_home or is_serving):
         stops = stops[:-1]
     nodes = [stop.node for stop in stops] + ([] if is_home else [vehicle_type.ends_at])

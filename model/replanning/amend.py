@@ -47,9 +47,13 @@ def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
     return TripDecision(kept_nodes, tuple(flown.values()), operations, decision.start)
 
 
-def customers_of(decision: TripDecision) -> list[int]:
-    """Return whom a trip serves: the truck's customers in order, then the drones'."""
-    return [*decision.nodes[1:-1], *(node for sortie in decision.sorties for node in sortie.nodes)]
+def customers_of(problem: Problem, decision: TripDecision) -> list[int]:
+    """Return whom a trip serves: the truck's customers in order, then the drones'.
+
+    Among them those who are no more, of negative numbers.
+    """
+    return [*(node for node in decision.nodes[1:-1] if not problem.is_launch_site(node)),
+            *(node for sortie in decision.sorties for node in sortie.nodes)]
 
 
 def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],
@@ -73,9 +77,9 @@ def repaired(problem: Problem, decision: RouteDecision, fixed: Collection[int],
         What is broken whoever is taken out, so that nobody is for that.
     """
     step, known = 1, len(past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ()))
-    for round_number in range(len(_customers_of_route(decision)) + 1):
+    for round_number in range(len(_customers_of_route(problem, decision)) + 1):
         trips = tuple(trip for number, trip in enumerate(decision.trips)
-                      if number < known or customers_of(trip))
+                      if number < known or customers_of(problem, trip))
         if len(trips) < len(decision.trips):
             trips = with_ends(problem.vehicle_types[decision.vehicle_type], trips)
         decision = replace(decision, trips=trips)
@@ -95,7 +99,7 @@ def repaired_route(problem: Problem, decision: RouteDecision, fixed: Collection[
                    timings: Sequence[Timing]) -> Route | None:
     """Return what `repaired` does with its times."""
     route, violations = _best_timed(problem, decision, timings, EVERYTHING_OPEN)
-    if not violations and all(customers_of(trip) for trip in decision.trips):
+    if not violations and all(customers_of(problem, trip) for trip in decision.trips):
         return route
     mended = repaired(problem, decision, fixed, timings)
     return None if mended is None else _best_timed(problem, mended, timings, EVERYTHING_OPEN)[0]
@@ -143,9 +147,9 @@ def _best_timed(problem: Problem, decision: RouteDecision, timings: Sequence[Tim
     return best
 
 
-def _customers_of_route(decision: RouteDecision) -> list[int]:
+def _customers_of_route(problem: Problem, decision: RouteDecision) -> list[int]:
     """Return whom a route serves."""
-    return [node for trip in decision.trips for node in customers_of(trip)]
+    return [node for trip in decision.trips for node in customers_of(problem, trip)]
 
 
 def _blamed(problem: Problem, decision: RouteDecision, violations: list[Violation],
@@ -190,7 +194,7 @@ def _latest_first(trip: TripDecision) -> list[int]:
 
 def _relieving(problem: Problem, decision: RouteDecision, trip: TripDecision) -> list[int]:
     """Return a trip's customers, first the lightest without whom the rest fits, then the heavy."""
-    customers = customers_of(trip)
+    customers = customers_of(problem, trip)
     each = {node: problem.customer_at(node) for node in customers}
     demands = {node: tuple(map(max, customer.demand, customer.taken_in))
                for node, customer in each.items()}

@@ -28,7 +28,7 @@ def carried_through(problem: Problem, planned: Route, own: Kept, past: Past) -> 
     """
     begun = _with_trip_under_way(problem, planned, own, past)
     decision, route = _mended(problem, begun, own, past)
-    if set(customers_of(decision.trips[-1])) <= own.served:
+    if set(customers_of(problem, decision.trips[-1])) <= own.served:
         return own
     return Kept(own.vehicle, decision, route)
 
@@ -63,7 +63,7 @@ def _whole(problem: Problem, planned: Route, own: Kept | None, past: Past) -> Ro
     later = [_without_lost(read_decision(Trip(trip.stops, tuple(
         sortie for sortie in trip.sorties if _can_fly(kind, sortie.drone, grounded))), kind))
         for trip in planned.trips[len(begun):]]
-    trips = [*begun, *(trip for trip in later if customers_of(trip))][:kind.max_trips]
+    trips = [*begun, *(trip for trip in later if customers_of(problem, trip))][:kind.max_trips]
     return RouteDecision(planned.vehicle_type, planned.vehicle,
                          with_ends(kind, trips) if len(trips) > len(begun) else tuple(trips))
 
@@ -119,7 +119,7 @@ def _as_stated(problem: Problem, decision: RouteDecision, past: Past) -> Route:
         ready = max(kind.earliest, past.now)
         if trips:
             ready = max(ready, trips[-1].stops[-1].departure + kind.reload_duration)
-        back = max([past.returned.get(node, 0) for node in customers_of(trip)], default=0)
+        back = max([past.returned.get(node, 0) for node in customers_of(problem, trip)], default=0)
         start = max(ready, back, latest_release(problem, trip), trip.start or 0)
         trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready))
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))

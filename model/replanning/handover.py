@@ -25,7 +25,8 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
     Customers for whom a rule is broken are left out.
     """
     first = left.problem.num_depots
-    here = {node: index for index, node in enumerate(left.nodes[first:], first)}
+    here = {node: node for node in problem.launch_sites}
+    here |= {node: index for index, node in enumerate(left.nodes[first:], first)}
     decisions = [
         _rest_of_trip(left, kind, way_on.planned, here) for kind, worker in left.workers.items()
         if worker.is_under_way and (way_on := kept[worker.vehicle].way_on) is not None]
@@ -38,7 +39,7 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
         drones = left.drones_of(kind)
         trips = [_moved(trip, here, drones)
                  for trip in _trips_left(problem, route, kept.get(vehicle), drones)]
-        trips = [trip for trip in trips if customers_of(trip)]
+        trips = [trip for trip in trips if customers_of(problem, trip)]
         own = left.problem.vehicle_types[kind]
         if trips:
             decisions.append(RouteDecision(kind, used[kind],
@@ -61,7 +62,9 @@ def _trips_left(problem: Problem, route: Route, kept: Kept | None,
 
 def _moved(decision: TripDecision, here: Mapping[int, int], drones: Sequence[int]) -> TripDecision:
     """Return a trip with other nodes and numbers of drones, without customers who have none."""
-    decision = without(decision, {node for node in customers_of(decision) if node not in here})
+    flown = [node for sortie in decision.sorties for node in sortie.nodes]
+    everyone = {*decision.nodes[1:-1], *flown}
+    decision = without(decision, everyone - here.keys())
     inner = tuple(here[node] for node in decision.nodes[1:-1])
     sorties = tuple(replace(sortie, nodes=tuple(here[node] for node in sortie.nodes),
                             drone=drones.index(sortie.drone)) for sortie in decision.sorties)

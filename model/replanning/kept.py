@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 from model.judge.energy import charges_at
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
+from model.judge.places import halts
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import MAX_QUANTITY, UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import broken_by, customers_of, repaired, without
@@ -35,7 +36,7 @@ class Kept:
     @property
     def served(self) -> set[int]:
         """Customers who are served in any case."""
-        return {node for trip in self.decision.trips for node in customers_of(trip)}
+        return {halt.node for trip in self.route.trips for halt in halts(trip)}
 
     @property
     def end(self) -> int:
@@ -133,12 +134,12 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     fixed = set(_fixed_nodes(known[-1]))
     last = without(decision.trips[-1], {-1})
     decision = replace(decision, trips=(*decision.trips[:-1], last))
-    free = set(customers_of(last)) - fixed
+    free = set(customers_of(problem, last)) - fixed
     if free:
         def time(tried: RouteDecision) -> Route:
             return retimed(problem, tried, known, past.now)
 
-        everyone = fixed.union(*(customers_of(trip) for trip in decision.trips[:-1]))
+        everyone = fixed.union(*(customers_of(problem, trip) for trip in decision.trips[:-1]))
         alone = replace(decision, trips=(*decision.trips[:-1], without(last, free)))
         decision = repaired(problem, decision, everyone, [time], past,
                             broken_by(problem, alone, time, past)) or decision
@@ -147,7 +148,7 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
     if meeting == len(planned.stops) - 1:
         return kept
     position = len(decision.trips[-1].nodes) - 2
-    served = set(customers_of(decision.trips[-1]))
+    served = set(customers_of(problem, decision.trips[-1]))
     aboard = tuple(sorted(known[-1].aboard - served))
     if not aboard:
         return kept
@@ -201,6 +202,8 @@ def _free_from(problem: Problem, route: Route, position: int, now: int) -> tuple
     ends = [sortie.recovery_time for sortie in trip.sorties if sortie.recovery_stop == position]
     ends += [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == position]
     ready = max([stop.ready, now, *ends])
+    if problem.is_launch_site(stop.node):
+        ready = max(ready, stop.service_start)
     if stop.node < problem.num_depots:
         return ready, 0
     service_end = stop.service_start + kind.service_at(problem.customer_at(stop.node))

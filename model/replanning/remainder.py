@@ -83,8 +83,11 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
              for index, kind in enumerate((*plain.values(), *(own.kind for own in workers)))]
     carriers = {node: own for own in workers for node in own.aboard}
     starts = [_start(problem, node, types[kind].id) for kind, node in places.items()]
+    depots, may_stop = _sites(problem, kept, kinds, owners)
     left = replace(
-        problem, depots=(*problem.depots, *starts),
+        problem, depots=(*depots, *starts),
+        may_stop=None if may_stop is None else np.hstack(
+            [may_stop, np.ones((len(kinds), len(starts)), np.bool_)]),
         customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
@@ -128,6 +131,28 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
     return table
 
 
+def _sites(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
+           owners: Mapping[int, Worker]) -> tuple[tuple[Depot, ...], BoolArray | None]:
+    """Return the depots, and (type, depot) who may stop at launch sites.
+
+    Where somebody had to be served before who has been, that vehicle alone comes back.
+    """
+    if not problem.launch_sites:
+        return problem.depots, problem.may_stop
+    depots, ids = list(problem.depots), {
+        problem.customer_at(node).id: vehicle for vehicle, route in kept.items()
+        for node in route.served}
+    table = np.ones((len(problem.vehicle_types), problem.num_depots), np.bool_)
+    may_stop: BoolArray = (table if problem.may_stop is None else problem.may_stop)[list(kinds)]
+    for site in problem.launch_sites:
+        name = problem.depots[site].after
+        if name in ids:
+            depots[site] = replace(problem.depots[site], after=None)
+            may_stop[:, site] &= [kind in owners and owners[kind].vehicle == ids[name]
+                                  for kind in range(len(kinds))]
+    return tuple(depots), may_stop
+
+
 def _start(problem: Problem, node: int, vehicle: str) -> Depot:
     """Return the place where a vehicle is as one where it begins."""
     place = problem.place_at(node)
@@ -144,7 +169,7 @@ def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence
             continue
         carried = {"vehicle": route.served, "trip": frozenset[int]()}
         if owner.is_under_way:
-            carried["trip"] = frozenset(customers_of(route.decision.trips[-1]))
+            carried["trip"] = frozenset(customers_of(problem, route.decision.trips[-1]))
         elif route.way_on is not None:
             carried["vehicle"] = route.served | set(route.way_on.aboard)
         barred = frozenset().union(*(

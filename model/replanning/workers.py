@@ -141,7 +141,7 @@ def _load(problem: Problem, route: Kept, aboard: Sequence[int]) -> tuple[int, ..
     loads = trip_loads(problem, kind, route.route.trips[-1])
     most = highest(loads)
     if not any(problem.customer_at(node).pickup
-               for node in (*customers_of(route.decision.trips[-1]), *aboard)):
+               for node in (*customers_of(problem, route.decision.trips[-1]), *aboard)):
         return most
     rest = [problem.customer_at(node).demand for node in aboard]
     before = map(sum, zip(most, *rest, strict=True))
@@ -161,7 +161,8 @@ def _left(limit: int | None, done: int) -> int | None:
 def _counts_left(problem: Problem, route: Kept) -> tuple[int | None, int | None]:
     """Return how many stops and sorties a vehicle may add to its last trip."""
     kind, trip = problem.vehicle_types[route.vehicle.type], route.decision.trips[-1]
-    return (_left(kind.max_stops, len(trip.nodes) - 2),
+    served = len(trip.nodes) - 2 - sum(map(problem.is_launch_site, trip.nodes[1:-1]))
+    return (_left(kind.max_stops, served),
             _left(kind.max_sorties, len(trip.sorties)))
 
 
@@ -176,7 +177,7 @@ def _batteries_left(problem: Problem, route: Kept) -> list[int | None]:
 def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: int) -> bool:
     """Tell whether a vehicle can deliver some of what it carries."""
     kind = problem.vehicle_types[route.vehicle.type]
-    limit, served = kind.max_trip_distance, customers_of(route.decision.trips[-1])
+    limit, served = kind.max_trip_distance, customers_of(problem, route.decision.trips[-1])
     is_blocked = (kind.pickups == "last" and _has(problem, served, "pickup")
                   and _has(problem, aboard, "demand"))
     return (route.end <= home_by and not is_blocked
@@ -199,7 +200,7 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
         max_stops=stops, max_sorties=sorties,
         drones=drones[0] if drones else None, more_drones=tuple(drones[1:]),
         initial_load=_load(problem, route, way_on.aboard),
-        has_delivered=_has(problem, customers_of(trip), "demand"),
+        has_delivered=_has(problem, customers_of(problem, trip), "demand"),
         busy_until=way_on.ready + way_on.service_left, works_since=way_on.ready)
     own = charged_then(problem, own, route.route.trips[-1], way_on.ready)
     place = trip.nodes[way_on.position]

@@ -4,9 +4,26 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.problem import UNLIMITED, Depot, Problem
+from model.problem import UNLIMITED, Customer, Depot, Problem
 from model.problem.revisits import with_revisits
-from tests.model.tiny import MINUTE
+from tests.model.tiny import MINUTE, draw_tiny
+
+
+def draw_for_drones(rng: np.random.Generator) -> Problem:
+    """Draw a problem of five customers, most of whom drones alone serve, with few limits."""
+    while True:
+        problem = draw_tiny(rng, drone_share=1.0)
+        if problem.num_customers == 5:
+            break
+
+    def light(customer: Customer) -> Customer:
+        return replace(customer, skills=frozenset(),
+                       served_by="drone" if rng.random() < 0.6 else customer.served_by,
+                       demand=tuple(min(amount, 1) for amount in customer.demand))
+
+    return replace(problem, customers=tuple(map(light, problem.customers)), vehicle_types=tuple(
+        replace(kind, max_trip_distance=None, latest=UNLIMITED, max_working_duration=None)
+        for kind in problem.vehicle_types))
 
 
 def with_few_launch_places(rng: np.random.Generator, problem: Problem) -> Problem:

@@ -27,8 +27,8 @@ def require_drivable(problem: PlanRequest, plan: PlanInput) -> None:
             InputError(code="TOO_MANY_VEHICLES", path="$.plan.routes", message=message)])
     if problem.launch_sites or any(map(revisits, problem.fleet)):
         raise InvalidRequestError([InputError(
-            code="NOT_REPLANNED", path="$.problem", message="Drivers' days are replanned, which "
-            "launch_sites and revisits aren't yet: leave them out.")])
+            code="NOT_SENT_OUT", path="$.problem", message="Drivers aren't told of launch_sites "
+            "and revisits yet: leave them out.")])
     names = Names.of(problem.depots, problem.customers, problem.fleet)
     errors = [error.model_copy(update={"path": error.path.replace(GIVEN, "$.plan", 1)})
               for error in replan_errors(ReplanInput(plan=plan), names)]

@@ -129,11 +129,21 @@ def test_what_is_revisited_has_names_of_its_own(searching: httpx.Client, far_off
     assert (error["code"], error["path"]) == ("DUPLICATE_ID", "$.launch_sites[0].id")
 
 
-def test_stops_at_launch_sites_are_not_replanned(searching: httpx.Client, far_off: Request) -> None:
+def test_a_truck_goes_on_to_a_launch_site(searching: httpx.Client, far_off: Request) -> None:
     plan = planned(searching, far_off)
-    reply = searching.post("/plan", json=far_off | {"replan": {"plan": plan}})
-    (error,) = reply.json()["errors"]
-    assert (reply.status_code, error["code"]) == (422, "NOT_REPLANNED")
+    (stop,) = site_stops(plan)
+    for now in (1, stop["arrival"] + 1, stop["service_start"] + 1):
+        again = planned(searching, far_off | {"replan": {"plan": plan, "freeze_before": now}})
+        assert again["unassigned"] == []
+        assert site_stops(again) == [stop]
+
+
+def test_plans_with_launch_sites_are_not_sent_out(searching: httpx.Client,
+                                                  far_off: Request) -> None:
+    plan = planned(searching, far_off)
+    reply = searching.post("/dispatches", json={"problem": far_off, "plan": plan})
+    assert reply.status_code == 422
+    assert "NOT_SENT_OUT" in {error["code"] for error in reply.json()["errors"]}
 
 
 def test_rows_of_matrices_are_asked_for(searching: httpx.Client, far_off: Request) -> None:

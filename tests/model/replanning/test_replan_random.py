@@ -21,7 +21,9 @@ from tests.model.tiny import (
     with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
     with_table, with_turnaround,
 )
-from tests.model.tiny_launches import with_few_launch_places
+from tests.model.tiny_launches import (
+    draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
+)
 from training.instances import VARIANTS, generate
 
 pytestmark = pytest.mark.slow
@@ -286,6 +288,15 @@ def test_tiny_plans_go_on_by_what_else_is_stated(
         seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     replan_and_check(planner, change(rng, draw_tiny(rng)), rng)
+
+
+@pytest.mark.parametrize("change", [with_launch_sites, with_some_revisits])
+@pytest.mark.parametrize("seed", range(15))
+def test_tiny_plans_go_on_from_launch_sites(
+        planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],
+        seed: int) -> None:
+    rng = np.random.default_rng((seed, 10))
+    replan_and_check(planner, change(rng, draw_for_drones(rng)), rng)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
