@@ -61,7 +61,7 @@ def random_city(rng: random.Random) -> Data:
                       if not _holds(zones, customer["location"])],
         "fleet": [{"id": "van", "count": rng.randint(1, 2), "capacity": [30],
                    "speed_kmh": rng.choice((15, 40)), "costs": {"per_km": 1, "per_hour": 20},
-                   "drones": _drones(rng)}],
+                   "drones": _drones(rng)}, *([_hub_drones(rng)] if rng.random() < 0.4 else [])],
         "airspace": {"no_fly": [zone for zone in zones[1:] if not _holds([zone], hub)],
                      "zones": [_published(rng, zone) for zone in zones[:1]
                                if not _holds([zone], hub)],
@@ -109,6 +109,15 @@ def _drones(rng: random.Random) -> Data:
     return drones
 
 
+def _hub_drones(rng: random.Random) -> Data:
+    """Return drones that fly from the hub by themselves."""
+    drones = _drones(rng)
+    for name in ("count", "max_customers_per_sortie"):
+        del drones[name]
+    return drones | {"id": "flyer", "flies": True, "count": 2, "max_trips": 3,
+                     "costs": {"per_km": 0.1}}
+
+
 @dataclass
 class FlightStudy(Study):
     """What came of all flights."""
@@ -126,9 +135,9 @@ class FlightStudy(Study):
         """
         problem = random_city(random.Random(seed))
         plan = self.planned(problem)
-        if plan is None or plan["summary"]["sorties"] == 0:
+        planned = [] if plan is None else list(planned_flights(problem, plan))
+        if plan is None or not planned:
             return
-        planned = list(planned_flights(problem, plan))
         for file_format, reader in READERS.items():
             try:
                 flights, fences = reader(self._files(problem, plan, file_format))
@@ -159,9 +168,10 @@ class FlightStudy(Study):
 
 @dataclass(frozen=True)
 class Planned:
-    """A sortie as problem and plan have it."""
+    """A flight as problem and plan have it."""
 
-    sortie: Data
+    launch_time: float
+    recovery_time: float
     places: list[Place]  # launch, customers, recovery
     stays: list[float]  # seconds at customers
     climb: float  # seconds of each leg
@@ -196,7 +206,7 @@ class Planned:
 
     def _hold_times(self, flight: Read) -> None:
         told = (flight.launch_time, flight.recovery_time)
-        planned = (self.sortie["launch_time"], self.sortie["recovery_time"])
+        planned = (self.launch_time, self.recovery_time)
         if any(abs((one or 0.0) - other) > 1e-2 for one, other in zip(told, planned, strict=True)):
             raise Fault(f"from {told[0]} to {told[1]}, not {planned}")
 
@@ -209,33 +219,43 @@ class Planned:
         climbs = self.climb * sum(before != after for before, after in pairwise(self.places))
         stayed = 0.0 if flight.tells_stays else sum(self.stays)
         seconds = flown + waited + climbs + stayed
-        planned = self.recovery_begins - self.sortie["launch_time"]
+        planned = self.recovery_begins - self.launch_time
         if abs(seconds - planned) > LATE_SECONDS + LATE_SHARE * planned:
             raise Fault(f"takes {seconds:.1f} s, not {planned:.1f}")
 
 
 def planned_flights(problem: Data, plan: Data) -> Iterator[Planned]:
-    """Yield the sorties of a plan as files list them: by vehicle, in the order of take-off."""
+    """Yield the flights of a plan as files list them: by vehicle, in the order of take-off."""
     places = {("customer", each["id"]): tuple(each["location"]) for each in problem["customers"]}
     places |= {("depot", each["id"]): tuple(each["location"]) for each in problem["depots"]}
-    drones = problem["fleet"][0]["drones"]
-    energy = drones.get("energy", {})
-    climb = energy.get("climb", {})
+    kinds = {kind["id"]: kind for kind in problem["fleet"]}
     zones = [zone.buffer(-INSIDE) for zone in _zones_of(problem)]
+
+    def planned(drones: Data, ends: list[Data], visits: list[Data], times: list[float]) -> Planned:
+        energy = drones.get("energy", {})
+        climb = energy.get("climb", {})
+        launch, recovery = [places[stop["kind"], stop["id"]] for stop in ends]
+        return Planned(
+            times[0], times[2],
+            [launch, *(places["customer", visit["id"]] for visit in visits), recovery],
+            [visit["departure"] - visit["arrival"] for visit in visits],
+            climb.get("up_seconds", 0) + climb.get("down_seconds", 0), energy.get("lands", True),
+            times[1], zones)
+
     for route in plan["routes"]:
+        kind = kinds[route["type"]]
+        if kind.get("flies"):
+            for launch, *visits, landing in (trip["stops"] for trip in route["trips"]):
+                yield planned(kind, [launch, landing], visits, [
+                    launch["departure"], landing["arrival"], landing["departure"]])
+            continue
         flown = [(trip, sortie) for trip in route["trips"] for sortie in trip["sorties"]]
         for trip, sortie in sorted(flown, key=lambda pair: float(pair[1]["launch_time"])):
             ends = [trip["stops"][sortie[end]] for end in ("launch_stop", "recovery_stop")]
-            launch, recovery = [places[stop["kind"], stop["id"]] for stop in ends]
             _hold_truck(sortie, *ends)
-            yield Planned(
-                sortie,
-                [launch, *(places["customer", visit["id"]] for visit in sortie["customers"]),
-                 recovery],
-                [visit["departure"] - visit["arrival"] for visit in sortie["customers"]],
-                climb.get("up_seconds", 0) + climb.get("down_seconds", 0),
-                energy.get("lands", True),
-                sortie["recovery_time"] - drones["recovery_duration"], zones)
+            met = sortie["recovery_time"] - kind["drones"]["recovery_duration"]
+            yield planned(kind["drones"], ends, sortie["customers"], [
+                sortie["launch_time"], met, sortie["recovery_time"]])
 
 
 def _hold_truck(sortie: Data, launch: Data, recovery: Data) -> None:

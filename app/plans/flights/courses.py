@@ -1,24 +1,22 @@
-"""A plan's sorties -> flights: where drones fly, around zones, how fast and when."""
+"""A plan -> its flights: where drones fly, around zones, how fast and when."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from datetime import UTC, datetime
 
 import numpy as np
 from shapely import LineString, Polygon, STRtree
 
 from app.plans.flights.flight import Flight, Place, Ring, WayPoint
+from app.plans.flights.flown import Flown, flown_in
 from app.requests.conversion.energy import climb_duration
 from app.requests.conversion.ground import Detours, Ground
-from app.requests.conversion.launches import drones_named
 from app.requests.conversion.places import PlacedRequest
-from app.requests.conversion.winds import Winds
-from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, Flyer
 from app.schemas.errors import ErrorCode, InputError, InvalidRequestError
 from app.schemas.fields import point_of
-from app.schemas.plan import PlanInput, RouteInput, SortieInput, TripInput
+from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
-from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray
 from model.travel.wind import Breeze, Wind
 
@@ -33,19 +31,6 @@ NEARBY_M = 5000.0
 
 SHORTEST_WAIT = 1.0
 """Seconds that are waited for; less is what rounding leaves."""
-
-
-@dataclass(frozen=True)
-class _Sortie:
-    """A sortie and its stops as nodes."""
-
-    route: RouteInput
-    trip: TripInput
-    sortie: SortieInput
-    drones: DronesInput
-    winds: tuple[Breeze, ...]  # of the hours of the shift; (): the steady one
-    nodes: tuple[int, ...]
-    number: int
 
 
 @dataclass(frozen=True)
@@ -83,39 +68,12 @@ def flights_of(placed: PlacedRequest, plan: PlanInput, ground: Ground) -> list[F
     if any(point_of(place.location) is None for place in placed.places):
         raise _refused("MISSING_LOCATION", "$.problem", "Flights lead from place to place: state "
                        "the location of every depot and customer.")
-    sorties = list(_sorties(placed, plan))
-    if not sorties:
+    flown = list(flown_in(placed, plan))
+    if not flown:
         raise _refused("NO_FLIGHTS", "$.plan.routes", "No drone flies in this plan: there is "
                        "nothing to write.")
-    courses = _Courses(placed, ground, sorties)
-    return [courses.flight(sortie) for sortie in sorties]
-
-
-def _sorties(placed: PlacedRequest, plan: PlanInput) -> Iterator[_Sortie]:
-    """Yield all sorties, numbered by their drones in the order of take-off."""
-    nodes = {name: node for node, name in enumerate(placed.names)}
-    types = {kind.id: kind for kind in placed.request.fleet}
-    winds = Winds(placed.request)
-    for route in plan.routes:
-        found = [sortie for trip in route.trips
-                 for sortie in _sorties_of_trip(route, trip, types[route.type], winds, nodes)]
-        flown: dict[str, int] = {}
-        for each in sorted(found, key=lambda each: each.sortie.launch_time):
-            number = flown[each.sortie.drone] = flown.get(each.sortie.drone, 0) + 1
-            yield replace(each, number=number)
-
-
-def _sorties_of_trip(route: RouteInput, trip: TripInput, kind: VehicleTypeInput, winds: Winds,
-                     nodes: dict[tuple[str, str], int]) -> Iterator[_Sortie]:
-    for sortie in trip.sorties:
-        drones = drones_named(kind, sortie.drone)
-        if drones is None:
-            continue
-        launch, recovery = trip.stops[sortie.launch_stop], trip.stops[sortie.recovery_stop]
-        names = [(launch.kind, launch.id), *(("customer", visit.id) for visit in sortie.customers),
-                 (recovery.kind, recovery.id)]
-        yield _Sortie(route, trip, sortie, drones, winds.flown(kind, drones),
-                      tuple(nodes[name] for name in names), 0)
+    courses = _Courses(placed, ground, flown)
+    return [courses.flight(each) for each in flown]
 
 
 class _Zones:
@@ -132,16 +90,16 @@ class _Zones:
 
 
 class _Courses:
-    """Works out the ways of some sorties."""
+    """Works out the ways of some flights."""
 
-    def __init__(self, placed: PlacedRequest, ground: Ground, sorties: Sequence[_Sortie]) -> None:
-        flown = sorted({node for sortie in sorties for node in sortie.nodes})
+    def __init__(self, placed: PlacedRequest, ground: Ground, flights: Sequence[Flown]) -> None:
+        flown = sorted({node for each in flights for node in each.nodes})
         self._request: PlanRequest = placed.request
         self._places = placed.places
         self._ground = ground
         self._at = {node: index for index, node in enumerate(flown)}
         self._points = ground.points_m[flown]
-        altitudes = {sortie.drones.altitude for sortie in sorties}
+        altitudes = {each.flyer.altitude for each in flights}
         self._detours: dict[float, Detours] = {
             altitude: ground.detours_among(flown, altitude) for altitude in altitudes
             if ground.has_areas(altitude)}
@@ -149,26 +107,21 @@ class _Courses:
         day = self._request.day
         self._plan_start: datetime | None = None if day is None else day.start.astimezone(UTC)
 
-    def flight(self, flown: _Sortie) -> Flight:
-        """Return the flight of a sortie."""
-        altitude = flown.drones.altitude
+    def flight(self, flown: Flown) -> Flight:
+        """Return a flight with its way."""
+        altitude, energy = flown.flyer.altitude, flown.flyer.energy
         way_points = tuple(self._way_points(flown))
         line = LineString(self._ground.planar(np.array([point.place for point in way_points])))
         return Flight(
-            vehicle=flown.route.vehicle, drone=flown.sortie.drone, number=flown.number,
-            altitude=altitude,
-            lands=flown.drones.energy is None or flown.drones.energy.lands,
-            way_points=way_points, recovery_time=flown.sortie.recovery_time,
-            zones=self._zones[altitude].near(line),
+            vehicle=flown.vehicle, drone=flown.drone, number=flown.number, altitude=altitude,
+            lands=energy is None or energy.lands, way_points=way_points,
+            recovery_time=flown.recovery_time, zones=self._zones[altitude].near(line),
             plan_start=self._plan_start)
 
-    def _way_points(self, flown: _Sortie) -> Iterator[WayPoint]:
-        sortie, nodes = flown.sortie, flown.nodes
-        launch = flown.trip.stops[sortie.launch_stop]
-        recovery = flown.trip.stops[sortie.recovery_stop]
-        leaving = sortie.launch_time
-        yield WayPoint("launch", self._place(nodes[0]), launch.id, 0.0, leaving)
-        for index, visit in enumerate(sortie.customers):
+    def _way_points(self, flown: Flown) -> Iterator[WayPoint]:
+        nodes, leaving = flown.nodes, flown.launch_time
+        yield WayPoint("launch", self._place(nodes[0]), flown.launch, 0.0, leaving)
+        for index, visit in enumerate(flown.visits):
             leg = self._leg(flown, nodes[index], nodes[index + 1])
             yield from _bends(leg, leaving, visit.arrival)
             leaving = visit.departure
@@ -176,40 +129,40 @@ class _Courses:
                            max(0.0, leaving - visit.arrival))
         leg = self._leg(flown, nodes[-2], nodes[-1])
         arrival = leaving + leg.seconds
-        met = sortie.recovery_time - flown.drones.recovery_duration
-        waiting = met - arrival if met - arrival >= SHORTEST_WAIT else 0.0
+        waiting = flown.met_time - arrival
         yield from _bends(leg, leaving, arrival)
-        yield WayPoint("recovery", leg.places[-1], recovery.id, leg.speeds[-1], arrival, waiting)
+        yield WayPoint("recovery", leg.places[-1], flown.recovery, leg.speeds[-1], arrival,
+                       waiting if waiting >= SHORTEST_WAIT else 0.0)
 
     def _place(self, node: int) -> Place:
         longitude, latitude = self._ground.locations[node]
         return float(longitude), float(latitude)
 
-    def _leg(self, flown: _Sortie, start: int, end: int) -> _Leg:
+    def _leg(self, flown: Flown, start: int, end: int) -> _Leg:
         """Return the flight from node to node, in the worst of several winds.
 
         There is always a way around zones, or it raises.
         """
         winds: list[tuple[Breeze, ...]] = [(breeze,) for breeze in flown.winds]
-        legs = [self._leg_in(each, flown.drones, start, end) for each in winds or [()]]
+        legs = [self._leg_in(each, flown.flyer, start, end) for each in winds or [()]]
         return max(legs, key=lambda leg: leg.seconds)
 
-    def _leg_in(self, breeze: tuple[Breeze, ...], drones: DronesInput, start: int,
+    def _leg_in(self, breeze: tuple[Breeze, ...], flyer: Flyer, start: int,
                 end: int) -> _Leg:
         """Return the flight in one wind, the steady one if none is stated."""
-        speed = _airspeed(drones)
-        corners = np.stack([self._points[self._at[start]], *self._bends(drones, start, end, breeze),
+        speed = _airspeed(flyer)
+        corners = np.stack([self._points[self._at[start]], *self._bends(flyer, start, end, breeze),
                             self._points[self._at[end]]])
         x, y = np.diff(corners, axis=0).T
         lengths = np.hypot(x, y)
         wind = Wind.blowing(*breeze[0], speed) if breeze else (
-            self._ground.airspace(drones.altitude).wind(speed))
+            self._ground.airspace(flyer.altitude).wind(speed))
         seconds = wind.durations(x, y, lengths)
-        if drones.profile in (self._request.matrices or {}):
-            total = self._matrix_seconds(drones.profile, start, end)
+        if flyer.profile in (self._request.matrices or {}):
+            total = self._matrix_seconds(flyer.profile, start, end)
             seconds = lengths / max(lengths.sum(), 1.0) * total
         else:
-            total = float(seconds.sum()) + climb_duration(drones) / 1000 * (start != end)
+            total = float(seconds.sum()) + climb_duration(flyer) / 1000 * (start != end)
         speeds = [float(length / each) if each > 0 else speed / 3.6
                   for length, each in zip(lengths, seconds, strict=True)]
         passed = np.cumsum(seconds) / max(float(seconds.sum()), 1e-9)
@@ -217,11 +170,11 @@ class _Courses:
                   for lon, lat in self._ground.stated(corners[1:-1])]
         return _Leg([*places, self._place(end)], speeds, passed.tolist(), total)
 
-    def _bends(self, drones: DronesInput, start: int, end: int,
+    def _bends(self, flyer: Flyer, start: int, end: int,
                breeze: tuple[Breeze, ...]) -> FloatArray:
         """Return the (corner, 2) planar metres where a flight bends."""
         a, b = self._at[start], self._at[end]
-        detours, speed = self._detours.get(drones.altitude), _airspeed(drones)
+        detours, speed = self._detours.get(flyer.altitude), _airspeed(flyer)
         if detours is None or not detours.ways.blocked[a, b]:
             return np.empty((0, 2))
         bends = self._ground.planar(detours.bends(a, b, speed, breeze))
@@ -265,8 +218,8 @@ def _closed(ring: FloatArray) -> Ring:
     return corners if corners[0] == corners[-1] else (*corners, corners[0])
 
 
-def _airspeed(drones: DronesInput) -> float:
-    return drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
+def _airspeed(flyer: Flyer) -> float:
+    return flyer.speed_kmh or DEFAULT_DRONE_SPEED_KMH
 
 
 def _refused(code: ErrorCode, path: str, message: str) -> InvalidRequestError:

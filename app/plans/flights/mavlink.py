@@ -61,7 +61,7 @@ def mission_of(flights: Sequence[Flight]) -> list[Item]:
     """Return the items of flights that one drone flies in turn."""
     items = list(_items(flights[0]))
     for flight, after in pairwise(flights):
-        # It rides on the truck meanwhile.
+        # It is on its truck, or at its depot, meanwhile.
         items += _delay(after.launch.arrival - flight.recovery_time)
         items += _items(after)
     return items

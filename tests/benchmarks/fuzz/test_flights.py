@@ -60,7 +60,7 @@ def test_flights_of_a_job_are_those_of_its_plan(client: httpx.Client) -> None:
 
 HUB, DOOR, AROUND = (0.0, 0.0), (0.01, 0.0), (0.005, 0.003)
 PLANNED = Planned(
-    {"launch_time": 0.0, "recovery_time": 320.0}, [HUB, DOOR, HUB], [60.0], 0.0, lands=True,
+    0.0, 320.0, [HUB, DOOR, HUB], [60.0], 0.0, lands=True,
     recovery_begins=300.0,
     zones=[Polygon([(0.004, -0.001), (0.006, -0.001), (0.006, 0.001), (0.004, 0.001)])])
 SPEED = 10.77
@@ -130,4 +130,5 @@ def test_cities_have_what_flights_meet() -> None:
     cities = [random_city(random.Random(seed)) for seed in range(CITIES)]
     for areas in ("no_fly", "zones"):
         assert 0 < sum(bool(city["airspace"][areas]) for city in cities) < CITIES
+    assert 0 < sum(len(city["fleet"]) - 1 for city in cities) < CITIES
     assert 0 < sum("energy" in city["fleet"][0]["drones"] for city in cities) < CITIES

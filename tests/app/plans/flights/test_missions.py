@@ -130,6 +130,28 @@ def test_drone_waits_over_the_place_where_the_truck_comes_later(
     assert back + items[-2].param1 == pytest.approx(sortie["recovery_time"] - 20, abs=2)
 
 
+def test_trips_of_vehicles_that_fly_are_flights(client: httpx.Client, tmp_path: Path) -> None:
+    problem = city()
+    problem["customers"] = problem["customers"][1:3]
+    problem["fleet"] = [{"id": "hopper", "flies": True, "count": 1, "capacity": [1],
+                         "speed_kmh": 45, "max_trips": 2, "launch_duration": 20,
+                         "recovery_duration": 30, "altitude": 80, "costs": {"per_km": 1}}]
+    reply = client.post("/plan", json=problem)
+    plan = reply.json()
+    trips = [trip for route in plan["routes"] for trip in route["trips"]]
+    files = files_of(sent(client, problem, plan, "kml"))
+    assert list(files) == [
+        f"hopper-1-flight-{number}.kml" for number in range(1, len(trips) + 1)]
+    text = files_of(sent(client, problem, plan, "qgc-wpl", "vehicle"))
+    items = way_points(tmp_path, text["hopper-1.waypoints"])[1:]
+    assert {item.z for item in items if item.command == MAV.MAV_CMD_NAV_WAYPOINT} == {80}
+    landed = [(item.y, item.x) for item in items if item.command == MAV.MAV_CMD_NAV_LAND]
+    names = {(24.9415, 60.1708): "hub", **{
+        tuple(customer["location"]): customer["id"] for customer in problem["customers"]}}
+    assert [names[round(y, 4), round(x, 4)] for y, x in landed] == [
+        stop["id"] for trip in trips for stop in trip["stops"][1:]]
+
+
 def test_plan_holds_the_same_mission_and_the_fence(client: httpx.Client, tmp_path: Path) -> None:
     problem = city()
     plan = planned(client, problem)

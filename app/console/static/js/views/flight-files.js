@@ -16,6 +16,12 @@ const FORMATS = {
   geojson: 'GeoJSON',
 };
 
+/** Tell whether anything flies: drones of trucks, or vehicles by themselves. */
+function hasFlights({ request, plan }) {
+  const flying = new Set(request.fleet.filter(({ flies }) => flies).map(({ id }) => id));
+  return plan.summary.sorties > 0 || plan.routes.some(({ type }) => flying.has(type));
+}
+
 /** The choice of a format, and the button that saves; nothing where no drone flies. */
 export function FlightFiles({ entry }) {
   const [format, setFormat] = useState('qgc-plan');
@@ -23,7 +29,7 @@ export function FlightFiles({ entry }) {
   const [refused, setRefused] = useState([]);
   const [isAsking, setAsking] = useState(false);
   useEffect(() => setRefused([]), [entry.plan, format]);
-  if (!entry.plan.summary.sorties) return null;
+  if (!hasFlights(entry)) return null;
   const isGeographic = entry.request.coordinate_system === 'geographic';
   const write = async () => {
     setAsking(true);
