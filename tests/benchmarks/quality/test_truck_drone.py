@@ -1,6 +1,7 @@
 """Tests of `benchmarks.quality.truck_drone`, on made-up instances in the sets' formats."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -53,10 +54,15 @@ def _write(path: Path, text: str) -> None:
 
 
 def _plan(problem: Problem, stops: tuple[int, ...], *sorties: SortieDecision) -> Solution:
-    """Plan one truck's trip, the rest unassigned."""
-    trip = TripDecision(stops, sorties)
-    served = {*stops, *(node for sortie in sorties for node in sortie.nodes)}
-    unassigned = tuple(node for node in range(1, problem.num_nodes) if node not in served)
+    """Plan one truck's trip, the rest unassigned; places by the numbers of the files."""
+    def here(nodes: tuple[int, ...]) -> tuple[int, ...]:
+        return tuple(node and node + problem.num_depots - 1 for node in nodes)
+
+    trip = TripDecision(here(stops), tuple(replace(sortie, nodes=here(sortie.nodes))
+                                           for sortie in sorties))
+    served = trip.customers(problem.num_depots)
+    unassigned = tuple(node for node in range(problem.num_depots, problem.num_nodes)
+                       if node not in served)
     return Solution((schedule(problem, RouteDecision(0, 0, (trip,))),), unassigned)
 
 
@@ -90,6 +96,14 @@ def test_agatz_cost_is_the_makespan(agatz: Path) -> None:
     assert evaluation.cost.total == pytest.approx(7.5 + 5)
     assert (free.name, free.set_name, free.size) == ("line-1-n3", "tspd_agatz", 2)
     assert (free.reference, free.kind, free.forbids) == (12.5, "truck only", frozenset())
+
+
+def test_agatz_trucks_pass_a_node_again(agatz: Path) -> None:
+    """Places of launch sites come behind the depot: the depot's, then those of customers."""
+    free, *_ = load_tspd_agatz(agatz)
+    problem = free.problem
+    assert [problem.depots[site].after for site in problem.launch_sites] == [None, "1", "2"]
+    assert all(problem.allows_stop(0, site) for site in problem.launch_sites)
 
 
 def test_agatz_restrictions_hold(agatz: Path) -> None:
