@@ -37,6 +37,18 @@ inline Int due_at(const ProblemData& data, const Linked& linked, const VehicleTy
     return node >= data.num_depots ? linked.link[node].latest : last_end(type);
 }
 
+// The same of vehicles of any type, so that depots limit nothing. Links are read before it is known
+// whether they are customers', which takes no branch.
+inline Int leaves_at(const ProblemData& data, const Linked& linked, Int node) {
+    const Int leave = linked.link[node].leave;
+    return node < data.num_depots ? -far : leave;
+}
+
+inline Int due_at(const ProblemData& data, const Linked& linked, Int node) {
+    const Int latest = linked.link[node].latest;
+    return node < data.num_depots ? far : latest;
+}
+
 // Brings departures from a customer on up to date, of so many even if none changes.
 void drive_on(const ProblemData& data, Linked& linked, Int slot, Int node, Int number);
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include "randomness.h"
@@ -16,6 +15,7 @@
 #include "search/linked/aboard.h"
 #include "search/linked/chain.h"
 #include "search/linked/retype.h"
+#include "search/linked/room.h"
 #include "search/moves/recreate.h"
 #include "search/route/edit.h"
 #include "search/route/state.h"
@@ -30,52 +30,8 @@ namespace {
 constexpr Int each_drawn = 4;
 constexpr Int most_drawn = 16;
 
-// From which distance on `Linked::near` doesn't tell.
-constexpr Int farthest = std::numeric_limits<std::int32_t>::max();
-
-// What routes may carry at most, by type, so that they may serve a customer more; less than nothing
-// if none of the type may.
-class Room {
-public:
-    // `enlarge` tells that a route may be given a larger type.
-    Room(const ProblemData& data, Int node, bool enlarge) : data_(data), node_(node) {
-        if (enlarge || data.num_types > most_known) {
-            same_for_all_ = most_known;
-        } else if (data.num_types == 1) {
-            same_for_all_ = 0;
-        }
-        const Int count = std::min(data.num_types, most_known);
-        for (Int k = 0; k < count; ++k) most_[std::size_t(k)] = most(k);
-        most_[most_known] = {far, far, far};
-    }
-
-    // Whether the vehicle of a route may serve the customer more, and holds what that takes.
-    bool is_on(const Run& run) const {
-        const Amount load = amount_of(run.load);
-        return within(load, run.type < most_known ? most_[std::size_t(run.type)] : most(run.type));
-    }
-
-    // The same without branches; true as well where another type might.
-    bool may_be_on(const Run& run) const {
-        // A run's type isn't waited for where there is but one.
-        const Amount& most = most_[std::size_t(same_for_all_ < 0 ? run.type : same_for_all_)];
-        const Int fits[] = {run.load[0] <= most[0], run.load[1] <= most[1], run.load[2] <= most[2]};
-        return fits[0] + fits[1] + fits[2] == 3;
-    }
-
-private:
-    static constexpr Int most_known = 8;
-
-    Amount most(Int k) const {
-        if (!data_.can(k, 0, node_)) return {-1, -1, -1};
-        return minus(capacity_of(data_.type[k]), demand_of(data_.place[0][node_]));
-    }
-
-    const ProblemData& data_;
-    const Int node_;
-    Int same_for_all_ = nowhere;  // what is the most for all types, by number
-    std::array<Amount, most_known + 1> most_;
-};
+// Up to how many nodes all legs fit a processor's cache, so that they needn't be asked for.
+constexpr Int most_at_hand = 400;
 
 // Which route a customer joins, and how who would serve there meets him.
 struct LinkedJoining : Joining {
@@ -99,6 +55,9 @@ public:
           newcomer_(newcomer_for(data_, data_.type[0], insertion.node)),
           enlarge_(insertion.enlarge),
           is_near_known_(linked.one_travel && are_same(newcomer_.inward, newcomer_.onward)),
+          is_told_first_(linked.one_travel && newcomer_.inward.stated != nullptr),
+          lists_first_(!is_told_first_ || data_.num_nodes > most_at_hand),
+          has_windows_(linked.timed && data_.place.variants() == 1),
           room_(data_, insertion.node, enlarge_),
           best_(insertion.best) {
         set_longest_detour();
@@ -107,21 +66,19 @@ public:
     // Tries a customer beside neighbours.
     //
     // Most of the time goes into getting legs from memory, so that those of several neighbours are
-    // asked for at once, and into branches that can't be foreseen, so that there are none where
-    // neighbours are passed over.
+    // asked for at once, and into branches that can't be foreseen, as which detours are too long
+    // and where windows are missed, so that there are none where neighbours are passed over.
     void try_beside() {
         const Int size = num_listed();
         for (Int first = 0; first < size;) {
             // Beside the nearest there mostly is a place that rules out most of the others.
             const Int behind = std::min(first == 0 ? nearest_of_all : first + at_once, size);
             std::array<Neighbour, at_once> neighbours;
-            const std::size_t count = choose(first, behind, neighbours);
+            std::size_t count = choose(first, behind, neighbours);
+            if (lists_first_) count = ask_for_legs(neighbours, count);
             for (std::size_t index = 0; index < count; ++index) {
-                const Link& at = linked_.link[neighbours[index].node];
-                prefetch(newcomer_.onward, at.behind);
-                prefetch(newcomer_.inward, at.before);
+                if (may_be_best(neighbours[index])) try_neighbour(neighbours[index]);
             }
-            for (std::size_t index = 0; index < count; ++index) try_neighbour(neighbours[index]);
             first = behind;
         }
     }
@@ -141,7 +98,7 @@ public:
         }
         for (std::size_t index = 0; index < count; ++index) {
             LinkedJoining joins;
-            if (may_join(slots[index], joins)) try_ends(joins);
+            if (may_be_best_at_ends(slots[index]) && may_join(slots[index], joins)) try_ends(joins);
         }
     }
 
@@ -178,35 +135,84 @@ private:
         return size;
     }
 
-    // Whether a place beside a neighbour may be the best yet.
+    // The least that a detour beside a neighbour can be, as far as it is looked at there.
     //
-    // Most may not by the triangle inequality: unless who comes before or behind a neighbour is
-    // nearer, beside whom the same place is looked at, it costs as much as the way there and back,
-    // less the longer of the neighbour's legs.
-    bool may_be_beside(Int node, Int nearest) const {
-        return 2 * nearest - linked_.reach[node] < longest_detour_;
+    // By the triangle inequality, unless who comes before or behind a neighbour is nearer, beside
+    // whom the same place is looked at, it is as long as the way there and back, less the longer of
+    // the neighbour's legs.
+    Int least_beside(const Neighbour& neighbour) const {
+        return 2 * Int{neighbour.nearest} - linked_.reach[neighbour.node];
     }
 
-    // Lists neighbours, of those by rank from `first` to `behind`, whose places may be the best
-    // yet, and whose routes may be joined; returns how many.
+    // Lists neighbours, of those by rank from `first` to `behind`, beside whom a detour may be
+    // short enough; returns how many.
     std::size_t choose(Int first, Int behind, std::array<Neighbour, at_once>& chosen) const {
         const std::int32_t* const others = &data_.granular(newcomer_.node, 0);
         const std::int32_t* const near = &linked_.near(newcomer_.node, 0);
-        const Link* const link = linked_.link.data();
-        const Int* const reach = linked_.reach.data();
         const Int longest = longest_detour_;
         std::size_t count = 0;
         for (Int rank = first; rank < behind; ++rank) {
             chosen[count] = {others[rank], near[rank]};
-            count += 2 * Int{near[rank]} - reach[others[rank]] < longest;
+            count += least_beside(chosen[count]) < longest;
         }
+        return count;
+    }
+
+    // Asks for the legs to and from who is beside neighbours, but for those on full routes, who are
+    // left out; returns how many remain.
+    std::size_t ask_for_legs(std::array<Neighbour, at_once>& neighbours, std::size_t count) const {
         std::size_t left = 0;
         for (std::size_t index = 0; index < count; ++index) {
-            const Neighbour neighbour = chosen[index];
-            chosen[left] = neighbour;
-            left += room_.may_be_on(linked_.run[link[neighbour.node].slot]);
+            const Neighbour neighbour = neighbours[index];
+            neighbours[left] = neighbour;
+            left += room_.may_be_on(linked_.run[linked_.link[neighbour.node].slot]);
+        }
+        for (std::size_t index = 0; index < left; ++index) {
+            const Link& at = linked_.link[neighbours[index].node];
+            prefetch(newcomer_.onward, at.behind);
+            prefetch(newcomer_.inward, at.before);
         }
         return left;
+    }
+
+    // Whether a place beside a neighbour may be the best yet; true as well where legs don't tell.
+    bool may_be_best(const Neighbour& neighbour) const {
+        const Int node = neighbour.node;
+        const Int nearest = neighbour.nearest;
+        const Link& at = linked_.link[node];
+        const int may = int{lists_first_ || room_.may_be_on(linked_.run[at.slot])} &
+                        int{least_beside(neighbour) < longest_detour_};
+        if (!is_told_first_) return may != 0;
+        const Int inward = is_near_known_ ? nearest : distance_from(newcomer_.inward, node);
+        const Int onward = is_near_known_ ? nearest : distance_to(newcomer_.onward, node);
+        const Int on = distance_to(newcomer_.onward, at.behind);
+        const Int there = distance_from(newcomer_.inward, at.before);
+        return (may & (may_come_between(node, at.behind, inward + on - at.onward) |
+                       may_come_between(at.before, node, there + onward - at.inward))) != 0;
+    }
+
+    // The same of places first and last on a route.
+    bool may_be_best_at_ends(Int slot) const {
+        if (!is_told_first_) return true;
+        const Run& run = linked_.run[slot];
+        const VehicleType& type = data_.type[run.type];
+        const Int begins =
+            newcomer_.further(type.begins_at, run.first, linked_.link[run.first].inward);
+        const Int ends = newcomer_.further(run.last, type.ends_at, linked_.link[run.last].onward);
+        return (may_come_between(type.begins_at, run.first, begins) |
+                may_come_between(run.last, type.ends_at, ends)) != 0;
+    }
+
+    // Whether a detour between two is short enough, and within what windows they and the customer
+    // have; 0 or 1.
+    int may_come_between(Int before, Int behind, Int detour) const {
+        const int is_short = detour < longest_detour_;
+        if (!has_windows_) return is_short;
+        const Int arrival =
+            leaves_at(data_, linked_, before) + leg_from(newcomer_.inward, before).duration;
+        const Int on = leg_to(newcomer_.onward, behind).duration;
+        return is_short & int{!newcomer_.place.too_late(arrival)} &
+               int{newcomer_.place.end_of_service(arrival) + on <= due_at(data_, linked_, behind)};
     }
 
     void try_neighbour(const Neighbour& neighbour) {
@@ -214,7 +220,7 @@ private:
         const Int nearest = neighbour.nearest;
         const Link& at = linked_.link[node];
         LinkedJoining joins;
-        if (!may_be_beside(node, nearest) || !may_join(at.slot, joins)) return;
+        if (!may_join(at.slot, joins)) return;
         Int inward = nearest;
         Int onward = nearest;
         if (!is_near_known_ || nearest == farthest) {
@@ -228,8 +234,8 @@ private:
     }
 
     // Two who are so far apart.
-    static Gap between(const LinkedJoining& joins, Int before, Int behind, Int distance) {
-        return {before, behind, joins.newcomer->further(before, behind, distance)};
+    static Gap between(const LinkedJoining& joins, Int before, Int behind, Int apart) {
+        return {before, behind, joins.newcomer->further(before, behind, apart)};
     }
 
     // Writes a detour that, as all longer ones, costs no less than the best, whoever drives it.
@@ -314,6 +320,9 @@ private:
     const Newcomer newcomer_;  // as all vehicles, or those of the first type, meet him
     const bool enlarge_;
     const bool is_near_known_;  // `Linked::near` tells legs there and back
+    const bool is_told_first_;  // most places are ruled out by stated legs, the same for all types
+    const bool lists_first_;    // whose routes aren't full, as legs have to be got from far away
+    const bool has_windows_;    // and by windows, the same likewise
     const Room room_;
     Best& best_;
     Int longest_detour_ = far;

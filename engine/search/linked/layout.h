@@ -1,6 +1,8 @@
 // Routes as linked stops.
 #pragma once
 
+#include <limits>
+
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -15,6 +17,9 @@ using Least = tandem_least;
 
 // Beside whom no place is near enough, however long a detour may be.
 constexpr Int out_of_reach = -far;
+
+// From which distance on `Linked::near` doesn't tell.
+constexpr std::int32_t farthest = std::numeric_limits<std::int32_t>::max();
 
 struct Linked {
     View<Link, 1> link;                  // (node,)

@@ -1,7 +1,6 @@
 #include "search/linked/tying.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "guard.h"
 #include "rules/leg.h"
@@ -15,8 +14,6 @@
 namespace tandem {
 
 namespace {
-
-constexpr std::int32_t farthest = std::numeric_limits<std::int32_t>::max();
 
 // Writes how near a customer's neighbours are by vehicles of a type, if that is nearer than known.
 void measure_near_by(const ProblemData& data, Linked& linked, Int k, Int node) {
