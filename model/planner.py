@@ -204,6 +204,9 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     samples = options.num_samples if options.decoding == "sample" else None
     number = problem.num_customers
     kind, *others = problem.vehicle_types
+    if any(each.flies for each in problem.vehicle_types):
+        # Policies know nothing of what trips take in the air.
+        return False
     share = DECODING_SHARE
     if number <= MIXED_UP_TO and (others or kind.drones is not None):
         share = MIXED_SHARE

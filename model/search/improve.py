@@ -244,7 +244,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     problem, config, limits = task.problem, task.config, task.limits
     data = make_data(problem, task.instance, config.moves, task.neighbourhood, task.alarm.setting)
     numbering, fresh = task.neighbourhood.numbering, not solution.routes
-    plan = (first_plan(problem, data) if fresh
+    plan = (first_plan(problem, data, numbering) if fresh
             else renumbered(solution, numbering.number.tolist().__getitem__))
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, data, plan, seeds[0])

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "guard.h"
+#include "rules/flown_trip.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
 #include "rules/start.h"
@@ -87,6 +88,32 @@ Int working(const Chains& chains, const Joint& joint) {
     const Int leaves = std::max(chain[tail].leave, chain[a].leave + way + chain[b].busy);
     const Int busy = std::max(chain[head].busy + way + chain[b].busy, leaves - latest);
     return leg(legs, type.begins_at, head).duration + busy + leg(legs, tail, type.ends_at).duration;
+}
+
+// Tells whether who flies by itself may fly two routes as one trip, as soon as all parcels are
+// there.
+bool flies_as_one(const ProblemData& data, const Chains& chains, const Joint& joint) {
+    const auto& [type, legs, places, chain] = chains;
+    const NodeTable weighed = data.place.by_air(type);
+    const auto behind = [&](Int node) { return node == joint.a ? joint.b : chain[node].behind; };
+    Int weight = 0, start = type.shift_earliest;
+    for (Int node = joint.head; node != nowhere; node = behind(node)) {
+        weight += weight_brought(weighed[node]);
+        start = std::max(start, release_of(places[node]));
+    }
+    FlownTrip trip(type, weight);
+    Int here = type.begins_at, time = start;
+    for (Int node = joint.head; node != nowhere; node = behind(node)) {
+        const Int way = leg(legs, here, node).duration;
+        if (places[node].too_late(time + way)) return false;
+        trip.fly_to(weighed[node], way, node == joint.head, weighed[node].waiting(time + way));
+        time = places[node].end_of_service(time + way);
+        here = node;
+    }
+    const Int home = leg(legs, here, type.ends_at).duration;
+    trip.fly_home(home, false);
+    return may_end(type, time + home) && time + home - start <= longest_in_air(type) &&
+           (!is_limited(type) || trip.left() >= 0);
 }
 
 // Puts the route that begins with `b` behind that which ends with `a`.
@@ -236,7 +263,8 @@ void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, Vi
         const Int length = head.length + chain[b].length;
         if (joint.head == b || !allows_stops(type, length) ||
             !may_join(type, cargo[joint.head], cargo[b]) ||
-            !may_work(type, working(chains, joint))) {
+            !may_work(type, working(chains, joint)) ||
+            (flies(type) && !flies_as_one(data, chains, joint))) {
             continue;
         }
         head.busy += way + chain[b].busy;

@@ -1,0 +1,87 @@
+"""Trips of vehicles that fly by themselves are packed on few of them, in time."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from model.engine.instance import pack
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import Customer, Depot, Energy, Problem, Travel, VehicleType
+from model.search.beginning.packing import packed_routes
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
+
+MINUTE = 60_000
+
+DRONE = VehicleType(
+    "drone", 3, (2000,), 0, fixed_cost=5.0, cost_per_km=1.0, flies=True, max_trips=4,
+    reload_duration=MINUTE, launch_duration=MINUTE, recovery_duration=MINUTE)
+
+
+def street(*customers: Customer, kind: VehicleType = DRONE, step: int = 1) -> Problem:
+    """Return a problem whose customers live one after another along a street, minutes apart."""
+    place = np.arange(len(customers) + 1) * step
+    legs = np.abs(place[:, None] - place).astype(np.int64)
+    return Problem((Depot("hub"),), customers, (kind,), (Travel(legs * MINUTE, legs * 1_000_000),),
+                   np.stack([place, place], axis=1).astype(np.float64), 1000.0)
+
+
+def order(name: str, released: int = 0, latest: int = 10_000) -> Customer:
+    """Return an order of one unit, in minutes."""
+    return Customer(name, (1000,), release_time=released * MINUTE, latest=latest * MINUTE)
+
+
+def trips_of(problem: Problem, *trips: tuple[int, ...]) -> list[list[tuple[int, ...]]]:
+    """Return the customers of each vehicle's trips as they are packed."""
+    return [[tuple(stop.node for stop in trip.stops[1:-1]) for trip in route.trips]
+            for route in packed_routes(problem, 0, trips)]
+
+
+def test_one_vehicle_flies_what_it_can_one_after_another() -> None:
+    problem = street(order("a"), order("b"), order("c"))
+    assert trips_of(problem, (1,), (2,), (3,)) == [[(3,), (2,), (1,)]]
+
+
+def test_who_must_be_served_at_once_gets_another_vehicle() -> None:
+    problem = street(order("a", latest=2), order("b", latest=3))
+    assert trips_of(problem, (1,), (2,)) == [[(1,)], [(2,)]]
+
+
+def test_what_no_vehicle_can_fly_any_more_is_left_out() -> None:
+    problem = street(order("a", latest=2), order("b", latest=3), kind=replace(DRONE, count=1))
+    assert trips_of(problem, (1,), (2,)) == [[(1,)]]
+
+
+def test_no_vehicle_makes_more_trips_than_it_may() -> None:
+    problem = street(order("a"), order("b"), order("c"), kind=replace(DRONE, max_trips=2))
+    assert trips_of(problem, (1,), (2,), (3,)) == [[(3,), (2,)], [(1,)]]
+
+
+def test_numbers_of_the_search_are_those_of_the_problem_by_a_list() -> None:
+    problem = street(order("a", latest=2), order("b"))
+    routes = packed_routes(problem, 0, [(1,), (2,)], [0, 2, 1])
+    assert [stop.node for trip in routes[0].trips for stop in trip.stops[1:-1]] == [2, 1]
+
+
+def test_packed_trips_are_in_time() -> None:
+    rng = np.random.default_rng(1)
+    customers = [order(str(index), int(rng.integers(0, 60)), int(rng.integers(60, 120)))
+                 for index in range(12)]
+    problem = street(*customers, kind=replace(DRONE, max_trips=20))
+    routes = packed_routes(problem, 0, [(node,) for node in range(1, 13)])
+    plan = Solution(tuple(schedule(problem, RouteDecision(0, route.vehicle, tuple(
+        [TripDecision(tuple([stop.node for stop in trip.stops])) for trip in route.trips])))
+        for route in routes), ())
+    broken = {violation.code for violation in check(problem, plan).violations} - {"MISSING"}
+    assert broken == set()
+
+
+def test_joined_trips_last_in_the_air_and_on_the_battery() -> None:
+    """Two orders fit one trip by weight, not by what both take of the battery."""
+    power = (1000, 1000)
+    energy = Energy(13 * MINUTE * 1000, 1.0, (0, 2000), power, power, power, power)
+    for kind in (replace(DRONE, endurance=7 * MINUTE), replace(DRONE, energy=energy)):
+        far = street(order("a"), order("b"), kind=kind, step=3)
+        found = improve(far, pack([far]), Solution((), (1, 2)), SearchConfig(turns=0)).solution
+        assert check(far, found).violations == ()
