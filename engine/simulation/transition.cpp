@@ -57,12 +57,20 @@ std::pair<Int, Int> op_times(const Setting& setting, const VehicleLog& log, cons
     return {launch_begin(setting.types[sortie.row], sortie.takeoff, 0), sortie.takeoff};
 }
 
+// Whether an operation comes before another. Of those at once, a drone comes back before another
+// is launched where there may be no room for both in the air.
+bool comes_before(const Setting& setting, const VehicleLog& log, const Operation& op,
+                  const Operation& other) {
+    const auto times = op_times(setting, log, op), others = op_times(setting, log, other);
+    if (times != others || !limits_airborne(setting.type)) return times < others;
+    return op.is_recovery != 0 && other.is_recovery == 0 && op.sortie != other.sortie;
+}
+
 // Put the launches and recoveries from row `first` on, all at one stop, in order.
 void sort_ops(const Setting& setting, VehicleLog& log, Int first) {
     for (Int last = first + 1; last < log.count.ops; ++last) {
-        for (Int row = last; row > first && op_times(setting, log, log.op[row]) <
-                                                op_times(setting, log, log.op[row - 1]);
-             --row) {
+        for (Int row = last;
+             row > first && comes_before(setting, log, log.op[row], log.op[row - 1]); --row) {
             std::swap(log.op[row], log.op[row - 1]);
         }
     }

@@ -203,14 +203,14 @@ def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
 
 def _airborne_violations(vehicle_type: VehicleType, timed: TimedTrip) -> Iterator[Violation]:
     """Sorties that leave too many drones in the air, or their truck on its way."""
-    flying, most = 0, vehicle_type.most_airborne
-    for group in timed.decision.operations or ():
-        for index, is_launch in group:
-            flying += 1 if is_launch else -1
-            if is_launch and flying > most:
-                message = f"{flying} drones in the air, at most {most} are allowed"
-                yield Violation("MAX_AIRBORNE", message, f"{timed.path}.sorties[{index}]")
-    for index, sortie in enumerate(timed.trip.sorties):
+    sorties, most = timed.trip.sorties, vehicle_type.most_airborne
+    for index, sortie in enumerate(sorties):
+        flying = sum([other.launch_time <= sortie.launch_time < other.recovery_start
+                      for other in sorties])
+        if flying > most:
+            message = f"{flying} drones in the air, at most {most} are allowed"
+            yield Violation("MAX_AIRBORNE", message, f"{timed.path}.sorties[{index}]")
+    for index, sortie in enumerate(sorties):
         if vehicle_type.truck_waits and sortie.launch_stop != sortie.recovery_stop:
             message = f"{vehicle_type.id} drives on while a drone is out"
             yield Violation("TRUCK_WAITS", message, f"{timed.path}.sorties[{index}]")

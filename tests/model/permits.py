@@ -49,7 +49,7 @@ def with_storms(rng: np.random.Generator, problem: Problem) -> Problem:
             return drones
         instants = np.unique(rng.integers(0, 60, 2 * int(rng.integers(1, 4)))).tolist()
         instants = [instant * MINUTE for instant in instants[:len(instants) // 2 * 2]]
-        if rng.random() < 0.2:
+        if instants and rng.random() < 0.2:
             instants[-1:] = [UNLIMITED]
         return replace(drones, storms=tuple(zip(instants[::2], instants[1::2], strict=True)))
 

@@ -19,7 +19,8 @@ from tests.model.rollouts import choose, legal, random_problems, roll
 from tests.model.fliers import with_fliers
 from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
-    draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_duty,
+    draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
+    with_duty,
     with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
     with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
     with_table, with_turnaround,
@@ -133,6 +134,14 @@ def fliers_in_range(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_ranges(rng, with_fliers(rng, problem))
 
 
+def few_airborne_in_no_time(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem in which launches and recoveries take no time, and happen at once."""
+    problem = with_few_airborne(rng, problem)
+    return replace(problem, vehicle_types=tuple(
+        with_drones(kind, lambda drones: replace(drones, launch_duration=0, recovery_duration=0))
+        for kind in problem.vehicle_types))
+
+
 def ranges_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return drone_types_among_all(rng, with_ranges(rng, problem))
 
@@ -154,7 +163,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, with_storms,
-    storms_among_all, fliers_in_range, with_launch_sites])
+    storms_among_all, fliers_in_range, with_launch_sites, few_airborne_in_no_time])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):
