@@ -1,7 +1,7 @@
 // Removal of strings of adjacent customers.
 #pragma once
 
-#include "search/route/layout.h"
+#include "search/route/edit.h"
 
 namespace tandem {
 
@@ -21,21 +21,19 @@ double longest_string(const Searcher& searcher, Int trips);
 // Draw how many strings are removed: fewer if they are long.
 Int draw_strings(double longest, View<std::uint64_t, 1> rng);
 
-// How many customers are marked, how many routes they are on, and near whom they are.
+// How many routes customers are removed from, and near whom those are.
 struct Chosen {
-    Int num_absent;
     Int num_touched;
     Int seed;
 };
 
 // Mark strings near a random customer, at most one a trip, and list their routes in `touched`. In
 // place.
-Chosen choose(const ProblemData& data, Searcher& searcher, double longest, View<Int, 1> absent,
-              Int num_absent, View<Int, 1> touched);
+Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
+              View<Int, 1> touched);
 
-// Take the marked customers out of a route; all, if the rest breaks a rule. In place; return how
-// many are absent then.
-Int remove_marked(const ProblemData& data, Fleet& fleet, Int slot, View<bool, 1> marked,
-                  View<Int, 1> absent, Int num_absent, View<Int, 1> moved);
+// Take the marked customers out of a route; all, if the rest breaks a rule. In place.
+void remove_marked(const ProblemData& data, Fleet& fleet, Int slot, Removed& removed,
+                   View<Int, 1> moved);
 
 }  // namespace tandem

@@ -107,23 +107,23 @@ private:
     // Removes strings of customers near each other.
     void remove_strings(Int first) {
         Fleet& now = searcher_.now;
-        const View<Int, 1> absent = searcher_.absent;
         const Int before = searcher_.count->absent;
-        auto [total, num_touched, seed] =
-            choose(data_, searcher_, longest_string(searcher_, num_trips()), absent, before,
+        Removed removed{searcher_.marked, searcher_.absent, before};
+        const auto [num_touched, seed] =
+            choose(data_, searcher_, longest_string(searcher_, num_trips()), removed,
                    searcher_.scratch->moved);
         if (first > 0) try_near(data_, searcher_, seed, first, before);
         for (Int slot : searcher_.scratch->moved.view().first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {
-            total = remove_marked(data_, now, slot, searcher_.marked, absent, total,
-                                  searcher_.scratch->moved);
+            remove_marked(data_, now, slot, removed, searcher_.scratch->moved);
             if (now.route[slot].length > 0) locate(now, slot);
         }
-        for (Int index = before; index < total; ++index) {
-            searcher_.marked[absent[index]] = false;
-            now.where[absent[index]].slot = nowhere;
+        for (Int index = before; index < removed.count; ++index) {
+            const Int node = removed.absent[index];
+            removed.marked[node] = false;
+            now.where[node].slot = nowhere;
         }
-        searcher_.count->absent = total;
+        searcher_.count->absent = removed.count;
         list_touched(searcher_);
     }
 

@@ -133,13 +133,12 @@ void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int n
     }
 }
 
-Int keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, View<bool, 1> marked,
-                 View<Int, 1> absent, Int num_absent) {
+void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Removed& removed) {
     const auto& [route, stops, sorties] = sequence;
     const auto is_removed = [&](Int p) {
         Int node = stops[p].node;
         if (stops[p].kind == halt_stop) node = halt_after[node];
-        return has_window(stops[p]) && node >= 0 && marked[node];
+        return has_window(stops[p]) && node >= 0 && removed.marked[node];
     };
     Int kept = 0;
     for (Sortie& sortie : sorties.first(route.sorties)) {
@@ -147,17 +146,13 @@ Int keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, View<b
         Int left = 0;
         for (Int visit = 0; visit < sortie.count; ++visit) {
             const Int node = sortie.nodes[visit];
-            if (grounded && !marked[node]) {
-                marked[node] = true;
-                absent[num_absent++] = node;
-            }
-            if (!marked[node]) sortie.nodes[left++] = node;
+            if (grounded) removed.mark(node);
+            if (!removed.marked[node]) sortie.nodes[left++] = node;
         }
         sortie.count = left;
         if (left > 0) sorties[kept++] = sortie;
     }
     route.sorties = kept;
-    return num_absent;
 }
 
 void close_ranks(const Sequence& sequence, View<const bool, 1> marked, View<Int, 1> moved) {

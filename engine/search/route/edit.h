@@ -77,6 +77,19 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
 // Let a sortie serve a customer before its customer number `place`. In place.
 void join_sortie(Sortie& sortie, Int place, Int node);
 
+// Customers to be removed, in the order in which they were marked, each once.
+struct Removed {
+    View<bool, 1> marked;  // (node,)
+    View<Int, 1> absent;   // who was absent before comes first
+    Int count;             // of those in `absent`
+
+    void mark(Int node) {
+        if (marked[node]) return;
+        marked[node] = true;
+        absent[count++] = node;
+    }
+};
+
 // Insert a customer, on trips from a depot. In place.
 void apply(Int depot, const Sequence& sequence, const Move& move, Int node);
 
@@ -88,9 +101,8 @@ void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int n
 // Drop marked customers from sorties, and sorties that begin or end at marked stops, or at launch
 // sites where a marked customer is served before, as `halt_after` tells.
 //
-// In place; their other customers are marked and listed in `absent`. Returns how many are there.
-Int keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, View<bool, 1> marked,
-                 View<Int, 1> absent, Int num_absent);
+// In place; their other customers are marked, too.
+void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Removed& removed);
 
 // Remove marked stops, empty trips, and stops at launch sites where no drone is launched or
 // recovered any more; sorties have been dealt with. In place.
