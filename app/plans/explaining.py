@@ -23,6 +23,7 @@ from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench, Setting
 from model.judge.binding import find_binding
 from model.judge.idle_drones import idle_drones
+from model.judge.launch_sites import without_idle_stops
 from model.judge.retiming import read_route, time_route
 from model.judge.worth import sorties_worth
 from model.planner import Listener, Planner, PlanOptions, PlanResult
@@ -233,8 +234,8 @@ def _without_sorties(problem: Problem, solution: Solution, setting: Setting) -> 
                      for node in sortie.nodes]
         trips = tuple([replace(trip, sorties=(), operations=None) for trip in decision.trips
                        if len(trip.nodes) > 2])
-        if trips:
-            timed = time_route(problem, replace(decision, trips=trips), f"routes[{len(routes)}]",
-                               setting.past)
+        driven = without_idle_stops(problem, replace(decision, trips=trips))
+        if driven.trips:
+            timed = time_route(problem, driven, f"routes[{len(routes)}]", setting.past)
             routes.append(timed.route)
     return Solution(tuple(routes), tuple(left_out))

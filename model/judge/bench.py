@@ -9,7 +9,8 @@ from dataclasses import dataclass, replace
 from model.judge.check import Evaluation, JudgedRoute, check, judge_route
 from model.judge.clock import with_all_setups
 from model.judge.ends import with_ends
-from model.judge.past import EVERYTHING_OPEN, Past
+from model.judge.launch_sites import without_idle_stops
+from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
 from model.judge.places import Found, Place, changed, find_place, route_with, routes_without
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.rules import Violation
@@ -94,6 +95,8 @@ class Bench:
         decision = read_route(self.problem, solution.routes[index])
         unassigned = (*solution.unassigned, self.node)
         ways = [*routes_without(decision, found)]
+        if Vehicle(decision.vehicle_type, decision.vehicle) not in self.setting.past.trips:
+            ways = [without_idle_stops(self.problem, way) for way in ways]
         if all(not way.trips for way in ways):
             plan = changed(solution, index, None, unassigned)
             judged = self.setting.judge_routes(self.problem, plan)

@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import compress
 
 from model.judge.rules import TimedTrip, Violation, seconds
+from model.judge.timing import RouteDecision, TripDecision
 from model.problem import Problem
 from model.solution import Route, Trip
 
@@ -50,3 +52,29 @@ def _served_by_then(problem: Problem, trip: Trip, stop: int) -> set[str]:
     if here.node >= problem.num_depots:
         nodes.append(here.node)
     return {problem.customer_at(node).id for node in nodes}
+
+
+def without_idle_stops(problem: Problem, route: RouteDecision) -> RouteDecision:
+    """Return a route without stops at launch sites that no drone uses, and trips to nobody."""
+    if not problem.launch_sites:
+        return route
+    trips = [_without_idle_stops(problem, trip) for trip in route.trips]
+    return replace(route, trips=tuple([trip for trip in trips
+                                       if trip.customers(problem.num_depots)]))
+
+
+def _without_idle_stops(problem: Problem, trip: TripDecision) -> TripDecision:
+    used = {stop for sortie in trip.sorties for stop in (sortie.launch_stop, sortie.recovery_stop)}
+    last = len(trip.nodes) - 1
+    stays = [index in (0, last) or index in used or not problem.is_launch_site(node)
+             for index, node in enumerate(trip.nodes)]
+    if all(stays):
+        return trip
+    place = [sum(stays[:index]) for index in range(len(stays))]
+    operations = trip.operations
+    return replace(
+        trip, nodes=tuple(compress(trip.nodes, stays)),
+        sorties=tuple([replace(sortie, launch_stop=place[sortie.launch_stop],
+                               recovery_stop=place[sortie.recovery_stop])
+                       for sortie in trip.sorties]),
+        operations=None if operations is None else tuple(compress(operations, stays)))

@@ -75,6 +75,9 @@ def test_lines_and_reasons_know_launch_sites(searching: httpx.Client,
     asked = {"problem": far_off, "plan": plan}
     told = searching.post("/explain", json=asked | {"customer": "isle"}).json()
     assert told["here"]["position"]["recovered_at"] == "car park"
+    assert searching.post("/explain", json=asked | {"drones": True}).status_code == 200
+    fits = searching.post("/fit", json=asked | {"customer": "A"})
+    assert fits.status_code == 200, fits.text
 
 
 def test_a_truck_comes_back_to_whom_it_has_served(searching: httpx.Client,

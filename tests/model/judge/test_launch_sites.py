@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.judge.bench import Bench
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import UNLIMITED, Depot
@@ -119,3 +120,12 @@ def test_vehicles_of_other_types_do_not_come_back(tiny_problem, customers, truck
     assert [again.allows_stop(kind, again.launch_sites[0]) for kind in (0, 1)] == [False, True]
     assert with_revisits(problem, []) is problem
     assert all(again.depots[site].latest == UNLIMITED for site in again.launch_sites)
+
+
+def test_who_is_left_out_takes_stops_for_his_drone_along(street):
+    problem = street(on_site={"stop_cost": 2.5})
+    for trips, cost in (((D_FROM_SITE,), 1.0),
+                        ((TripDecision((0, SITE, 0), (SortieDecision((D,), 1, 1),)),), 0.0)):
+        bench = Bench(problem, plan(problem, *trips), D)
+        assert bench.left_out.evaluation.cost.stops == cost
+        assert bench.left_out.evaluation.violations == ()
