@@ -48,6 +48,8 @@ RULES = {
     "drones are charged aboard": with_vehicles(drones=replace(DRONES, energy=BATTERY)),
     "it is too windy at times": with_vehicles(
         drones=replace(DRONES, storms=((HOUR, 2 * HOUR),))),
+    "trips in the air are limited": with_vehicles(flies=True, endurance=HOUR),
+    "batteries are charged between trips": with_vehicles(flies=True, energy=BATTERY),
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),
     "what is aboard costs": with_vehicles(cost_per_load_km=1.0),
