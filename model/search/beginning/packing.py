@@ -34,7 +34,8 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
         end = None if chosen == LONG_AGO else timing.end(trip, max(back[chosen], ready))
         if end is not None:
             made[chosen].append(trip)
-            back[chosen] = end + kind.reload_duration
+            airborne = end - max(back[chosen], ready)
+            back[chosen] = end + max(kind.reload_duration, timing.charging(airborne))
     return [Route(k, number, tuple([_trip(kind, each) for each in route]))
             for number, route in enumerate(made) if route]
 
@@ -77,6 +78,15 @@ class _Timing:
             here = node
         end = time + self._duration.item(here, kind.ends_at) + kind.recovery_duration
         return end if end <= kind.latest else None
+
+    def charging(self, airborne: int) -> int:
+        """Return how long a battery is charged at most after so long a trip; 0: it is full at once.
+        """
+        energy = self._kind.energy
+        if energy is None or not energy.charge:
+            return 0
+        most = max(*energy.cruise, *energy.climb, *energy.descent, *energy.hover)
+        return -(-min(airborne * most, energy.available) // energy.charge)
 
     def latest_start(self, trip: Sequence[int]) -> int:
         """Return when it has to begin at the latest, as if nobody waited."""

@@ -58,6 +58,15 @@ def test_no_vehicle_makes_more_trips_than_it_may() -> None:
     assert trips_of(problem, (1,), (2,), (3,)) == [[(3,), (2,)], [(1,)]]
 
 
+def test_batteries_are_charged_between_packed_trips() -> None:
+    power = (1000, 1000)
+    energy = Energy(10**9, 1.0, (0, 2000), power, power, power, power, charge=500)
+    first, second = order("a", latest=2), order("b", latest=10)
+    assert trips_of(street(first, second), (1,), (2,)) == [[(1,), (2,)]]
+    charged = street(first, second, kind=replace(DRONE, energy=energy))
+    assert trips_of(charged, (1,), (2,)) == [[(1,)], [(2,)]]
+
+
 def test_numbers_of_the_search_are_those_of_the_problem_by_a_list() -> None:
     problem = street(order("a", latest=2), order("b"))
     routes = packed_routes(problem, 0, [(1,), (2,)], [0, 2, 1])
