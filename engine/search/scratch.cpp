@@ -35,16 +35,16 @@ SplitScratch::SplitScratch(Int longest)
       looped_until(longest + at_once),
       drive(longest + at_once),
       distance(longest + at_once),
-      out{} {
-    for (WaysOut& ways : out) ways.duration.fill(std::numeric_limits<double>::infinity());
-}
+      out(longest) {}
 
 Scratch::Scratch(const ProblemData& data, const Searcher& searcher)
     : Scratch(data.num_nodes, most_moved(searcher.now), most_offers(data, searcher.now)) {}
 
 Scratch::Scratch(Int num_nodes, Int most_moved, Int most_offers)
     : line(num_nodes + 3),
+      aside(num_nodes + 3),
       split(num_nodes + 3),
+      changed(num_nodes + 3),
       key(num_nodes),
       moved(most_moved),
       offer(most_offers),

@@ -64,7 +64,7 @@ struct SplitScratch {
     struct WaysOut {
         std::array<double, longest_operation + at_once> duration, distance;
     };
-    std::array<WaysOut, longest_operation> out;  // to the last places that it may serve
+    Row<WaysOut> out;  // (place,)
 };
 
 struct Scratch {
@@ -74,13 +74,15 @@ struct Scratch {
     // Lends it to a call. Throws where the search is larger than the one that it was made for.
     void lend_to(const ProblemData& data, Searcher& searcher);
 
-    Row<Line> line;  // (node + 3,) places of a trip or two in order
+    Row<Line> line;   // (node + 3,) places of a trip or two in order
+    Row<Line> aside;  // (node + 3,) some of them before a change
     SplitScratch split;
-    Row<double> key;    // (node,) order of insertion
-    Row<Int> moved;     // slots that a ruin touches, or where stops move to
-    Row<Move> offer;    // insertions that may be best
-    Row<double> least;  // what each costs at least
-    Int offers = 0;     // how many are listed
+    SplitScratch changed;  // of a line of which some places were changed
+    Row<double> key;       // (node,) order of insertion
+    Row<Int> moved;        // slots that a ruin touches, or where stops move to
+    Row<Move> offer;       // insertions that may be best
+    Row<double> least;     // what each costs at least
+    Int offers = 0;        // how many are listed
 
 private:
     Scratch(Int num_nodes, Int most_moved, Int most_offers);

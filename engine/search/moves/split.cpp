@@ -69,25 +69,27 @@ void shift(View<Line, 1> line, Int one, Int to) {
     line[to].node = node;
 }
 
-void shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng) {
+Places shuffle(const ProblemData& data, View<Line, 1> line, Int length,
+               View<std::uint64_t, 1> rng) {
     const Int count = length - 2;
     const Change change =
         changes[static_cast<std::size_t>(below(rng, static_cast<Int>(changes.size())))];
     const Int one = 1 + below(rng, count);
     const Int other = place_near(data, line, count, one, rng);
-    if (change == Change::keep || other == one) return;
+    if (change == Change::keep || other == one) return {1, 0};
     if (change == Change::move) {
         shift(line, one, other);
-        return;
+        return {std::min(one, other), std::max(one, other)};
     }
     // Either way the neighbour comes beside place `one`, or the other way round.
-    Int low = other > one ? one + 1 : other;
-    Int high = other > one ? other : one - 1;
+    const Places changed = other > one ? Places{one + 1, other} : Places{other, one - 1};
+    auto [low, high] = changed;
     if (change == Change::swap) {
         std::swap(line[low].node, line[high].node);
-        return;
+        return changed;
     }
     for (; low < high; ++low, --high) std::swap(line[low].node, line[high].node);
+    return changed;
 }
 
 void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length) {

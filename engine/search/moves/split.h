@@ -11,8 +11,14 @@ constexpr Int near_places = 8;  // among how many nearest neighbours of a place 
 // Move what is at place `one` to place `to`. In place.
 void shift(View<Line, 1> line, Int one, Int to);
 
-// Change the order of the customers in the line a little. In place.
-void shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng);
+// Places of a line, both included; none where the last comes first.
+struct Places {
+    Int first;
+    Int last;
+};
+
+// Change the order of the customers in the line a little. In place; tell between which places.
+Places shuffle(const ProblemData& data, View<Line, 1> line, Int length, View<std::uint64_t, 1> rng);
 
 // Write what a truck that served the whole line would drive. In place.
 void measure(const ProblemData& data, Int k, View<Line, 1> line, Int length);

@@ -53,8 +53,21 @@ public:
           places_by_air_(data.place.by_air(type_)),
           line_(line),
           length_(length),
-          scratch_(scratch) {
-        begin_at(0, 0.0);
+          scratch_(scratch) {}
+
+    // Let operations begin where the line does.
+    void begin() { begin_at(0, 0.0); }
+
+    // Let operations that end at place `first` or behind begin where those of another split do.
+    void begin_behind(const SplitScratch& before, Int first) {
+        for (Int place = std::max(Int{0}, first - longest_operation); place < first; ++place) {
+            scratch_.cost[place] = before.cost[place];
+            scratch_.drive[place] = before.drive[place];
+            scratch_.distance[place] = before.distance[place];
+            scratch_.loops[place] = 0.0;
+            scratch_.looped_until[place] = place + 1;
+            scratch_.out[place] = before.out[place];
+        }
     }
 
     void end_at(Int j) {
@@ -74,8 +87,6 @@ public:
 private:
     static std::size_t at(Int place) { return static_cast<std::size_t>(place); }
 
-    SplitScratch::WaysOut& out_to(Int place) { return scratch_.out[at(place % longest_operation)]; }
-
     // Let operations begin at a place, up to where all costs so much, and fly there.
     void begin_at(Int place, double cost) {
         const Line& here = line_[place];
@@ -88,7 +99,8 @@ private:
         if (!data_.strategy.crossings || place == 0 || place == length_ - 1 || !flies_[here.node])
             return;
         const LegRow inward = legs_to(data_.back, type_.drone_travel, here.node);
-        SplitScratch::WaysOut& out = out_to(place);
+        SplitScratch::WaysOut& out = scratch_.out[place];
+        std::fill(out.duration.begin() + longest_operation - 1, out.duration.end(), infinite_cost);
         for (Int back = 1; back < std::min(longest_operation, place + 1); ++back) {
             const Int from = line_[place - back].node;
             Leg way = leg_from(inward, from);
@@ -152,7 +164,7 @@ private:
         const auto drive_until = static_cast<double>(to.drive - spared.spared_drive);
         const auto distance_until = static_cast<double>(to.distance - spared.spared_distance);
         const auto handled = static_cast<double>(handling_duration(type_));
-        const SplitScratch::WaysOut& out = out_to(flown);
+        const SplitScratch::WaysOut& out = scratch_.out[flown];
         for (Int i = first; i < flown; i += at_once) {
             const Int way = i + longest_operation - 1 - flown;
             const Some flight = some(out.duration.data(), way) + static_cast<double>(back);
@@ -222,7 +234,23 @@ private:
 double split(const ProblemData& data, Int k, View<Line, 1> line, Int length,
              SplitScratch& scratch) {
     Splitting splitting(data, k, line, length, scratch);
+    splitting.begin();
     for (Int j = 1; j < length; ++j) splitting.end_at(j);
+    return scratch.cost[length - 1];
+}
+
+double split_changed(const ProblemData& data, Int k, View<Line, 1> line, Int length,
+                     Changed changed, const SplitScratch& before, SplitScratch& scratch) {
+    Splitting splitting(data, k, line, length, scratch);
+    splitting.begin_behind(before, changed.first);
+    Int dearer = 0;
+    for (Int j = changed.first; j < length; ++j) {
+        splitting.end_at(j);
+        if (j <= changed.last) continue;
+        // All that comes costs as before from here on, wherever an operation begins.
+        dearer = scratch.cost[j] - before.cost[j] < changed.most ? 0 : dearer + 1;
+        if (dearer == longest_operation) return infinite_cost;
+    }
     return scratch.cost[length - 1];
 }
 

@@ -23,9 +23,11 @@ constexpr Int resplits = 30;  // trips with one drone planned anew from their or
 // Routes in rows of stops, with all that `Fleet` knows of them.
 class RouteStore {
 public:
-    RouteStore(const ProblemData& data, Searcher& searcher) : data_(data), searcher_(searcher) {}
+    RouteStore(const ProblemData& data, Searcher& searcher)
+        : data_(data), searcher_(searcher), resplit_(data, searcher) {}
 
     void ruin(Int first) {
+        resplit_.forget();
         remove_strings(first);
         SearchCounts& count = *searcher_.count;
         if (data_.strategy.change_vehicles && count.touched > 0 &&
@@ -57,7 +59,7 @@ public:
         SearchCounts& count = *searcher_.count;
         count.touched = 0;
         const bool is_moved =
-            part == 0 ? two_opt_star(data_, searcher_, rise) : resplit(data_, searcher_, rise);
+            part == 0 ? two_opt_star(data_, searcher_, rise) : resplit_.attempt(rise);
         if (!is_moved) return false;
         // Who is left out stays the same, and isn't listed as absent yet.
         count.absent = count.missing;
@@ -129,6 +131,7 @@ private:
 
     const ProblemData& data_;
     Searcher& searcher_;
+    Resplit resplit_;
 };
 
 }  // namespace
