@@ -84,3 +84,14 @@ def test_what_drones_do_fits_every_width(open_page: Callable[..., Page], service
     open_tab(page, "changes")
     expect(page.get_by_role("button", name="A drone more on each van")).to_be_visible()
     assert findings(page, ".panel") == []
+
+
+def test_sortie_is_drawn_from_the_side(page: Page) -> None:
+    open_example(page, "city_day")
+    open_tab(page, "routes")
+    page.locator("details.card").evaluate_all("cards => cards.forEach((card) => card.open = true)")
+    page.get_by_role("button", name=re.compile("flies", re.IGNORECASE)).first.click()
+    profile = page.locator(".height-profile")
+    expect(profile.get_by_role("img")).to_be_visible()
+    expect(profile).to_contain_text("At 100 m from")
+    assert findings(page, ".panel") == []

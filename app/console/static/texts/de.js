@@ -669,6 +669,10 @@ export default {
     renamed_one: '{{now}} fährt, was {{before}} fuhr, mit {{count}} Kunden davon',
     renamed_other: '{{now}} fährt, was {{before}} fuhr, mit {{count}} Kunden davon',
   },
+  profile: {
+    lands: 'In {{height}} Höhe von {{from}} bis {{until}}, landet bei {{names}}.',
+    hovers: 'In {{height}} Höhe von {{from}} bis {{until}}, schwebt bei {{names}}.',
+  },
   routes: {
     select:
       'Wählen Sie hier, auf der Karte oder in der Zeitachse einen Stopp, einen Flug ' +

@@ -655,6 +655,10 @@ export default {
     renamed_one: '{{now}} does what {{before}} did, with {{count}} customer of it',
     renamed_other: '{{now}} does what {{before}} did, with {{count}} customers of it',
   },
+  profile: {
+    lands: 'At {{height}} from {{from}} to {{until}}, landing at {{names}}.',
+    hovers: 'At {{height}} from {{from}} to {{until}}, hovering at {{names}}.',
+  },
   routes: {
     select: 'Select a stop, flight or trip here, on the map or in the timeline.',
     rates: 'Load rate and working rate',

@@ -114,7 +114,8 @@ function describeSortie(index, key) {
   };
 }
 
-function sortieOf(index, key) {
+/** Return the sortie that a key names, null if there is none. */
+export function sortieOf(index, key) {
   const [vehicle, trip, sortie] = key.slice(2).split('/').map(Number);
   return index?.vehicles[vehicle]?.trips[trip]?.sorties[sortie] ?? null;
 }

@@ -1,7 +1,7 @@
 /** Routes: vehicles, their trips, and every stop and flight of these. */
 
 import { indexOf, shownPlan } from '../actions.js';
-import { describe } from '../core/describe.js';
+import { describe, sortieOf } from '../core/describe.js';
 import { amounts, clock, duration, km, money, percent, timeWindow } from '../core/format.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
@@ -10,6 +10,7 @@ import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
 import { setLocked } from '../hands.js';
+import { HeightProfile } from './height-profile.js';
 import { IdleDrones } from './idle-drones.js';
 import { dropOn, Grip } from './list-drag.js';
 import { Badge, Facts, linked, SelectButton, ShareBar } from './parts.js';
@@ -38,8 +39,10 @@ function Selected({ index }) {
   const about = describe(request, index, selection);
   if (!about)
     return html`<p class="help">${t('routes.select')}</p>`;
+  const sortie = selection[0] === 's' ? sortieOf(index, selection) : null;
   return html`<section class="card"><header><strong>${about.title}</strong></header>
     <div class="inside"><${Facts} facts=${about.facts} />
+      ${sortie && html`<${HeightProfile} sortie=${sortie} rules=${index.plan.rules} />`}
       ${selection.startsWith('c:') && html`<${StopMoves} id=${selection.slice(2)} />
         <${WhyHere} id=${selection.slice(2)} />`}
     </div></section>`;
