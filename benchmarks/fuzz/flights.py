@@ -31,6 +31,9 @@ SAME_PLACE_M = 0.02
 INSIDE = 1e-7
 """Degrees by which a flight may cut into a zone: what its coordinates are rounded to."""
 
+NEARBY = 0.02
+"""Degrees around a flight within which all zones are told: somewhat less than promised."""
+
 LATE_SECONDS, LATE_SHARE = 2.0, 0.01
 """By how much a flight's times may differ from the plan's: the earth is no sphere."""
 
@@ -151,7 +154,7 @@ class FlightStudy(Study):
                 except Fault as fault:
                     raise Fault(f"{file_format}: {fault}") from fault
                 self.bent += len(flight.way) > len(expected.places)
-            _hold_fences(problem, fences)
+            _hold_fences(problem, planned, fences)
             self.read[file_format] += len(flights)
 
     def _files(self, problem: Data, plan: Data, file_format: str) -> dict[str, bytes]:
@@ -273,14 +276,19 @@ def _zones_of(problem: Data) -> list[Polygon]:
         for rings in (zone["data"]["coordinates"] for zone in airspace["zones"]))]
 
 
-def _hold_fences(problem: Data, fences: list[list[Place]] | None) -> None:
-    """Raise `Fault` unless the fences are the zones, of which none is far away."""
+def _hold_fences(problem: Data, planned: list[Planned],
+                 fences: list[list[Place]] | None) -> None:
+    """Raise `Fault` unless the fences are zones, and all of those near a flight."""
     if fences is None:
         return
-    stated = union_all(_zones_of(problem))
+    zones = _zones_of(problem)
+    around = union_all([LineString(each.places) for each in planned]).buffer(NEARBY)
+    near = union_all([zone for zone in zones if zone.intersects(around)])
     told = union_all([Polygon(ring) for ring in fences])
-    if told.symmetric_difference(stated).buffer(-INSIDE).area > 0:
-        raise Fault("the fences are other areas than the zones")
+    if told.difference(union_all(zones)).buffer(-INSIDE).area > 0:
+        raise Fault("a fence is no zone")
+    if near.difference(told).buffer(-INSIDE).area > 0:
+        raise Fault("a zone nearby has no fence")
 
 
 def _same(some: Any, others: Any) -> bool:
