@@ -42,24 +42,25 @@ bool goods_may_join_half(const ProblemData& data, const Fleet& fleet, Int slot, 
     return go_together(data.goods[node], barred, fleet.route[slot].barred);
 }
 
-// Tells whether a trip split behind stop `p` may be two, a customer more at the split.
+// Tells whether a trip split behind stop `p` may be two, a customer more at the split, by what is
+// aboard.
 //
 // `front`: at the end of the first.
-bool halves_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node, bool front,
-                Int tier) {
-    const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
+bool halves_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
+                bool front) {
     const VehicleType& type = data.type[fleet.route[slot].type];
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, p).trip);
-    const Cargo more = cargo_for(data.amount, node, tier);
-    Cargo one{}, other{};
-    for (Int q = trip.first; q <= p; ++q) one = followed(one, cargo_at(stop_loads[q]));
-    for (Int q = p + 1; q <= trip.last; ++q) other = followed(other, cargo_at(stop_loads[q]));
-    if (front) {
-        return may_follow(type, one, more) && may_be_all(type, followed(one, more), tier) &&
-               may_be_all(type, other, tier);
+    for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+        const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
+        const Cargo more = cargo_for(data.amount, node, tier);
+        Cargo one{}, other{};
+        for (Int q = trip.first; q <= p; ++q) one = followed(one, cargo_at(stop_loads[q]));
+        for (Int q = p + 1; q <= trip.last; ++q) other = followed(other, cargo_at(stop_loads[q]));
+        if (!(front ? may_follow(type, one, more) : may_follow(type, more, other))) return false;
+        (front ? one : other) = front ? followed(one, more) : followed(more, other);
+        if (!may_be_all(type, one, tier) || !may_be_all(type, other, tier)) return false;
     }
-    return may_follow(type, more, other) && may_be_all(type, followed(more, other), tier) &&
-           may_be_all(type, one, tier);
+    return true;
 }
 
 // Returns when a truck that arrives at a customer has served; `far` if it is too late.
@@ -154,12 +155,7 @@ bool part_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int
     }
     const VehicleType& type = data.type[fleet.route[slot].type];
     if (!allows_stops(type, count)) return false;
-    if (tiers_aboard(fleet) > 0) {
-        for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
-            if (!halves_fit(data, fleet, slot, p, node, front, tier)) return false;
-        }
-        return true;
-    }
+    if (tiers_aboard(fleet) > 0) return halves_fit(data, fleet, slot, p, node, front);
     for_each_flown(fleet, slot, half,
                    [&](Int other) { load = plus(load, demand_of(data.place[0][other])); });
     return holds(type, load);
