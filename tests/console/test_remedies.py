@@ -40,6 +40,9 @@ PROBLEMS = {
     "if capacity": problem([{"demand": [25]}]),
     "drone capacity": problem([{"demand": [9], "served_by": "drone"}], drones=DRONES),
     "endurance": problem([{"served_by": "drone"}], drones=DRONES | {"endurance": 600}),
+    "max_range": problem([{"served_by": "drone"}], drones=DRONES | {"max_range": 5000}),
+    "without max_wind_kmh": problem([{"served_by": "drone"}], drones=DRONES | {
+        "max_wind_kmh": 20}) | {"airspace": {"wind": {"speed_kmh": 30}}},
     "a battery of": problem([{"served_by": "drone"}], drones=DRONES | {
         "energy": {"battery_wh": 10.0, "power": {"cruise_w": 200.0}}}),
     "trips could be": problem([{}], max_trip_distance=9000),

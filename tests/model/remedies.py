@@ -56,6 +56,14 @@ def _longer_endurance(kind: VehicleType, text: str) -> VehicleType:
     return replace(kind, drones=replace(drones, endurance=drones.endurance + _units(text, MINUTE)))
 
 
+def _longer_range(kind: VehicleType, text: str) -> VehicleType:
+    if kind.flies:
+        return replace(kind, max_range=(kind.max_range or 0) + _units(text, KM))
+    drones = _drones(kind)
+    return replace(kind, drones=replace(
+        drones, max_range=(drones.max_range or 0) + _units(text, KM)))
+
+
 def _wider_window(customer: Customer, text: str) -> Customer:
     number, minutes = text.split(" closed ")
     gaps = list(customer.gaps)
@@ -80,6 +88,9 @@ def _longer(overtime: Overtime | None, text: str) -> Overtime:
 
 ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if endurance were (.+) minutes? longer": _longer_endurance,
+    "fits if max_range were (.+) km longer": _longer_range,
+    "fits without max_wind_km(h)": lambda kind, _: replace(
+        kind, drones=replace(_drones(kind), storms=())),
     "fits with a battery of (.+) Wh more": _larger_battery,
     "fits if the drone capacity were at least (.+)": lambda kind, text: replace(
         kind, drones=replace(_drones(kind), capacity=_amounts(text))),

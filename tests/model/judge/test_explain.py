@@ -6,13 +6,13 @@ import pytest
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, UNREACHABLE, IncompatibleGoods, Overtime, SpeedProfile, Travel,
+    MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime,
+    SpeedProfile, Travel,
 )
 from model.solution import Solution
 from tests.model.remedies import applied
 
 MINUTE = 60_000
-KM = 1_000_000
 
 NOBODY_SERVED = Solution((), (1, 2, 3, 4))
 
@@ -73,6 +73,13 @@ def test_reason_names_the_rule_and_a_remedy_that_works(
     ("RANGE", {"endurance": 6 * MINUTE},
      "A flight from the depot and back lasts 7 minutes more than the endurance.",
      "fits if endurance were 7 minutes longer"),
+    # 4 km from the depot, 1 km from c's place
+    ("RANGE", {"max_range": MM_PER_KM // 2, "straight": 1},
+     "It lies 3.5 km farther away than the max_range.",
+     "fits if max_range were 3.5 km longer"),
+    ("WIND", {"storms": ((0, UNLIMITED),)},
+     "The wind is too strong for a flight there and back, by max_wind_kmh.",
+     "fits without max_wind_kmh"),
     ("SORTIES", {"batteries": 0}, "No drone of truck takes off, by its batteries.",
      "fits if truck carried 1 battery"),
 ])
@@ -81,7 +88,9 @@ def test_reason_of_a_drone(code, on_drones, message, remedy, tiny_problem, custo
     *others, d = customers
     carrier = replace(truck, drones=replace(drones, **on_drones))
     problem = tiny_problem(*others, replace(d, served_by="drone"), truck=carrier)
-    assert reason_for_d(problem) == Reason(0, code, message, remedy)
+    reason = reason_for_d(problem)
+    assert reason == Reason(0, code, message, remedy)
+    assert reason_for_d(applied(problem, reason, 4)).code == "SEARCH"
 
 
 def test_no_drone_may_take_off(tiny_problem, customers, truck, drones):
