@@ -6,13 +6,14 @@ import pytest
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, MM_PER_KM, UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime,
+    MAX_MONEY, MAX_QUANTITY, UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime,
     SpeedProfile, Travel,
 )
 from model.solution import Solution
 from tests.model.remedies import applied
 
 MINUTE = 60_000
+KM = 1_000_000
 
 NOBODY_SERVED = Solution((), (1, 2, 3, 4))
 
@@ -74,7 +75,7 @@ def test_reason_names_the_rule_and_a_remedy_that_works(
      "A flight from the depot and back lasts 7 minutes more than the endurance.",
      "fits if endurance were 7 minutes longer"),
     # 4 km from the depot, 1 km from c's place
-    ("RANGE", {"max_range": MM_PER_KM // 2, "straight": 1},
+    ("RANGE", {"max_range": KM // 2, "straight": 1},
      "It lies 3.5 km farther away than the max_range.",
      "fits if max_range were 3.5 km longer"),
     ("WIND", {"storms": ((0, UNLIMITED),)},
