@@ -116,7 +116,7 @@ def depth(shape: Data, points: Any, projection: LocalProjection) -> float:
     dense = shapely.segmentize(shapely.Polygon(shape["coordinates"][0], shape["coordinates"][1:]),
                                1e-3)
     on_plane = shapely.transform(dense, projection.project)
-    planar = shapely.points(projection.project(points))
+    planar = np.array(shapely.points(projection.project(points)))
     inside = shapely.covers(on_plane, planar)
     depths = shapely.distance(on_plane.boundary, planar[inside])
     return float(depths.max()) if len(depths) else -1.0

@@ -1002,6 +1002,7 @@ export default {
     plan_start: 'Beginn des Plans',
     time_zone: 'Zeitzone',
     incompatible_goods: 'Getrennte Güter',
+    zones: 'Veröffentlichte Zonen',
     no_fly: 'Flugverbotszonen',
     wind: 'Wind',
     freeze_before: 'Jetzt',
@@ -1696,6 +1697,9 @@ export default {
     area_other: 'Zone {{number}}, {{count}} Ecken',
     removeArea: 'Zone {{number}} entfernen',
     windByHour: 'Die Anfrage nennt ihn nach Stunden.',
+    zones: 'Datei {{number}} mit Zonen ({{format}})',
+    removeZones: 'Datei {{number}} entfernen',
+    dropZones: 'Ziehen Sie eine Datei auf die Seite: ED-269, ED-318, GeoJSON oder KML.',
     moveAreas: 'Ecken werden auf der Karte verschoben: „Zeichnen“, dann „Verschieben“.',
     drawAreas: 'Keine. Sie werden auf der Karte gezeichnet: „Zeichnen“, dann „Flugverbotszone“.',
     leftOut: 'Ausgelassene Kunden',
@@ -1719,6 +1723,8 @@ export default {
   files: {
     pasted: 'Eingefügtes',
     noJson: '{{file}} ist kein JSON',
+    zonesOnPlane: 'Die Zonen in {{file}} liegen auf dem Globus',
+    zonesOnPlaneHelp: 'Die Orte dieses Problems liegen auf einer Ebene. Öffnen Sie erst eines mit geografischen Orten.',
     noProblem: '{{file}} ist kein Problem',
     lacks:
       'Es fehlt: {{names}}. Öffnen Sie ein mitgenommenes Problem oder eine Anfrage, ' +

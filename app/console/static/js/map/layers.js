@@ -7,6 +7,7 @@ import { partsOf } from '../core/plan.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
 import { standsOf } from '../core/stands.js';
+import { zoneAreas } from '../core/zones.js';
 import { leaflet } from '../libraries.js';
 import { Cross, Disc } from './marks.js';
 
@@ -183,6 +184,27 @@ export function noFlyShapes(request, dark) {
       interactive: false,
     }),
   );
+}
+
+/** Return the published zones' shapes, which tell their names, heights and authorities. */
+export function zoneShapes(request, dark) {
+  const colour = dark ? '#ff9d94' : '#a8321f';
+  return zoneAreas(request).map(({ rings, center, radius, ...said }) => {
+    const style = {
+      color: colour,
+      weight: 1,
+      fillColor: colour,
+      fillOpacity: 0.08,
+    };
+    const shape = rings
+      ? L.polygon(rings.map((ring) => ring.map(latLng)), style)
+      : L.circle(latLng(center), { ...style, radius });
+    const told = document.createElement('span');
+    told.innerText = [said.title, said.restriction, said.reach, said.authority]
+      .filter(Boolean)
+      .join('\n');
+    return shape.bindTooltip(told, { sticky: true });
+  });
 }
 
 /** Return a label for each trip, at its middle stop; none where there are too many to read. */

@@ -45,7 +45,7 @@ function entriesOf(request, index, parts) {
     [parts.size > 0, 'settled', 'settled'],
     [lost, 'lost', 'lost'],
     [pinned, 'pin', 'pinned'],
-    [request.airspace?.no_fly?.length > 0, 'area', 'area'],
+    [request.airspace?.no_fly?.length > 0 || request.airspace?.zones?.length > 0, 'area', 'area'],
   ];
   return entries.filter(([there]) => there).map(([, sign, name]) => [sign, name]);
 }

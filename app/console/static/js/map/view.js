@@ -14,6 +14,7 @@ import {
   legAt,
   legLine,
   noFlyShapes,
+  zoneShapes,
   pinMarks,
   planLines,
   stopNumbers,
@@ -133,7 +134,7 @@ export class MapView {
     Object.assign(this, { request, index, dark });
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
-    this.noFly.forEach((shape) => this.areas.addLayer(shape));
+    [...zoneShapes(request, dark), ...this.noFly].forEach((shape) => this.areas.addLayer(shape));
     const lines = index ? planLines(index, parts, dark) : [];
     this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
     this.byKey = new Map();

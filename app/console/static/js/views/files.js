@@ -1,10 +1,11 @@
 /** Opens files: problems as JSON, sheets of customers in any format that the service reads. */
 
-import { openRequest, showFailure } from '../actions.js';
+import { edit, openRequest, showFailure } from '../actions.js';
 import { ApiError } from '../api.js';
 import { withoutEnding } from '../core/format.js';
 import { labelOf } from '../core/schema.js';
 import { pastedSheet } from '../core/importing.js';
+import { addZones, zonesOf } from '../core/zones.js';
 import { beginImport } from '../importing.js';
 import { plan } from '../planning.js';
 import { store } from '../store.js';
@@ -14,7 +15,8 @@ import { t } from '../texts.js';
 export async function openFile(file) {
   try {
     const ending = file.name.slice(file.name.lastIndexOf('.') + 1).toLowerCase();
-    if (ending === 'json') await openJson(file);
+    if (ending === 'kml') openZones(file, { format: 'kml', data: await file.text() });
+    else if (ending === 'json' || ending === 'geojson') await openJson(file);
     else await beginImport(file);
   } catch (error) {
     showFailure(error);
@@ -53,12 +55,29 @@ export function listenToPastes() {
   });
 }
 
+/** Add the zones of a file to the problem that is open. */
+function openZones(file, zones) {
+  if (store.get().request.coordinate_system !== 'geographic') {
+    throw new ApiError(
+      0,
+      t('files.zonesOnPlane', { file: file.name }),
+      t('files.zonesOnPlaneHelp'),
+    );
+  }
+  edit((request) => addZones(request, zones));
+}
+
 async function openJson(file) {
   let content;
   try {
-    content = JSON.parse(await file.text());
+    content = JSON.parse((await file.text()).replace(/^\uFEFF/, ''));
   } catch (error) {
     throw new ApiError(0, t('files.noJson', { file: file.name }), `${error.message}.`);
+  }
+  const zones = zonesOf(content);
+  if (zones) {
+    openZones(file, zones);
+    return;
   }
   if (content?.type === 'FeatureCollection') {
     await beginImport(file);

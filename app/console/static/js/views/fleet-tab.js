@@ -69,6 +69,16 @@ export function FleetTab() {
       <p class="help">${request.airspace?.no_fly?.length
         ? t('fleet.moveAreas') : t('fleet.drawAreas')}</p>
     </fieldset>
+    <fieldset class="group"><legend>${t('field.zones')}</legend>
+      ${(request.airspace?.zones ?? []).map(
+        ({ format }, position) => html`<div class="buttons" key=${position}>
+        ${t('fleet.zones', { number: position + 1, format })}
+        <button type="button" onClick=${() =>
+            edit(removeIn(request, ['airspace', 'zones', position]))}>
+          ${t('fleet.removeZones', { number: position + 1 })}</button></div>`,
+      )}
+      <p class="help">${t('fleet.dropZones')}</p>
+    </fieldset>
     <fieldset class="group"><legend>${t('fleet.leftOut')}</legend>
       <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
         keys=${['unassigned_cost']}
