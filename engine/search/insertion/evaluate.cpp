@@ -227,21 +227,18 @@ void give_releases(const Fleet& fleet, Int to, bool alone, const Trip& trip, Int
     }
 }
 
-// How a route ends whose last stops are reached later, and what lateness costs more.
-struct Ending {
-    double cost;
-    Int time;
-    Int cum;
-    Int depart;
+// How far a route has come whose last stops are reached later.
+struct Progress {
+    double cost;  // what lateness costs more
+    Int time;     // when the next stop is reached, or the end is
+    Int cum;      // sum of all durations up to there
+    Int depart;   // the latest departure that costs nothing
 };
 
-// Follows a route on which no drone flies from stop `p` on, reached at `time`.
-//
-// `cum` and `depart` are the sum of all durations, and the latest departure that costs nothing, up
-// to stop `p`, and in what is returned those up to the end.
-Ending follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
-              Int time, Int cum, Int depart) {
-    double cost = 0.0;
+// Follows a route on which no drone flies from stop `p`, reached as told, to its end.
+Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
+                const Progress& reached) {
+    auto [cost, time, cum, depart] = reached;
     const Int last = route.length - 1;
     const NodeTable places = data.place.by_truck(data.type[route.type]);
     for (Int q = p; q <= last; ++q) {
@@ -373,7 +370,7 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
     cum += place.service_duration() + on.duration;
     Int finish;
     if (data.evaluation[k].priced) {
-        const Ending ending = follow(data, route, stops, p + 1, time, cum, depart);
+        const Progress ending = follow(data, route, stops, p + 1, {0.0, time, cum, depart});
         cost += late + ending.cost;
         finish = ending.time;
         cum = ending.cum;
