@@ -1,5 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { describe } from '../../../app/console/static/js/core/describe.js';
 import {
   movedCustomers,
   requestDifferences,
@@ -222,4 +223,45 @@ test('an open route begins at its place and is drawn to its last stop', () => {
   ]);
   const text = toSvg(pictureOf(indexPlan(request, plan), flightLines(request)));
   assert.ok(text.includes('van'));
+});
+
+test('a vehicle that flies is drawn, told and played as what it is', () => {
+  const request = { ...REQUEST, fleet: [{ id: 'van', count: 1, capacity: [5], flies: true }] };
+  const trip = { ...PLAN.routes[0].trips[0], sorties: [], energy_wh: 12.34 };
+  const plan = { ...PLAN, routes: [{ ...PLAN.routes[0], trips: [trip] }] };
+  const flown = indexPlan(request, plan);
+  const [{ label, bars }] = timelineRows(flown);
+  assert.equal(label, 'van-1 (flies)');
+  assert.deepEqual(
+    bars.filter(({ to }) => to).map(({ kind }) => kind),
+    ['fly', 'fly'],
+  );
+  const [, there, back] = flown.vehicles[0].trips[0].stops;
+  assert.deepEqual(there.line, [[0, 0], [10, 0]]);
+  const middle = ({ drawn }) => drawn[Math.floor(drawn.length / 2)];
+  assert.ok(middle(there)[1] * middle(back)[1] < 0, 'out and back bow to either side');
+  const [{ doing, location }] = playback(flown, flightLines(request))(10).trucks;
+  assert.equal(doing, 'flies');
+  assert.ok(location[1] !== 0);
+  const facts = new Map(describe(request, flown, 't:0/0').facts);
+  assert.equal(facts.get('Energy'), '12.3 Wh');
+  assert.ok(facts.has('Flown') && !facts.has('Driven'));
+  assert.equal(new Map(describe(request, flown, 'l:0/0/1').facts).get('Flown by'), 'van-1');
+  const { features } = geoJson(flown, flownLines(request));
+  assert.equal(features.find(({ properties }) => properties.kind === 'trip').properties.flies, true);
+});
+
+test('an own trip around an area is flown and drawn around it', () => {
+  const request = {
+    ...REQUEST,
+    fleet: [{ id: 'van', count: 1, capacity: [5], flies: true }],
+    airspace: { no_fly: [[[4, -3], [6, -3], [6, 3], [4, 3]]] },
+  };
+  const plan = {
+    ...PLAN,
+    routes: [{ ...PLAN.routes[0], trips: [{ ...PLAN.routes[0].trips[0], sorties: [] }] }],
+  };
+  const [, there] = indexPlan(request, plan).vehicles[0].trips[0].stops;
+  assert.ok(there.line.length > 2);
+  assert.deepEqual(there.drawn, there.line);
 });

@@ -1,8 +1,9 @@
 /** What a customer, stop or sortie is, as pairs of a term and its value. */
 
-import { amounts, clock, duration, km, length, money, percent } from './format.js';
+import { amounts, clock, duration, km, length, money, number, percent } from './format.js';
 import { lengthOf, planeOf } from './geometry.js';
 import { partsOf } from './plan.js';
+import { titleOfVehicle } from './vehicle-labels.js';
 import { windowsInWords, windowsOf } from './windows.js';
 import { t } from '../texts.js';
 
@@ -128,10 +129,12 @@ function describeTrip(index, key) {
     title: t('about.trip', { vehicle: trip.vehicle.name, number: number + 1 }),
     facts: [
       [t('about.loaded'), `${amounts(trip.reply.load)} (${percent(trip.reply.load_rate)})`],
-      [t('about.driven'), km(trip.reply.distance)],
+      [trip.vehicle.flies ? t('about.flown') : t('about.driven'), km(trip.reply.distance)],
       [t('about.takes'), duration(trip.reply.duration)],
       [t('about.stops'), String(trip.stops.filter(({ kind }) => kind === 'customer').length)],
-      [t('about.flights'), String(trip.sorties.length)],
+      trip.vehicle.flies
+        ? [t('about.energy'), wattHours(trip.reply.energy_wh)]
+        : [t('about.flights'), String(trip.sorties.length)],
     ],
   };
 }
@@ -141,12 +144,13 @@ function describeLeg(request, index, key) {
   const { trip, leg } = partsOf(index, key);
   const before = trip?.stops[leg?.stop - 1];
   if (!before) return null;
+  const { flies } = trip.vehicle;
   const metres = lengthOf(leg.line.map(planeOf(request).toPlane));
   return {
     title: `${before.id} \u2192 ${leg.id}`,
     facts: [
-      [t('about.drivenBy'), trip.vehicle.name],
-      [leg.line.length > 2 ? t('about.road') : t('about.straight'), length(metres)],
+      [flies ? t('about.flownBy') : t('about.drivenBy'), trip.vehicle.name],
+      [flies ? t('about.flown') : drivenInWords(leg), length(metres)],
       [t('about.takes'), duration(leg.arrival - before.departure)],
       [t('about.departure'), clock(before.departure, { precise: true })],
       [t('about.arrival'), clock(leg.arrival, { precise: true })],
@@ -154,11 +158,19 @@ function describeLeg(request, index, key) {
   };
 }
 
+function drivenInWords({ line }) {
+  return line.length > 2 ? t('about.road') : t('about.straight');
+}
+
+function wattHours(energy) {
+  return energy == null ? t('about.notKnown') : t('routes.energy', { energy: number(energy, 1) });
+}
+
 function describeVehicle(index, key) {
   const vehicle = index?.vehicles[Number(key.slice(2))];
   if (!vehicle) return null;
   return {
-    title: vehicle.name,
+    title: titleOfVehicle(vehicle),
     facts: [
       [t('about.type'), vehicle.route.type],
       [t('about.trips'), String(vehicle.trips.length)],

@@ -140,6 +140,7 @@ function tripFeatures(trip, legsOf) {
           feature('LineString', joined(trip.stops.map(({ line }) => line)), {
             kind: 'trip',
             ...common,
+            ...(trip.vehicle.flies && { flies: true }),
             load_rate: trip.reply.load_rate,
             distance: trip.reply.distance,
           }),
@@ -190,7 +191,9 @@ ${trip.stops.map((halt, position) => routePoint(halt, position)).join('\n')}
     .filter((trip) => trip.stops.some(({ line }) => line.length > 2))
     .map((trip) =>
       track(
-        t('take.road', { trip: tripName(vehicle, trip) }),
+        vehicle.flies
+          ? t('take.way', { trip: tripName(vehicle, trip) })
+          : t('take.road', { trip: tripName(vehicle, trip) }),
         trip.stops.map(({ line }) => line),
       ),
     );

@@ -23,14 +23,21 @@ export function flownLines(request) {
  * no-fly areas is drawn as it is flown.
  */
 export function flightLines(request) {
-  const { legsOf, plane, airspaceOf } = flying(request);
-  const drawn = (line, airspace) => {
-    if (line.length > 2) return line;
-    const bow = arc(...line.map(plane.toPlane));
-    const crosses = bow.some((point, index) => index > 0 && airspace.blocks(bow[index - 1], point));
-    return crosses ? line : bow.map(plane.fromPlane);
+  const { legsOf, airspaceOf, bowOf } = flying(request);
+  return (sortie) => legsOf(sortie).map((line) => bowOf(line, airspaceOf(sortie)));
+}
+
+/**
+ * Return what tells the lines of vehicles that fly by themselves, `{flown, drawn}`: that of a leg
+ * as `(type, from, to)` are flown, and as `(type, line)` is drawn.
+ */
+export function linesByAir(request) {
+  const { plane, airspaceAt, bowOf } = flying(request);
+  return {
+    flown: ({ speed_kmh: speed }, from, to) =>
+      airspaceAt(speed).flight(plane.toPlane(from), plane.toPlane(to)).map(plane.fromPlane),
+    drawn: ({ speed_kmh: speed }, line) => bowOf(line, airspaceAt(speed)),
   };
-  return (sortie) => legsOf(sortie).map((line) => drawn(line, airspaceOf(sortie)));
 }
 
 /** Return what tells how a request's drones fly. */
@@ -38,13 +45,20 @@ function flying(request) {
   const plane = planeOf(request);
   const rings = (request.airspace?.no_fly ?? []).map((ring) => ring.map(plane.toPlane));
   const airspaces = new Map();
-  const airspaceOf = (sortie) => {
-    const drones = dronesOfSortie(sortie.trip.vehicle.type, sortie.reply);
-    const speed = drones?.speed_kmh ?? DEFAULT_DRONE_SPEED_KMH;
+  const airspaceAt = (stated) => {
+    const speed = stated ?? DEFAULT_DRONE_SPEED_KMH;
     if (!airspaces.has(speed)) {
       airspaces.set(speed, new Airspace(rings, request.airspace?.wind, speed));
     }
     return airspaces.get(speed);
+  };
+  const airspaceOf = ({ trip, reply }) =>
+    airspaceAt(dronesOfSortie(trip.vehicle.type, reply)?.speed_kmh);
+  const bowOf = (line, airspace) => {
+    if (line.length !== 2) return line;
+    const bow = arc(...line.map(plane.toPlane));
+    const crosses = bow.some((point, index) => index > 0 && airspace.blocks(bow[index - 1], point));
+    return crosses ? line : bow.map(plane.fromPlane);
   };
   const flown = (sortie, from, to) =>
     airspaceOf(sortie).flight(plane.toPlane(from), plane.toPlane(to)).map(plane.fromPlane);
@@ -55,5 +69,5 @@ function flying(request) {
       .slice(1)
       .map((to, index) => sortie.lines?.[index] ?? flown(sortie, places[index], to));
   };
-  return { plane, airspaceOf, legsOf };
+  return { plane, airspaceAt, airspaceOf, bowOf, legsOf };
 }

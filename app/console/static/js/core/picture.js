@@ -3,7 +3,7 @@
 import { boundsOf, planeOf } from './geometry.js';
 import { clock, money } from './format.js';
 import { tripDash, vehicleColour } from './palette.js';
-import { spanOf } from './plan.js';
+import { isByAir, spanOf } from './plan.js';
 import { standsOf } from './stands.js';
 import { penaltyOf, trueCost } from './terms.js';
 import { rowWindows, tickStep, timelineRows } from './timeline.js';
@@ -19,6 +19,7 @@ const GUTTER = 130;
 const INK = '#17212b';
 const FAINT = '#566472';
 const RED = '#a8321f';
+const FLIGHT = { width: 1.4, dash: '2 4' };
 
 /** Return `{width, height, shapes}`; a shape is a `line`, `area`, `circle`, `box` or `text`. */
 export function pictureOf(index, legsOf) {
@@ -97,16 +98,16 @@ function tripShapes(trip, legsOf, at) {
   const colour = vehicleColour(trip.vehicle.number, false);
   const places = trip.stops.flatMap(({ location }) => (location ? [at(location)] : []));
   const middle = places[Math.floor(places.length / 2)];
-  const way = trip.stops.flatMap(({ line }) => line.map(at));
+  const way = trip.stops.flatMap(({ drawn }) => drawn.map(at));
+  const style = trip.vehicle.flies ? FLIGHT : { width: 2.2, dash: tripDash(trip.index) };
   return [
-    { kind: 'line', points: way, colour, width: 2.2, dash: tripDash(trip.index) },
+    { kind: 'line', points: way, colour, ...style },
     ...trip.sorties.flatMap((sortie) =>
       legsOf(sortie).map((leg) => ({
         kind: 'line',
         points: leg.map(at),
         colour,
-        width: 1.4,
-        dash: '2 4',
+        ...FLIGHT,
       })),
     ),
     ...(middle
@@ -125,7 +126,7 @@ function customerShapes(index, customer, at) {
     return [{ kind: 'text', at: move(centre, -5, 5), text: '\u00d7', size: 18, colour: RED }];
   const colour = vehicleColour(halt.vehicle.number, false);
   return [
-    { kind: 'circle', at: centre, radius: 4, colour, fill: halt.sortie ? '#ffffff' : colour },
+    { kind: 'circle', at: centre, radius: 4, colour, fill: isByAir(halt) ? '#ffffff' : colour },
   ];
 }
 

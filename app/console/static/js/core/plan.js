@@ -6,6 +6,7 @@
  * that leads to a stop; vehicles count in the fleet's order.
  */
 
+import { linesByAir } from './flights.js';
 import { decodeLine } from './polyline.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
@@ -26,7 +27,8 @@ export function indexPlan(request, plan, given = null) {
   const depots = new Map(request.depots.map((depot) => [`depot ${depot.id}`, depot]));
   standsOf(request).forEach((stand) => depots.set(`${stand.kind} ${stand.id}`, stand));
   const types = new Map(request.fleet.map((type) => [type.id, type]));
-  const index = { request, plan, customers, depots, types, vehicles: [], halts: new Map() };
+  const air = linesByAir(request);
+  const index = { request, plan, customers, depots, types, air, vehicles: [], halts: new Map() };
   // Replies put vehicles under way first; here each keeps its row, number and colour.
   const numbers = given ?? numbersOf(request, plan);
   index.vehicles = inOrder(request.fleet, plan, given).map((route, position) =>
@@ -71,6 +73,7 @@ function indexRoute(index, route, position, number) {
     label: labelOfVehicle(index.request.fleet, route.vehicle, route.type),
     name: route.vehicle,
     type,
+    flies: Boolean(type?.flies),
     route,
     trips: [],
   };
@@ -110,7 +113,8 @@ function indexTrip(index, vehicle, reply, number) {
   reply.stops.forEach(({ geometry }, position) => {
     const halt = trip.stops[position];
     const places = [trip.stops[position - 1]?.location, halt.location];
-    halt.line = lineOf(geometry, places) ?? places.filter(Boolean);
+    halt.line = lineOf(geometry, places) ?? straightOrFlown(index, vehicle, places);
+    halt.drawn = vehicle.flies ? index.air.drawn(vehicle.type, halt.line) : halt.line;
   });
   trip.sorties = reply.sorties.map((sortie, position) => {
     const key = `s:${place}/${position}`;
@@ -142,7 +146,12 @@ function indexTrip(index, vehicle, reply, number) {
   return trip;
 }
 
-/** Return a line of the reply, null if it doesn't lead from place to place any more. */
+/** Return the line of a leg of which nothing is told. */
+function straightOrFlown({ air }, { flies, type }, places) {
+  const known = places.filter(Boolean);
+  return flies && known.length > 1 ? air.flown(type, ...known) : known;
+}
+
 /**
  * Return the line of a leg that is told, null if it doesn't lead from one place to the other.
  *
@@ -197,6 +206,11 @@ export function spanOf(index) {
   if (!trips.length) return [0, 3600];
   const [start, end] = [Math.min(...starts), Math.max(...ends)];
   return end > start ? [start, end] : [start, start + 60];
+}
+
+/** Tell whether a halt is reached by air: on a sortie, or by a vehicle that flies. */
+export function isByAir({ sortie, vehicle }) {
+  return Boolean(sortie) || vehicle.flies;
 }
 
 /** Return the trip or vehicle that a key belongs to, as the key's own parts. */

@@ -9,7 +9,7 @@ import { pointAlong } from './geometry.js';
  * @param legsOf the lines of a sortie's legs, of `flightLines`
  */
 export function playback(index, legsOf) {
-  const trucks = index.vehicles.map((vehicle) => ({ vehicle, spans: truckSpans(vehicle) }));
+  const trucks = index.vehicles.map((vehicle) => ({ vehicle, spans: vehicleSpans(vehicle) }));
   const drones = index.vehicles.flatMap((vehicle) =>
     vehicle.trips.flatMap((trip) =>
       trip.sorties.map((sortie) => ({ sortie, spans: flightSpans(sortie, legsOf(sortie)) })),
@@ -28,8 +28,8 @@ function at(spans, time, what) {
   return [{ ...what, doing: span.doing, location: pointAlong(span.line, share) }];
 }
 
-/** Return what a truck does, its idle time between trips included. */
-function truckSpans(vehicle) {
+/** Return what a vehicle does, its idle time between trips included. */
+function vehicleSpans(vehicle) {
   const stops = vehicle.trips.flatMap((trip) => trip.stops).filter((halt) => halt.location);
   return stops.flatMap((halt, position) => {
     const before = stops[position - 1];
@@ -43,12 +43,12 @@ function truckSpans(vehicle) {
     const doing =
       before.kind === 'depot' && halt.kind === 'depot' && before.trip !== halt.trip
         ? 'stands'
-        : 'drives';
+        : (vehicle.flies && 'flies') || 'drives';
     const way = {
       from: before.departure,
       until: halt.arrival,
       doing,
-      line: halt.trip === before.trip ? halt.line : [before.location, halt.location],
+      line: halt.trip === before.trip ? halt.drawn : [before.location, halt.location],
     };
     return [way, standing];
   });

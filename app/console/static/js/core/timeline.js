@@ -2,6 +2,7 @@
 
 import { dronesOfSortie } from './drones.js';
 import { launchDurations } from './launches.js';
+import { titleOfVehicle } from './vehicle-labels.js';
 
 /** What bars mean, in the order of the legend. */
 export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload'];
@@ -13,12 +14,18 @@ export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload'];
  */
 export function timelineRows(index) {
   return index.vehicles.flatMap((vehicle) => [
-    { key: vehicle.key, kind: 'vehicle', label: vehicle.name, vehicle, bars: truckBars(vehicle) },
+    {
+      key: vehicle.key,
+      kind: 'vehicle',
+      label: titleOfVehicle(vehicle),
+      vehicle,
+      bars: vehicleBars(vehicle),
+    },
     ...droneRows(vehicle),
   ]);
 }
 
-function truckBars(vehicle) {
+function vehicleBars(vehicle) {
   const reload = vehicle.type?.reload_duration ?? 0;
   return vehicle.trips.flatMap((trip, number) => {
     const bars = [];
@@ -30,7 +37,7 @@ function truckBars(vehicle) {
       const before = trip.stops[position - 1];
       if (before) {
         bars.push({
-          kind: 'drive',
+          kind: vehicle.flies ? 'fly' : 'drive',
           from: before.departure,
           until: halt.arrival,
           key: trip.key,

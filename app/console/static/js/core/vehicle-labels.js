@@ -5,7 +5,14 @@
  * and `T3`; of types that are one vehicle each, such as drivers by name, the letters alone.
  */
 
+import { t } from '../texts.js';
+
 const labels = new WeakMap();
+
+/** Return what a vehicle of a plan's index is called: by its name, and that it flies if it does. */
+export function titleOfVehicle({ name, flies }) {
+  return flies ? t('about.flying', { vehicle: name }) : name;
+}
 
 /** Return the label of a vehicle by its name and type's id. */
 export function labelOfVehicle(fleet, name, type) {

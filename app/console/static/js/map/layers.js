@@ -3,7 +3,7 @@
 import { flightLines } from '../core/flights.js';
 import { nearestLine } from '../core/geometry.js';
 import { tripDash, vehicleColour } from '../core/palette.js';
-import { partsOf } from '../core/plan.js';
+import { isByAir, partsOf } from '../core/plan.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
 import { standsOf } from '../core/stands.js';
@@ -68,7 +68,13 @@ export function planLines(index, parts, dark) {
 
 function stylesOf(colour, trip, dark) {
   const open = { ...LINE, color: colour, dashArray: tripDash(trip.index) };
-  return { open, settled: { ...open, ...SETTLED }, lost: { ...open, ...lostStyle(dark) } };
+  const styles = { open, settled: { ...open, ...SETTLED }, lost: { ...open, ...lostStyle(dark) } };
+  if (!trip.vehicle.flies) return styles;
+  return {
+    open: { ...open, ...FLIGHT },
+    settled: { ...styles.settled, ...FLIGHT, opacity: SETTLED.opacity },
+    lost: { ...styles.lost, ...FLIGHT },
+  };
 }
 
 /** Return a trip's way in stretches that are settled or not: `{standing, places}`. */
@@ -79,7 +85,7 @@ function stretches(trip, parts) {
     const standing = standingIn(parts, halt);
     const last = found[found.length - 1];
     const isNext = trip.stops[halt.stop - 1] === stops[position];
-    const way = (isNext ? halt.line : [stops[position].location, halt.location]).map(latLng);
+    const way = (isNext ? halt.drawn : [stops[position].location, halt.location]).map(latLng);
     if (last?.standing === standing) last.places.push(...way.slice(1));
     else found.push({ standing, places: way });
   });
@@ -91,7 +97,7 @@ export function legLine(index, key, dark) {
   const { vehicle, leg } = partsOf(index, key);
   if (!leg || leg.line.length < 2) return null;
   const base = { ...LEG, color: vehicleColour(vehicle.number, dark) };
-  return { key, base, layer: new Leg(leg.line.map(latLng), { ...base, key }) };
+  return { key, base, layer: new Leg(leg.drawn.map(latLng), { ...base, key }) };
 }
 
 /** Return the key of the drive to a stop. */
@@ -101,7 +107,7 @@ export function legKey({ trip, stop }) {
 
 /** Return the key of the drive of a trip that is nearest to a point of the map's container. */
 export function legAt(map, trip, { x, y }) {
-  const lines = trip.stops.map((halt, stop) => (stop ? pixelsOf(map, halt.line) : []));
+  const lines = trip.stops.map((halt, stop) => (stop ? pixelsOf(map, halt.drawn) : []));
   const stop = nearestLine([x, y], lines);
   return stop < 0 ? trip.key : legKey(trip.stops[stop]);
 }
@@ -145,7 +151,7 @@ function customerStyle(index, customer, parts, dark, radius) {
   const standing = standingIn(parts, halt);
   const colour = standing === 'lost' ? redOf(dark) : vehicleColour(halt.vehicle.number, dark);
   if (standing === 'settled') Object.assign(plain, { opacity: 0.6, fillOpacity: 0.45 });
-  if (halt.sortie) return [Disc, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
+  if (isByAir(halt)) return [Disc, { ...plain, weight: 2.2, color: colour, fillColor: ground }];
   return [Disc, { ...plain, color: ground, fillColor: colour }];
 }
 

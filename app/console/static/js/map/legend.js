@@ -28,17 +28,18 @@ export function MapLegend({ request, index, parts }) {
 }
 
 function entriesOf(request, index, parts) {
-  const used = index?.vehicles.length > 0;
   const pinned = (request.replan?.pinned ?? []).length > 0;
   const some = (test) => index?.vehicles.some((vehicle) => vehicle.trips.some(test));
+  const drives = index?.vehicles.some((vehicle) => !vehicle.flies);
+  const flies = some((trip) => trip.vehicle.flies || trip.sorties.length > 0);
   const isNew = index && request.customers.some(({ id }) => !index.customers.has(id));
   const lost = [...parts.values()].some(({ isBroken, isOver }) => isBroken && !isOver);
   const entries = [
-    [used, 'road', 'vehicle'],
-    [some((trip) => trip.index > 0), 'later', 'later'],
-    [some((trip) => trip.sorties.length > 0), 'flight', 'flight'],
-    [used, 'truck', 'byTruck'],
-    [some((trip) => trip.sorties.length > 0), 'drone', 'byDrone'],
+    [drives, 'road', 'vehicle'],
+    [some((trip) => trip.index > 0 && !trip.vehicle.flies), 'later', 'later'],
+    [flies, 'flight', 'flight'],
+    [drives, 'truck', 'byTruck'],
+    [flies, 'drone', 'byDrone'],
     [index?.plan.unassigned.length > 0, 'out', 'unassigned'],
     [isNew, 'new', 'isNew'],
     [!index && request.customers.length > 0, 'new', 'customer'],

@@ -272,7 +272,7 @@ export class MapView {
     if (this.isGone) return;
     const seen = new Set();
     for (const truck of places?.trucks ?? [])
-      this.#moveOne(seen, truck.vehicle.key, truck, 'truck');
+      this.#moveOne(seen, truck.vehicle.key, truck, truck.vehicle.flies ? 'drone' : 'truck');
     for (const drone of places?.drones ?? []) this.#moveOne(seen, drone.sortie.key, drone, 'drone');
     for (const [key, marker] of this.trucks) {
       if (!seen.has(key)) {

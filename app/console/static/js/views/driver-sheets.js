@@ -2,6 +2,7 @@
 
 import { amounts, clock, duration, pointText, shownDate, timeWindow } from '../core/format.js';
 import { standingOf } from '../core/replanning.js';
+import { titleOfVehicle } from '../core/vehicle-labels.js';
 import { html, render } from '../libraries.js';
 import { t } from '../texts.js';
 
@@ -36,7 +37,7 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
   return html`<article class="sheet-page">
     ${link?.qr && html`<figure class="qr"><img src=${link.qr} alt="" />
       <figcaption>${t('sheet.phone')}</figcaption></figure>`}
-    <h1>${vehicle.name}</h1>
+    <h1>${titleOfVehicle(vehicle)}</h1>
     <p>${t('sheet.head', {
       time: duration(vehicle.route.working_duration),
       line: BLANK,

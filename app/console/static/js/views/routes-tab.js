@@ -2,10 +2,13 @@
 
 import { indexOf, shownPlan } from '../actions.js';
 import { describe, sortieOf } from '../core/describe.js';
-import { amounts, clock, duration, km, money, percent, timeWindow } from '../core/format.js';
+import {
+  amounts, clock, duration, km, money, number, percent, timeWindow,
+} from '../core/format.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { customersOf } from '../core/replanning.js';
+import { titleOfVehicle } from '../core/vehicle-labels.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
@@ -60,7 +63,7 @@ function Rates({ index }) {
     <tbody>${trips.map(
       (trip) => html`<tr key=${trip.key} ...${linked(index, trip.key, selection, hovered)}>
       <th scope="row"><${SelectButton} of=${trip.key}><${Badge} vehicle=${trip.vehicle}
-        label=${trip.label} /> ${trip.vehicle.name}</${SelectButton}></th>
+        label=${trip.label} /> ${titleOfVehicle(trip.vehicle)}</${SelectButton}></th>
       <td><${ShareBar} share=${trip.reply.load_rate} text=${percent(trip.reply.load_rate)}
         label=${t('routes.loadRate')} colour=${vehicleColour(trip.vehicle.number, dark)} /></td>
       <td>${working(trip, dark)}</td></tr>`,
@@ -93,7 +96,7 @@ function Vehicle({ index, vehicle }) {
   return html`<details class="card" open=${open}
     onToggle=${(event) => setOpen(event.currentTarget.open)}>
     <summary data-drop-vehicle=${vehicle.index}><${Badge} vehicle=${vehicle} />
-      <strong>${vehicle.name}</strong>
+      <strong>${titleOfVehicle(vehicle)}</strong>
       <span class="right">${[
         t('routes.trips', { count: vehicle.trips.length }),
         duration(route.working_duration) + rate,
@@ -136,6 +139,9 @@ function Trip({ index, trip }) {
         }),
         km(reply.distance),
         duration(reply.duration),
+        ...(trip.vehicle.flies && reply.energy_wh != null
+          ? [t('routes.energy', { energy: number(reply.energy_wh, 1) })]
+          : []),
       ].join(', ')}</span></h4>
     <table><thead><tr><th scope="col">${t('routes.stop')}</th>
       <th scope="col">${t('about.arrival')}</th><th scope="col">${t('about.window')}</th>
