@@ -31,9 +31,9 @@ using Strategy = tandem_strategy;
 
 // `Stop.kind`.
 constexpr Int customer_stop = 0;
-constexpr Int start_stop = 1;
-constexpr Int end_stop = 2;
-constexpr Int halt_stop = 3;  // a launch site, where the truck stops for its drones alone
+constexpr Int halt_stop = 1;  // a launch site, where the truck stops for its drones alone
+constexpr Int start_stop = 2;
+constexpr Int end_stop = 3;
 
 // `Sortie.state`.
 constexpr Int sortie_waits = 0;
@@ -54,9 +54,7 @@ constexpr Int elsewhere = -2;
 constexpr Int all_slots = -1;
 
 // Tell whether the truck comes to a stop within a window: to a customer, or a launch site.
-inline bool has_window(const tandem_stop& stop) {
-    return stop.kind == customer_stop || stop.kind == halt_stop;
-}
+inline bool has_window(const tandem_stop& stop) { return stop.kind <= halt_stop; }
 
 struct ProblemData {
     std::int64_t num_depots;

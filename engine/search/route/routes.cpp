@@ -60,8 +60,9 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         }
         Trip& trip = trips[index];
         stop.trip = index;
-        if (stop.kind == customer_stop) carry(data, trip, stop.node);
-        if (stop.kind == halt_stop) {
+        if (stop.kind == customer_stop) {
+            carry(data, trip, stop.node);
+        } else if (stop.kind == halt_stop) {
             if (!may_halt(data.halts, k, stop.node)) return false;
             ++trip.halts;
         }

@@ -25,7 +25,7 @@ from model.problem import BoolArray, FloatArray, Int32Array, IntArray
 MOST_VISITS = 8
 """Customers on a sortie that the search puts there at most."""
 
-CUSTOMER, START, END, HALT = range(4)
+CUSTOMER, HALT, START, END = range(4)
 
 OTHERS = -1
 """Stamp of a route of the best plan that was not made turn by turn: no route as it is has it."""
