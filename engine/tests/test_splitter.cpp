@@ -97,7 +97,7 @@ TEST_CASE("a changed order costs what it does if all of it is cut anew") {
         const double after = split(data, 0, {again.data(), {nodes + 1}}, line.size(), fresh);
         const double most = static_cast<double>(below(rng, 20));
         const double found =
-            split_changed(data, 0, line, line.size(), {one, other, most}, scratch, changed);
+            split_changed(data, 0, line, line.size(), {one, other, scratch, most}, changed);
         if (found == infinite_cost) {
             CHECK(after >= before + most);
             ++given_up;

@@ -128,16 +128,16 @@ bool trips_last(const ProblemData& data, const Route& route, View<const Stop, 1>
 std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
                                    Int to) {
     const Route& route = fleet.route[to];
-    const View<Stop, 1> stops = fleet.stop[to];
-    const View<Sortie, 1> sorties = fleet.sortie[to];
+    const Int length = route.length, count = route.sorties;
+    const View<Stop, 1> stops = fleet.stop[to].first(length);
+    const View<Sortie, 1> sorties = fleet.sortie[to].first(count);
     const View<const Stop, 1> old = fleet.stop[slot];
     const Truck truck(data, route.type);
-    const Int length = route.length, count = route.sorties;
     const VehicleType& type = truck.type;
     const TravelLegs legs = legs_of(data.leg, type.travel);
     Int time = old[first].arrival, cum = old[first].before;
     Int depart = first > 0 ? old[first - 1].depart : far;
-    make_ready(truck, stops, sorties, count);
+    make_ready(truck, stops, sorties);
     BlockSums sums;
     sums.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
                                     fleet.trip(slot, old[first].trip), first);
@@ -147,7 +147,9 @@ std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, 
         Int last = p;
         if (stop.kind == start_stop) sums.launched = 0;
         if (s < count && sorties[s].launch == p) {
-            last = time_block(truck, stops, length, sorties, count, p, s, time, sums);
+            sums.time = time;
+            sums.oldest = s;
+            last = time_block(truck, stops, sorties, p, sums);
             if (last < 0) return std::nullopt;
             while (s < count && sorties[s].launch <= last) ++s;
             for (Int q = p; q < last; ++q) {

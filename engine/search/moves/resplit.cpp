@@ -271,8 +271,8 @@ bool Resplit::change_again(double limit) {
     if (last <= first) return false;
     measure(data_, type_, line, length);
     const double most = lines_.cost + limit - least_;
-    const double after = split_changed(data_, type_, line, length, {first, last, most},
-                                       scratch.split, scratch.changed) +
+    const double after = split_changed(data_, type_, line, length,
+                                       {first, last, scratch.split, most}, scratch.changed) +
                          beside(data_.rate[type_]);
     if (!is_worth(after, limit)) return false;
     tries_ = 0;

@@ -14,18 +14,19 @@ namespace tandem {
 // Cut the line into operations at least cost; return that. In place; infinite if it can't be cut.
 double split(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch);
 
-// Which places of a line were changed, both included, and how much more it may cost at most.
+// Which places of a line were changed, both included, how it was split before, and how much more it
+// may cost at most.
 struct Changed {
     Int first;
     Int last;
+    const SplitScratch& before;
     double most;
 };
 
-// Cut a changed line that was split `before`, as `split` does; infinite if it would cost more than
-// it may.
+// Cut a changed line as `split` does; infinite if it would cost more than it may.
 //
 // What comes before the change isn't looked at again, nor what comes behind it once that tells.
 double split_changed(const ProblemData& data, Int k, View<Line, 1> line, Int length,
-                     Changed changed, const SplitScratch& before, SplitScratch& scratch);
+                     const Changed& changed, SplitScratch& scratch);
 
 }  // namespace tandem

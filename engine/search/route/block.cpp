@@ -168,11 +168,11 @@ bool is_aboard(View<const Sortie, 1> sorties, Int index, Int oldest) {
 // Tell whether a drone may be in the air beside those that are, launched at stop `p`.
 //
 // Those that come back there are launched first: behind, there might be no room.
-bool has_airspace(const VehicleType& type, View<const Sortie, 1> sorties, Int count, Int index,
-                  Int p, const BlockSums& sums) {
+bool has_airspace(const VehicleType& type, View<const Sortie, 1> sorties, Int index, Int p,
+                  const BlockSums& sums) {
     if (sums.flying >= most_airborne(type)) return false;
     if (sums.flying + 1 < most_airborne(type) || sorties[index].recovery == p) return true;
-    for (Int other = sums.oldest; other < count && sorties[other].launch <= p; ++other) {
+    for (Int other = sums.oldest; other < sorties.size() && sorties[other].launch <= p; ++other) {
         const Sortie& loop = sorties[other];
         if (loop.state == sortie_waits && loop.launch == p && loop.recovery == p) return false;
     }
@@ -180,13 +180,13 @@ bool has_airspace(const VehicleType& type, View<const Sortie, 1> sorties, Int co
 }
 
 // Tell whether a sortie is to be launched or recovered at stop `p` next.
-bool is_due(const VehicleType& type, View<const Sortie, 1> sorties, Int count, Int index, Int p,
+bool is_due(const VehicleType& type, View<const Sortie, 1> sorties, Int index, Int p,
             const BlockSums& sums) {
     const Sortie& sortie = sorties[index];
     if (sortie.state == sortie_flies) return sortie.recovery == p;
     return sortie.state == sortie_waits && sortie.launch == p &&
            is_aboard(sorties, index, sums.oldest) &&
-           (!limits_airborne(type) || has_airspace(type, sorties, count, index, p, sums));
+           (!limits_airborne(type) || has_airspace(type, sorties, index, p, sums));
 }
 
 // Return when the launch or recovery of a sortie that is due can begin, doubled.
@@ -206,12 +206,12 @@ Int twice_begin(const Truck& truck, const Sortie& sortie, Int node, const BlockS
 }
 
 // Return the sortie whose launch or recovery at stop `p` can begin first; -1: none is left.
-Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
+Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int p, Int node,
                    const BlockSums& sums) {
     Int chosen = -1, earliest = none;
-    for (Int index = sums.oldest; index < count && sorties[index].launch <= p; ++index) {
+    for (Int index = sums.oldest; index < sorties.size() && sorties[index].launch <= p; ++index) {
         Sortie& sortie = sorties[index];
-        if (!is_due(truck.type, sorties, count, index, p, sums)) continue;
+        if (!is_due(truck.type, sorties, index, p, sums)) continue;
         if (sortie.state == sortie_waits) {
             const DroneData drone_data = truck.drone_data(sortie);
             if (charges_aboard(drone_data.type)) {
@@ -234,10 +234,10 @@ Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p
 }
 
 // Launch and recover all that stop `p` asks for. In place; false if not allowed.
-bool operate(const Truck& truck, View<Sortie, 1> sorties, Int count, Int p, Int node,
-             BlockSums& sums) {
+bool operate(const Truck& truck, View<Sortie, 1> sorties, Int p, Int node, BlockSums& sums) {
+    const Int count = sorties.size();
     while (true) {
-        const Int index = next_operation(truck, sorties, count, p, node, sums);
+        const Int index = next_operation(truck, sorties, p, node, sums);
         if (index < 0) break;
         if (!is_launch_place(truck.data.no_launch, node)) return false;
         Sortie& sortie = sorties[index];
@@ -267,9 +267,9 @@ void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
 
 }  // namespace
 
-void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count) {
+void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties) {
     const bool single = truck.own[0].are_single();
-    for (Sortie& sortie : sorties.first(count)) {
+    for (Sortie& sortie : sorties) {
         const DroneData drone_data = truck.drone_data(sortie);
         const Int node = sortie.home = stops[sortie.recovery].node;
         sortie.state = sortie_waits;
@@ -293,15 +293,14 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
     }
 }
 
-Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
-               Int count, Int first, Int oldest, Int time, BlockSums& sums) {
+Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties, Int first,
+               BlockSums& sums) {
     const VehicleType& type = truck.type;
     const TravelLegs legs = legs_of(truck.data.leg, type.travel);
+    const Int time = sums.time;
     auto [d, c] = truck.origin(time);
-    sums.time = time;
     sums.hi = sums.dep = far;
     sums.lo = none;
-    sums.oldest = oldest;
     sums.flying = 0;
     Int p = first;
     while (true) {
@@ -322,7 +321,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
         sums.free_d = d;
         sums.free_c = c;
         const auto [served_d, served_c] = truck.serve(stop, time, {d, c});
-        if (!operate(truck, sorties, count, p, stop.node, sums)) return -1;
+        if (!operate(truck, sorties, p, stop.node, sums)) return -1;
         d = std::max(served_d, sums.free_d);
         c = std::max(served_c, sums.free_c);
         stop.leave = std::max(time + d, c);
@@ -334,7 +333,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie,
             sums.hi = std::min(sums.hi, last_end(type) - d);
         }
         if (sums.flying == 0) break;
-        if (stop.kind == end_stop || p + 1 >= length || waits_for_drones(type)) return -1;
+        if (stop.kind == end_stop || p + 1 >= stops.size() || waits_for_drones(type)) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
         const TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});

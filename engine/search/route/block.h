@@ -105,12 +105,12 @@ struct Truck {
 //
 // And write how long each is held back: until windows let it be back within its limit. Where some
 // have several, that hangs on when it could begin, and is for `soonest_takeoff`.
-void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties, Int count);
+void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties);
 
-// Write the block from stop `first`, which the truck reaches at `time`. In place.
+// Write the block from stop `first` of a route, which the truck reaches at `sums.time`. In place.
 //
-// `oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
-Int time_block(const Truck& truck, View<Stop, 1> stops, Int length, View<Sortie, 1> sorties,
-               Int count, Int first, Int oldest, Int time, BlockSums& sums);
+// `sums.oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
+Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties, Int first,
+               BlockSums& sums);
 
 }  // namespace tandem

@@ -96,9 +96,11 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties) {
     const Truck truck(data, route.type);
     const Int length = route.length, count = route.sorties;
+    stops = stops.first(length);
+    sorties = sorties.first(count);
     Int time = truck.type.shift_earliest, cum = 0, depart = far;
     BlockSums sums;
-    make_ready(truck, stops, sorties, count);
+    make_ready(truck, stops, sorties);
     Int p = 0, s = 0;
     while (p < length) {
         Stop& stop = stops[p];
@@ -108,7 +110,9 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
             sums.first_sortie = s;
         }
         if (s < count && sorties[s].launch == p) {
-            last = time_block(truck, stops, length, sorties, count, p, s, time, sums);
+            sums.time = time;
+            sums.oldest = s;
+            last = time_block(truck, stops, sorties, p, sums);
             if (last < 0) return false;
             while (s < count && sorties[s].launch <= last) ++s;
         } else {
