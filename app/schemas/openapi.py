@@ -30,6 +30,7 @@ EXAMPLES = {
     "permits": "Drones by a published rule, in wind by the hour",
     "choosy": "Several windows, a price of leaving out, customers who name vehicles",
     "roads": "Helsinki's centre by car: on roads if the service has any, else as the crow flies",
+    "zones": "Zones as authorities publish them: by height, by hour, one that is cleared",
     "replan": "A truck is under way: an order has come in, another was cancelled",
 }
 ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {

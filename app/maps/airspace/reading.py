@@ -32,7 +32,7 @@ def read_zones(stated: Zones) -> Reading:
             path = ("features", index)
             known = feature.properties or PlainProperties()
             if known.identifier is None and isinstance(feature, PlainFeature):
-                known = known.model_copy(update={"identifier": feature.name})
+                known = known.model_copy(update={"identifier": feature.id})
             _add_zone(known, geojson_volumes(feature, path, reading), path, reading)
     return reading
 

@@ -154,14 +154,9 @@ class PlainFeature(Published):
     """An area and what is known of it."""
 
     type: Literal["Feature"] = Field(description="Its kind.")
-    id: str | int | float | None = Field(None, description="What it is called.")
+    id: Words = Field(None, description="What it is called.")
     properties: PlainProperties | None = Field(None, description="What is known of it.")
     geometry: Geometry = Field(description="Its volumes.")
-
-    @property
-    def name(self) -> str | None:
-        """Its id as a text."""
-        return None if self.id is None else str(self.id)
 
 
 def _as_features(value: Any) -> Any:

@@ -20,7 +20,8 @@ UNLIMITED = 99_999.0
 """From this on a limit stands for none."""
 
 Text = Annotated[str, Field(max_length=10_000)]
-Corner = Annotated[list[float], Field(min_length=2, max_length=10, strict=True)]
+Corner = Annotated[list[Annotated[float, Field(strict=True)]],
+                   Field(min_length=2, max_length=10)]
 """Longitude and latitude, and what may follow, which is not looked at."""
 
 Ring = Annotated[list[Corner], Field(min_length=3, max_length=MAX_RING, fail_fast=True)]
@@ -89,7 +90,13 @@ Words = Annotated[Text | None, BeforeValidator(
     | None)]
 """A text, which may stand in one language or several."""
 
-Number = Annotated[float, BeforeValidator(lambda value: value, json_schema_input_type=float | str)]
+
+def _not_truth(value: Any) -> Any:
+    """Return a value; of true and false, which are no numbers, what isn't taken for one."""
+    return [] if isinstance(value, bool) else value
+
+
+Number = Annotated[float, BeforeValidator(_not_truth, json_schema_input_type=float | str)]
 """A number, which may stand in quotes."""
 
 
