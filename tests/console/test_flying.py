@@ -4,9 +4,9 @@ import json
 from typing import Any
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
-from tests.console.steps import EXAMPLES, open_file, open_tab, planned, state
+from tests.console.steps import EXAMPLES, idle, open_file, open_tab, planned, state
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -35,5 +35,66 @@ def test_hubs_drones_and_launch_sites_are_seen(page: Page) -> None:
     panel = page.locator(".panel")
     expect(panel.locator("summary strong", has_text="quad-1 (flies)")).to_be_visible()
     expect(panel).to_contain_text(" Wh")
-    expect(page.locator(".map-legend")).to_contain_text("Flight of a drone")
+    expect(panel.get_by_role("row", name="pier for its drones")).to_be_visible()
+    legend = page.locator(".map-legend")
+    expect(legend).to_contain_text("Flight of a drone")
+    expect(legend).to_contain_text("Launch site")
+    marks = page.locator(".site-mark")
+    expect(marks).to_have_text(["pier", "car park"])
     assert findings(page, ".panel") == []
+
+
+def middle(mark: Locator) -> tuple[float, float]:
+    """Return where on the screen the middle of a mark is."""
+    box = mark.locator("span").bounding_box()
+    assert box is not None
+    return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+
+def test_launch_sites_are_drawn_moved_and_erased(page: Page) -> None:
+    request = hub_and_site()
+    request["launch_sites"].pop()
+    open_file(page, "hub.json", json.dumps(request))
+    idle(page)
+    page.get_by_role("button", name="Draw", exact=True).click()
+    tools = page.get_by_role("group", name="Drawing tools")
+    marks = page.locator(".site-mark")
+    pier = middle(marks.first)
+    tools.get_by_role("button", name="Launch site").click()
+    page.mouse.click(pier[0] + 150, pier[1] + 30)
+    expect(marks).to_have_text(["pier", "site-2"])
+    tools.get_by_role("button", name="Move").click()
+    drawn = state(page, "state.request.launch_sites.1.location")
+    page.mouse.move(*middle(marks.nth(1)))
+    page.mouse.down()
+    page.mouse.move(pier[0] + 200, pier[1] + 60, steps=4)
+    page.mouse.up()
+    moved = state(page, "state.request.launch_sites.1.location")
+    assert moved[0] > drawn[0]
+    assert moved[1] < drawn[1]
+    assert state(page, "state.request.launch_sites.0.location") == [1, 7]
+    tools.get_by_role("button", name="Erase").click()
+    page.mouse.click(*middle(marks.nth(1)))
+    expect(marks).to_have_text(["pier"])
+
+
+def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:
+    open_file(page, "hub.json", json.dumps(hub_and_site()))
+    idle(page)
+    open_tab(page, "customers")
+    page.locator("summary", has_text="Coordinates, depots and launch sites").click()
+    page.get_by_role("button", name="Add to launch sites").click()
+    page.locator("#field-launch_sites-2-id").fill("quay")
+    page.locator("#field-launch_sites-2-id").press("Enter")
+    expect(page.locator(".site-mark")).to_have_text(["pier", "car park", "quay"])
+    open_tab(page, "fleet")
+    page.locator("summary", has_text="quad").click()
+    expect(page.locator("#field-fleet-1-flies")).to_be_checked()
+    for field in ("altitude", "max_range", "max_wind_kmh", "preset", "endurance"):
+        expect(page.locator(f"#field-fleet-1-{field}")).to_be_visible()
+    page.locator("#field-fleet-1-max_range").fill("5000")
+    page.locator("#field-fleet-1-max_range").press("Enter")
+    page.locator("#field-fleet-1-flies").uncheck()
+    assert state(page, "state.request.fleet.1.max_range") == 5000
+    assert state(page, "state.request.fleet.1.flies") is False
+    expect(page.locator("#field-fleet-0-truck_waits")).to_be_visible()

@@ -265,3 +265,27 @@ test('an own trip around an area is flown and drawn around it', () => {
   assert.ok(there.line.length > 2);
   assert.deepEqual(there.drawn, there.line);
 });
+
+test('a stop at a launch site is told as one, with its own window', () => {
+  const request = {
+    ...REQUEST,
+    launch_sites: [{ id: 'pier', location: [5, 5], time_window: { latest: 80 } }],
+  };
+  const [first, , last] = PLAN.routes[0].trips[0].stops;
+  const stops = [
+    first,
+    stop('launch_site', 'pier', 20, 30, 60, [0]),
+    stop('launch_site', '=A', 70, 70, 70, [0]),
+    last,
+  ];
+  const trip = { ...PLAN.routes[0].trips[0], stops };
+  const plan = { ...PLAN, routes: [{ ...PLAN.routes[0], trips: [trip] }] };
+  const told = indexPlan(request, plan);
+  const [, pier, back] = told.vehicles[0].trips[0].stops;
+  assert.deepEqual([pier.location, pier.window], [[5, 5], { latest: 80 }]);
+  assert.deepEqual([back.location, back.window], [[10, 0], null]);
+  assert.equal(describe(request, told, pier.key).title, 'Launch site pier');
+  const { features } = geoJson(told, flownLines(request));
+  assert.ok(features.some(({ properties }) => properties.kind === 'launch_site'));
+  assert.ok(toSvg(pictureOf(told, flightLines(request))).includes('pier'));
+});

@@ -683,6 +683,7 @@ export default {
       'oder eine Fahrt.',
     rates: 'Auslastung und Arbeitszeit',
     energy: '{{energy}} Wh',
+    site: 'für seine Drohnen',
     trip: 'Fahrt',
     loadRate: 'Auslastung',
     workingRate: 'Arbeitszeitanteil',
@@ -1682,7 +1683,7 @@ export default {
     doubtful: 'Der Ort ist zweifelhaft',
     select: 'Wählen Sie hier oder auf der Karte einen Kunden, um ihn zu ändern.',
     remove: 'Diesen Kunden entfernen',
-    places: 'Koordinaten und Depots',
+    places: 'Koordinaten, Depots und Startplätze',
     depots_one: '{{count}} Depot',
     depots_other: '{{count}} Depots',
     removeDepot: 'Dieses Depot entfernen',
@@ -1945,6 +1946,7 @@ export default {
     flight: 'Flug einer Drohne',
     byTruck: 'Vom Fahrzeug bedient',
     byDrone: 'Von der Drohne bedient',
+    site: 'Startplatz',
     unassigned: 'Nicht eingeplant',
     isNew: 'Neu, noch nicht geplant',
     customer: 'Kunde',
@@ -1957,6 +1959,7 @@ export default {
     name: {
       customer: 'Kunde',
       depot: 'Depot',
+      site: 'Startplatz',
       window: 'Zeitfenster',
       windowArea: 'Zeitfenster im Gebiet',
       area: 'Flugverbotszone',
@@ -1970,6 +1973,7 @@ export default {
     hint: {
       customer: 'Klicken Sie, wo Kunden sind.',
       depot: 'Klicken Sie, wo das Depot ist.',
+      site: 'Klicken Sie, wo Fahrzeuge für ihre Drohnen halten dürfen.',
       window: 'Klicken Sie Kunden an, um ihnen dieses Zeitfenster zu geben.',
       windowArea: 'Klicken Sie zwei Ecken an: Kunden dazwischen bekommen dieses Zeitfenster.',
       area: 'Klicken Sie die Ecken an, die erste noch einmal zum Schließen.',
@@ -1977,12 +1981,12 @@ export default {
         'Klicken Sie, wo jemand bedient werden soll, oder einen Kunden an: die drei ' +
         'besten Plätze mit Kosten.',
       change:
-        'Ziehen Sie Kunden, mit dem Finger am Griff des gewählten, und Ecken von ' +
+        'Ziehen Sie Kunden, mit dem Finger am Griff des gewählten, Startplätze und Ecken von ' +
         'Flugverbotszonen.',
       place: 'Klicken Sie, wo der gewählte Kunde ist.',
       order: 'Klicken Sie dorthin, wohin der neue Auftrag geht.',
       pin: 'Klicken Sie Kunden an, um sie bei ihren Fahrzeugen zu halten.',
-      erase: 'Klicken Sie Kunden oder Flugverbotszonen an, um sie zu entfernen.',
+      erase: 'Klicken Sie Kunden, Startplätze oder Flugverbotszonen an, um sie zu entfernen.',
     },
   },
   draw: {

@@ -667,6 +667,7 @@ export default {
     select: 'Select a stop, flight or trip here, on the map or in the timeline.',
     rates: 'Load rate and working rate',
     energy: '{{energy}} Wh',
+    site: 'for its drones',
     trip: 'Trip',
     loadRate: 'Load rate',
     workingRate: 'Working rate',
@@ -1633,7 +1634,7 @@ export default {
     doubtful: 'Its place is doubtful',
     select: 'Select a customer, here or on the map, to change it.',
     remove: 'Remove this customer',
-    places: 'Coordinates and depots',
+    places: 'Coordinates, depots and launch sites',
     depots_one: '{{count}} depot',
     depots_other: '{{count}} depots',
     removeDepot: 'Remove this depot',
@@ -1890,6 +1891,7 @@ export default {
     flight: 'Flight of a drone',
     byTruck: 'Served by truck',
     byDrone: 'Served by drone',
+    site: 'Launch site',
     unassigned: 'Unassigned',
     isNew: 'New, not planned yet',
     customer: 'Customer',
@@ -1902,6 +1904,7 @@ export default {
     name: {
       customer: 'Customer',
       depot: 'Depot',
+      site: 'Launch site',
       window: 'Window',
       windowArea: 'Windows in an area',
       area: 'No-fly area',
@@ -1915,17 +1918,19 @@ export default {
     hint: {
       customer: 'Click where customers are.',
       depot: 'Click where the depot is.',
+      site: 'Click where trucks may stop for their drones.',
       window: 'Click customers to give them this window.',
       windowArea: 'Click two corners: customers between get this window.',
       area: 'Click the corners, the first again to close.',
       fit:
         'Click where somebody is to be served, or a customer: the three best places, with costs.',
       change:
-        'Drag customers, by a finger their handle once selected, and corners of no-fly areas.',
+        'Drag customers, by a finger their handle once selected, launch sites, and corners of ' +
+        'no-fly areas.',
       place: 'Click where the selected customer is.',
       order: 'Click where the new order goes.',
       pin: 'Click customers to keep them with their vehicles.',
-      erase: 'Click customers or no-fly areas to remove them.',
+      erase: 'Click customers, launch sites or no-fly areas to remove them.',
     },
   },
   draw: {

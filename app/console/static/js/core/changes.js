@@ -47,6 +47,24 @@ export function addDepot(request, location) {
   return { ...request, depots: [...request.depots, depot] };
 }
 
+/** Add a launch site. */
+export function addSite(request, location) {
+  const sites = request.launch_sites ?? [];
+  const site = { id: freeName(sites, 'site'), location: rounded(request, location) };
+  return { ...request, launch_sites: [...sites, site] };
+}
+
+/** Move a launch site. */
+export function moveSite(request, id, location) {
+  const position = request.launch_sites.findIndex((site) => site.id === id);
+  return setIn(request, ['launch_sites', position, 'location'], rounded(request, location));
+}
+
+/** Remove a launch site. */
+export function removeSite(request, id) {
+  return { ...request, launch_sites: request.launch_sites.filter((site) => site.id !== id) };
+}
+
 /** Give customers windows, each `{earliest, latest}`; what the old ones cost stays. */
 export function giveWindows(request, ids, windows) {
   const given = new Set(ids);

@@ -15,7 +15,7 @@ export function describe(request, index, key) {
   if (key[0] === 'l') return describeLeg(request, index, key);
   if (key[0] === 'v') return describeVehicle(index, key);
   const halt = index?.halts.get(key);
-  if (key[0] === 'd') return halt ? { title: halt.id, facts: haltFacts(halt) } : null;
+  if (key[0] === 'd') return halt ? { title: titleOf(halt), facts: haltFacts(halt) } : null;
   const customer = request.customers.find(({ id }) => id === key.slice(2)) ?? halt?.source;
   if (!customer) return null;
   return {
@@ -23,6 +23,10 @@ export function describe(request, index, key) {
     facts: [...customerFacts(customer), ...servedFacts(index, halt, key)],
     late: halt?.lateness > 0,
   };
+}
+
+function titleOf({ kind, id }) {
+  return kind === 'launch_site' ? t('where.launchSite', { id }) : id;
 }
 
 function customerFacts(customer) {

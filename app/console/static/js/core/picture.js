@@ -61,8 +61,10 @@ function mapShapes(index, legsOf) {
       vehicle.trips.flatMap((trip) => tripShapes(trip, legsOf, at)),
     ),
     ...request.customers.flatMap((customer) => customerShapes(index, customer, at)),
-    ...[...request.depots, ...standsOf(request)].filter(placeOf).flatMap(({ id, location }) => [
-      { kind: 'box', at: move(at(location), -6, -6), size: [12, 12], colour: INK },
+    ...[...request.depots, ...standsOf(request)].filter(placeOf).flatMap(({ kind, id, location }) => [
+      kind === 'launch_site'
+        ? { kind: 'circle', at: at(location), radius: 6, colour: INK, fill: '#ffffff' }
+        : { kind: 'box', at: move(at(location), -6, -6), size: [12, 12], colour: INK },
       { kind: 'text', at: move(at(location), 9, 4), text: id, size: 12, colour: INK },
     ]),
   ];

@@ -177,13 +177,18 @@ function haltOf(key, reply, trip, source) {
     vehicle: trip.vehicle,
     source,
     location: placeOf(source ?? {}),
-    window: windowAt(source, reply.service_start),
+    window: isOfItsOwn(reply, source) ? windowAt(source, reply.service_start) : null,
     arrival: reply.arrival,
     serviceStart: reply.service_start,
     setup: reply.setup ?? 0,
     departure: reply.departure,
     lateness: reply.lateness,
   };
+}
+
+/** Tell whether a stop keeps the window of its place, as one of a truck that comes back doesn't. */
+function isOfItsOwn({ kind }, source) {
+  return kind !== 'launch_site' || source?.kind === 'launch_site';
 }
 
 function remember(index, halt) {

@@ -1,6 +1,7 @@
 /** What is assumed of a part of the fleet when it is added, for a person to correct. */
 
 import { amounts, duration } from './format.js';
+import { placeOf } from './places.js';
 import { t } from '../texts.js';
 
 /** Which of the orders a drone is assumed to carry: the lightest quarter, per dimension. */
@@ -21,13 +22,16 @@ export function assumedDrones({ customers = [], fleet = [] }) {
 
 /** Return what a field of the fleet begins with when it is added, undefined for nothing known. */
 export function presetOf(name, request) {
-  return name === 'drones' ? assumedDrones(request) : undefined;
+  if (name === 'drones') return assumedDrones(request);
+  const [depot] = request.depots ?? [];
+  return name === 'launch_sites' && placeOf(depot) ? { location: placeOf(depot) } : undefined;
 }
 
 /** Return what is assumed, in words, as long as nothing of it was corrected; else an empty text. */
 export function assumptionIn(name, request, value) {
-  const assumed = presetOf(name, request);
-  if (!assumed || JSON.stringify(assumed) !== JSON.stringify(value)) return '';
+  if (name !== 'drones') return '';
+  const assumed = assumedDrones(request);
+  if ( JSON.stringify(assumed) !== JSON.stringify(value)) return '';
   return t('form.assumed', {
     amounts: amounts(assumed.capacity),
     endurance: duration(assumed.endurance),

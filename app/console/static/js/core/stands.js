@@ -7,7 +7,7 @@
 export function standsOf(request) {
   const sites = (request.launch_sites ?? [])
     .filter(({ location }) => Array.isArray(location))
-    .map(({ id, location }) => ({ kind: 'launch_site', id, location }));
+    .map(({ id, location, time_window }) => ({ kind: 'launch_site', id, location, time_window }));
   const stands = (request.fleet ?? []).flatMap(({ id, start_location: start, end }) => [
     ...(Array.isArray(start) ? [{ kind: 'start', id, location: start }] : []),
     ...(Array.isArray(end?.location) ? [{ kind: 'end', id, location: end.location }] : []),

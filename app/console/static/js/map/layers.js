@@ -6,7 +6,6 @@ import { tripDash, vehicleColour } from '../core/palette.js';
 import { isByAir, partsOf } from '../core/plan.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
-import { standsOf } from '../core/stands.js';
 import { zoneAreas } from '../core/zones.js';
 import { leaflet } from '../libraries.js';
 import { Cross, Disc } from './marks.js';
@@ -155,16 +154,16 @@ function customerStyle(index, customer, parts, dark, radius) {
   return [Disc, { ...plain, color: ground, fillColor: colour }];
 }
 
-/** Return the marks of depots, and of where vehicles start and end elsewhere. */
-export function depotMarks(request) {
-  return [...request.depots, ...standsOf(request)]
+/** Return the marks of some depots, starts, ends and launch sites. */
+export function placeMarks(places) {
+  return places
     .filter(placeOf)
     .map((depot) =>
       L.marker(latLng(depot.location), {
         interactive: false,
         keyboard: false,
         zIndexOffset: 500,
-        icon: labelIcon('depot-mark', depot.id),
+        icon: labelIcon(depot.kind === 'launch_site' ? 'site-mark' : 'depot-mark', depot.id),
       }),
     );
 }

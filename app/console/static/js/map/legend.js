@@ -40,6 +40,7 @@ function entriesOf(request, index, parts) {
     [flies, 'flight', 'flight'],
     [drives, 'truck', 'byTruck'],
     [flies, 'drone', 'byDrone'],
+    [request.launch_sites?.length > 0, 'site', 'site'],
     [index?.plan.unassigned.length > 0, 'out', 'unassigned'],
     [isNew, 'new', 'isNew'],
     [!index && request.customers.length > 0, 'new', 'customer'],
@@ -58,6 +59,7 @@ const SIGNS = {
     stroke-linecap="round" />`,
   truck: html`<circle class="filled" cx="13" cy="7" r="4.5" />`,
   drone: html`<circle class="ink" cx="13" cy="7" r="4" stroke-width="2.2" />`,
+  site: html`<rect class="ink" x="5" y="2" width="16" height="10" rx="5" stroke-width="1.5" />`,
   out: html`<path class="red" d="M9 3L17 11M17 3L9 11" stroke-width="3" />`,
   new: html`<circle class="grey" cx="13" cy="7" r="4.5" />`,
   settled: html`<path class="ink" d="M1 7H25" stroke-width="2" stroke-dasharray="1 5"

@@ -1,7 +1,7 @@
 /** A customer's own place is changed by dragging. */
 
 import { edit, select } from '../actions.js';
-import { moveCustomer } from '../core/changes.js';
+import { moveCustomer, moveSite } from '../core/changes.js';
 import { leaflet } from '../libraries.js';
 
 const L = leaflet();
@@ -11,7 +11,12 @@ export const LEAST_DRAG = 6;
 
 /** Return what follows a drag by which a customer gets another place. */
 export function placeDrag(view, id) {
-  const marks = view.marksOf(`c:${id}`);
+  const drop = (place) => edit((request) => moveCustomer(request, id, place));
+  return marksDrag(view, view.marksOf(`c:${id}`), drop);
+}
+
+/** Return what follows a drag of marks; `drop` is told where they end. */
+function marksDrag(view, marks, drop) {
   const former = marks.map((mark) => mark.getLatLng());
   let last = null;
   return {
@@ -19,17 +24,27 @@ export function placeDrag(view, id) {
       last = view.map.containerPointToLatLng(point);
       marks.forEach((mark) => mark.setLatLng(last));
     },
-    drop: () => edit((request) => moveCustomer(request, id, [last.lng, last.lat])),
+    drop: () => drop([last.lng, last.lat]),
     clear: () => marks.forEach((mark, index) => mark.setLatLng(former[index])),
   };
 }
 
 /** Let a customer whose mark is pressed be dragged with the mouse. */
 export function pressPlace(view, id, { originalEvent }) {
+  press(view, placeDrag(view, id), originalEvent, () => select(`c:${id}`));
+}
+
+/** Let a launch site whose mark is pressed be dragged with the mouse. */
+export function pressSite(view, { id, mark }, event) {
+  const drop = (place) => edit((request) => moveSite(request, id, place));
+  press(view, marksDrag(view, [mark], drop), event);
+}
+
+/** Let the work of a drag follow the mouse until its button is let go. */
+function press(view, work, originalEvent, onDrop = () => {}) {
   const { map } = view;
   const pointOf = (event) => map.mouseEventToContainerPoint(event);
   const from = pointOf(originalEvent);
-  const work = placeDrag(view, id);
   const ending = new AbortController();
   let isDrag = false;
   const move = (event) => {
@@ -43,7 +58,7 @@ export function pressPlace(view, id, { originalEvent }) {
     work.clear();
     if (!isDrag) return;
     work.drop();
-    select(`c:${id}`);
+    onDrop();
   };
   map.dragging.disable();
   document.addEventListener('mousemove', move, { signal: ending.signal });

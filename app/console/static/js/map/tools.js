@@ -5,9 +5,11 @@ import { placeSelected } from '../addressing.js';
 import {
   addCustomer,
   addDepot,
+  addSite,
   customersWithin,
   eraseAreasAt,
   giveWindows,
+  removeSite,
   rounded,
   setArea,
 } from '../core/changes.js';
@@ -17,12 +19,13 @@ import { choicesOf, setPinned } from '../core/replanning.js';
 import { drawing } from '../libraries.js';
 import { cancelOrders, noteOrder } from '../ordering.js';
 import { store } from '../store.js';
-import { pressPlace } from './place-drag.js';
+import { pressPlace, pressSite } from './place-drag.js';
 
 /** What can be drawn, in the order of the buttons. */
 export const TOOLS = [
   'customer',
   'depot',
+  'site',
   'window',
   'windowArea',
   'area',
@@ -35,7 +38,7 @@ export const TOOLS = [
 ];
 
 /** Tools for which it doesn't matter what is on the map already. */
-const ON_GROUND = new Set(['customer', 'depot', 'windowArea', 'area', 'place', 'order']);
+const ON_GROUND = new Set(['customer', 'depot', 'site', 'windowArea', 'area', 'place', 'order']);
 
 const isCustomer = (key) => key?.startsWith('c:');
 const idOf = (key) => key.slice(2);
@@ -84,6 +87,9 @@ const BEGIN = {
   depot(view) {
     view.onGround = (point) => edit((request) => addDepot(request, point));
   },
+  site(view) {
+    view.onGround = (point) => edit((request) => addSite(request, point));
+  },
   window(view) {
     view.onSelect = (key) => isCustomer(key) && edit((request) => paint(request, [idOf(key)]));
   },
@@ -103,7 +109,8 @@ const BEGIN = {
   change(view) {
     view.onGround = () => {}; // The click that ends a drag selects nothing else.
     view.onPress = (key, event) => isCustomer(key) && pressPlace(view, idOf(key), event);
-    return changeAreas(view);
+    const ends = [changeAreas(view), changeSites(view)];
+    return () => ends.forEach((end) => end());
   },
   place(view) {
     view.onGround = (point) => {
@@ -129,7 +136,10 @@ const BEGIN = {
       isCustomer(key)
         ? cancelOrders([idOf(key)])
         : view.onGround(point);
-    view.onGround = (point) => edit((request) => eraseAreasAt(request, point));
+    view.onGround = (point) => {
+      const site = siteAt(view, point);
+      edit((request) => (site ? removeSite(request, site.id) : eraseAreasAt(request, point)));
+    };
   },
 };
 
@@ -166,6 +176,37 @@ function drawShape(view, shape, onShape) {
     ended = true;
     view.map.off('pm:create', create);
     view.map.pm?.disableDraw();
+  };
+}
+
+/** Return the launch site whose mark is at a point of the ground. */
+function siteAt({ map, sites }, [lng, lat]) {
+  const point = map.latLngToContainerPoint({ lng, lat });
+  const { left, top } = map.getContainer().getBoundingClientRect();
+  return sites.find(({ mark }) => {
+    const box = mark.getElement().firstElementChild.getBoundingClientRect();
+    const [x, y] = [point.x + left, point.y + top];
+    return x >= box.left && x <= box.right && y >= box.top && y <= box.bottom;
+  });
+}
+
+/** Let launch sites be dragged; returns a function that ends it. */
+function changeSites(view) {
+  const ending = new AbortController();
+  const take = () =>
+    view.sites.forEach((site) => {
+      const element = site.mark.getElement();
+      element.classList.add('movable');
+      element.addEventListener('mousedown', (event) => pressSite(view, site, event),
+        { signal: ending.signal });
+    });
+  // Marks are drawn anew with each edit.
+  view.map.on('drawn', take);
+  take();
+  return () => {
+    ending.abort();
+    view.map.off('drawn', take);
+    view.sites.forEach(({ mark }) => mark.getElement().classList.remove('movable'));
   };
 }
 

@@ -7,7 +7,6 @@ import { standsOf } from '../core/stands.js';
 import { leaflet } from '../libraries.js';
 import {
   customerMarks,
-  depotMarks,
   doubtMarks,
   labelIcon,
   latLng,
@@ -16,6 +15,7 @@ import {
   noFlyShapes,
   zoneShapes,
   pinMarks,
+  placeMarks,
   planLines,
   stopNumbers,
   tripLabels,
@@ -140,7 +140,12 @@ export class MapView {
     this.byKey = new Map();
     this.touched = [];
     this.entries.forEach((entry) => this.#add(entry));
-    depotMarks(request).forEach((mark) => this.labels.addLayer(mark));
+    const stands = standsOf(request);
+    const sites = stands.filter(({ kind }) => kind === 'launch_site');
+    const others = stands.filter(({ kind }) => kind !== 'launch_site');
+    placeMarks([...request.depots, ...others]).forEach((mark) => this.labels.addLayer(mark));
+    this.sites = placeMarks(sites).map((mark, at) => ({ id: sites[at].id, mark }));
+    this.sites.forEach(({ mark }) => this.labels.addLayer(mark));
     pinMarks(request).forEach((mark) => this.labels.addLayer(mark));
     doubtMarks(request, doubts).forEach((mark) => this.labels.addLayer(mark));
     if (index) tripLabels(index, dark).forEach((mark) => this.labels.addLayer(mark));

@@ -278,7 +278,8 @@ function ListField({ name, schema, keys, request, onChange, nullable, errors, ch
   const values = getIn(request, keys) ?? [];
   const add = () => {
     const preset = presetOf(name, request);
-    const entry = preset && { id: freeName(values, 'drone'), ...preset };
+    const stem = name === 'launch_sites' ? 'site' : 'drone';
+    const entry = preset && { id: freeName(values, stem), ...preset };
     onChange(setIn(request, keys, [...values, entry ?? blank(schemas, schema.items)]));
   };
   const remove = (index) => {
