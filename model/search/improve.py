@@ -14,6 +14,7 @@ from model.engine.instance import Instance
 from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
+from model.search.beginning.packing import packed_anew
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
@@ -259,9 +260,9 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
 
     node = numbering.node.tolist()
 
-    def best() -> Solution:
-        routes = renumbered_routes(read_routes(data, whole), node.__getitem__)
-        return Solution(tuple(routes), tuple(sorted(node[each] for each in left_out(whole))))
+    def best(searcher: Searcher = whole) -> Solution:
+        routes = renumbered_routes(read_routes(data, searcher), node.__getitem__)
+        return Solution(tuple(routes), tuple(sorted(node[each] for each in left_out(searcher))))
 
     def after_round(turns: int) -> None:
         limits.reading = task.reading(*_size(whole))
@@ -270,7 +271,10 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     crew = Crew(data, problem.coordinates[numbering.node], whole, seeds[1:])
     with ThreadPoolExecutor(config.threads) as pool, suppress(EndedError):
         _search(_Team(whole, workers, limits, pool, after_round), data, crew, seeds[1:])
-    return Improved(best(), float(whole.value.best), first_cost,
+    found = whole
+    with suppress(EndedError):
+        found = packed_anew(problem, data, whole, node)
+    return Improved(best(found), float(found.value.best), first_cost,
                     sum(worker.turns for worker in workers), not task.alarm.has_rung)
 
 

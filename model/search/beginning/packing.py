@@ -2,8 +2,13 @@
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from model.problem import Problem, VehicleType
-from model.solution import Route, Stop, Trip
+from model.search.beginning.translate import left_out, make_searcher, read_routes
+from model.search.route.layout import ProblemData
+from model.search.route.state import Searcher
+from model.solution import Route, Solution, Stop, Trip
 
 LONG_AGO = -1
 
@@ -38,6 +43,28 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
             back[chosen] = end + max(kind.reload_duration, timing.charging(airborne))
     return [Route(k, number, tuple([_trip(kind, each) for each in route]))
             for number, route in enumerate(made) if route]
+
+
+def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
+                nodes: Sequence[int]) -> Searcher:
+    """Return a search's best plan with the trips of who flies packed anew, if that costs less.
+
+    Else the search as it is. No move of a search empties a vehicle of many trips. `nodes` are the
+    problem's by the search's numbers.
+    """
+    packed = {k for k, kind in enumerate(problem.vehicle_types)
+              if kind.flies and kind.max_trips > 1}
+    if not packed:
+        return searcher
+    made = list(read_routes(data, searcher))
+    routes = [route for route in made if route.vehicle_type not in packed]
+    for k in sorted(packed):
+        trips = [[stop.node for stop in trip.stops[1:-1]]
+                 for route in made if route.vehicle_type == k for trip in route.trips]
+        routes += packed_routes(problem, k, trips, nodes)
+    found = make_searcher(problem, data, Solution(tuple(routes), left_out(searcher)),
+                          np.random.SeedSequence(0))
+    return found if found.value.best < searcher.value.best else searcher
 
 
 def _is_better(free: int, other: int, ready: int) -> bool:

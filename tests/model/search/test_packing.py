@@ -86,6 +86,21 @@ def test_packed_trips_are_in_time() -> None:
     assert broken == set()
 
 
+def test_a_search_ends_with_its_trips_on_as_few_vehicles_as_may_be() -> None:
+    rng = np.random.default_rng(2)
+    customers = [order(str(index), released, released + 30)
+                 for index, released in enumerate(rng.integers(0, 120, 16).tolist())]
+    problem = street(*customers, kind=replace(DRONE, count=8, max_trips=20))
+    apart = Solution(tuple(
+        schedule(problem, RouteDecision(0, number, (TripDecision((0, number + 1, 0)),)))
+        for number in range(8)), tuple(range(9, 17)))
+    found = improve(problem, pack([problem]), apart, SearchConfig(turns=1)).solution
+    evaluation = check(problem, found)
+    assert evaluation.violations == ()
+    assert found.unassigned == ()
+    assert len(found.routes) < 8
+
+
 def test_joined_trips_last_in_the_air_and_on_the_battery() -> None:
     """Two orders fit one trip by weight, not by what both take of the battery."""
     power = (1000, 1000)
