@@ -47,7 +47,7 @@ class _Forecast(BaseModel):
     model_config = ConfigDict(extra="ignore", strict=True, allow_inf_nan=False, frozen=True)
 
 
-WindUnit = Literal["km/h", "m/s", "mp/h", "mph", "kn"]
+WindUnit = Literal["km/h", "m/s", "mp/h", "kn"]
 _Speeds = Annotated[list[Annotated[float, Field(ge=0, le=1000)] | None],
                     Field(max_length=MAX_HOURS)]
 

@@ -14,7 +14,7 @@ from app.schemas.wind import ForecastInput, OpenMeteoInput, Wind, WindInput
 from model.problem import MAX_STORMS, UNLIMITED
 from model.travel.wind import Breeze
 
-KMH = {"km/h": 1.0, "m/s": 3.6, "mp/h": 1.609344, "mph": 1.609344, "kn": 1.852}
+KMH = {"km/h": 1.0, "m/s": 3.6, "mp/h": 1.609344, "kn": 1.852}
 """Units of speeds, in km/h."""
 
 
