@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import Locator, Page, expect
 
-from tests.console.steps import EXAMPLES, idle, open_file, open_tab, planned, state
+from tests.console.steps import EXAMPLES, idle, open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -98,3 +98,20 @@ def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:
     assert state(page, "state.request.fleet.1.max_range") == 5000
     assert state(page, "state.request.fleet.1.flies") is False
     expect(page.locator("#field-fleet-0-truck_waits")).to_be_visible()
+
+
+def test_customer_served_by_truck_tells_why_no_drone_comes(page: Page) -> None:
+    request = hub_and_site()
+    request["customers"][1] |= {"demand": [3], "served_by": "either"}
+    request["fleet"][1]["max_range"] = 3000
+    open_file(page, "hub.json", json.dumps(request))
+    planned(page, "5 of 5 served")
+    page.mouse.click(*place_of(page, "c:farm"))
+    open_tab(page, "routes")
+    page.get_by_role("button", name="Why here?").click()
+    panel = page.locator(".panel")
+    expect(panel.get_by_role("heading", name="Why no drone here")).to_be_visible()
+    why = panel.locator("li", has_text="quad-1: ")
+    expect(why).to_contain_text("exceeds 2")
+    expect(why).to_contain_text("at most 3000 m are allowed")
+    assert findings(page, ".panel") == []

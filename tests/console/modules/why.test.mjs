@@ -5,6 +5,7 @@ import {
   bindingInWords,
   countWorth,
   drones,
+  noDroneInWords,
 } from '../../../app/console/static/js/core/why.js';
 
 const cost = (total, terms = {}) => ({ total, fixed: 0, distance: total, ...terms });
@@ -82,4 +83,59 @@ test('sorties that save nothing are counted apart from those that were not tried
     { tried: true, saves: -1 }, { tried: true, saves: 3 }, { tried: true, saves: null },
     { tried: false, saves: null },
   ]), { useless: 1, needed: 1, untried: 1 });
+});
+
+const FLEET = [
+  { id: 'van', drones: { count: 1, capacity: [1] } },
+  { id: 'quad', flies: true, max_wind_kmh: 30 },
+];
+const bySortie = { by: 'drone', position: position('B', { recovered_at: 'C' }) };
+
+test('a vehicle that flies comes as itself, not as a drone of its own', () => {
+  const [row] = alternativeRows([item('vehicle', { vehicle: 'quad-1', by: 'drone' })], {});
+  assert.deepEqual([row.what, row.where], ['By quad-1', 'after A, 8:05']);
+});
+
+test('why no drone comes is told by zone, by drone, and by the wind that cuts its shift', () => {
+  const range = { code: 'MAX_RANGE', message: 'customer A lies 2000 m from its launch' };
+  const told = {
+    here: { by: 'truck' },
+    zones: ['the zone EDR-4.'],
+    alternatives: [
+      item('place', {}),
+      item('by', { ...bySortie, feasible: false, reasons: [range] }),
+      item('vehicle', { vehicle: 'quad-1', by: 'drone', feasible: false, reasons: [range] }),
+    ],
+  };
+  const windy = { fleet: FLEET, airspace: { wind: [] } };
+  assert.deepEqual(noDroneInWords(told, windy, { served_by: 'truck' }), [
+    'It is to be served by truck.',
+    'No drone lands in the zone EDR-4.',
+    'a drone of truck-1: customer A lies 2000 m from its launch',
+    'quad-1: customer A lies 2000 m from its launch',
+    'quad flies only in the longest time without gusts above 30 km/h.',
+  ]);
+  const may = { ...told, zones: [], alternatives: [item('by', bySortie)] };
+  assert.deepEqual(noDroneInWords(may, windy, {}), ['a drone of truck-1: may come, for +12.40.']);
+});
+
+test('who is left out is told what drones alone are held by; who is flown to, nothing', () => {
+  const told = {
+    here: null,
+    alternatives: [],
+    reasons: [
+      { vehicle_type: 'van', code: 'SHIFT', message: 'too late' },
+      { vehicle_type: 'van', code: 'AIRSPACE', message: 'It lies in the zone EDR-4.' },
+      { vehicle_type: 'quad', code: 'SHIFT', message: 'too late' },
+    ],
+  };
+  const request = { fleet: FLEET };
+  assert.deepEqual(noDroneInWords(told, request, {}), [
+    'van: It lies in the zone EDR-4.',
+    'quad: too late',
+  ]);
+  assert.deepEqual(noDroneInWords({ here: { by: 'drone' }, alternatives: [] }, request, {}), []);
+  assert.deepEqual(noDroneInWords(told, { fleet: [{ id: 'van' }] }, {}), []);
+  const untried = { here: null, alternatives: [] };
+  assert.equal(noDroneInWords(untried, request, {}).length, 1);
 });

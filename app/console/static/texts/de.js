@@ -549,6 +549,15 @@ export default {
     pickups: 'Die Reihenfolge der Abholungen',
   },
   why: {
+    noDrone: {
+      title: 'Warum hier keine Drohne',
+      byTruck: 'Ein Fahrzeug am Boden soll ihn bedienen.',
+      zone: 'Hier landet keine Drohne: {{zone}}',
+      each: '{{who}}: {{why}}',
+      costs: 'kann kommen, für {{sum}}.',
+      calm: '{{who}} fliegt nur in der längsten Zeit ohne Böen über {{most}} km/h.',
+      untried: 'In der Zeit, die da war, fand sich kein Flug dorthin.',
+    },
     notAtAll: 'Gar nicht',
     elsewhere: 'An anderer Stelle mit {{who}}',
     only: 'Nur {{window}}, mit {{who}}',

@@ -535,6 +535,15 @@ export default {
     pickups: 'The order of pickups',
   },
   why: {
+    noDrone: {
+      title: 'Why no drone here',
+      byTruck: 'It is to be served by truck.',
+      zone: 'No drone lands in {{zone}}',
+      each: '{{who}}: {{why}}',
+      costs: 'may come, for {{sum}}.',
+      calm: '{{who}} flies only in the longest time without gusts above {{most}} km/h.',
+      untried: 'No flight there was found in the time there was.',
+    },
     notAtAll: 'Not at all',
     elsewhere: 'Elsewhere with {{who}}',
     only: 'Only {{window}}, by {{who}}',

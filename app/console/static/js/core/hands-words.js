@@ -16,9 +16,9 @@ export function moveInWords(index, id, place) {
 }
 
 /** Return who serves a customer at a place that the service found, and where in its work. */
-export function placeInWords({ vehicle, by, position, service_start: start }) {
+export function placeInWords({ vehicle, position, service_start: start }) {
   const at = clock(start);
-  if (by === 'drone') {
+  if (position.recovered_at) {
     const own = position.own_trip ? `${t('place.ownTrip')}, ` : '';
     const flight = { from: position.after, back: position.recovered_at, at };
     return [t('place.drone', { vehicle }), own + t('place.flight', flight)];

@@ -1,5 +1,6 @@
 /** Why a customer is served where it is, in words: what else there is, and what binds. */
 
+import { droneCount } from './drones.js';
 import { clock, money, number, signed, timeWindow } from './format.js';
 import { saidOf } from './said.js';
 import { costTerms } from './terms.js';
@@ -30,6 +31,19 @@ const ITS_OWN = [
   'goods',
 ];
 
+/** Rules by which drones alone are held. */
+const OF_DRONES = new Set([
+  'AIRSPACE',
+  'PAYLOAD',
+  'ENDURANCE',
+  'ENERGY',
+  'BATTERIES',
+  'WIND',
+  'MAX_RANGE',
+  'LAUNCH',
+  'SERVED_BY',
+]);
+
 /** Return the rows of a table: `{key, what, where, cost, terms, feasible, reasons}`. */
 export function alternativeRows(alternatives, customer) {
   return alternatives.map((item, position) => ({
@@ -46,9 +60,20 @@ export function alternativeRows(alternatives, customer) {
   }));
 }
 
-function whatInWords({ kind, vehicle, by, window }, customer) {
+/** Tell whether it is a truck's drone that comes; vehicles that fly by themselves come as such. */
+export function isOnSortie({ position }) {
+  return Boolean(position?.recovered_at);
+}
+
+function whoseOf(item) {
+  const { vehicle } = item;
+  return isOnSortie(item) ? t('place.drone', { vehicle }) : vehicle;
+}
+
+function whatInWords(item, customer) {
+  const { kind, by, window } = item;
   if (kind === 'unassigned') return t('why.notAtAll');
-  const who = by === 'drone' ? t('place.drone', { vehicle }) : vehicle;
+  const who = whoseOf(item);
   if (kind === 'place') return t('why.elsewhere', { who });
   if (kind === 'window') {
     return t('why.only', { window: timeWindow(windowsOf(customer)[window]), who });
@@ -56,16 +81,59 @@ function whatInWords({ kind, vehicle, by, window }, customer) {
   return kind === 'by' && by === 'truck' ? t('why.byTruck', { who }) : t('why.by', { who });
 }
 
-function whereInWords({ position, by, service_start: start }) {
+function whereInWords(item) {
+  const { position, service_start: start } = item;
   if (!position) return '';
   const at = clock(start);
-  if (by === 'drone') {
+  if (isOnSortie(item)) {
     return t('place.flight', { from: position.after, back: position.recovered_at, at });
   }
   const where = position.own_trip
     ? t('place.onOwnTrip')
     : t('place.after', { stop: position.after });
   return `${where}, ${at}`;
+}
+
+/**
+ * Return why no drone serves a customer, as sentences; empty where one does, or none could.
+ *
+ * @param told what was told of the customer
+ * @param request in which customer and vehicles stand
+ */
+export function noDroneInWords({ here, zones = [], alternatives, reasons = [] }, request, customer) {
+  if (here?.by === 'drone' || !request.fleet.some((type) => type.flies || droneCount(type) > 0)) {
+    return [];
+  }
+  const own = customer.served_by === 'truck' ? [t('why.noDrone.byTruck')] : [];
+  const inZones = zones.map((zone) => t('why.noDrone.zone', { zone }));
+  const flown = alternatives.filter(({ by }) => by === 'drone');
+  const told = flown.map((item) => t('why.noDrone.each', {
+    who: whoseOf(item),
+    why: item.feasible
+      ? t('why.noDrone.costs', { sum: signed(item.cost.total, money) })
+      : item.reasons.map(saidOf).join('; '),
+  }));
+  const left = reasons
+    .filter(({ vehicle_type: id, code }) => isOfDrones(request, id, code))
+    .map((reason) => t('why.noDrone.each', { who: reason.vehicle_type, why: saidOf(reason) }));
+  const found = [...new Set([...own, ...inZones, ...left, ...told])];
+  if (!found.length) return [t('why.noDrone.untried')];
+  const hindered = new Set(flown.filter((item) => !item.feasible).map(({ vehicle }) => vehicle));
+  return [...found, ...calmHours(request, hindered)];
+}
+
+/** Tell whether a reason why a customer is left out is one of what flies. */
+function isOfDrones({ fleet }, id, code) {
+  return fleet.some((type) => type.id === id && (type.flies || OF_DRONES.has(code)));
+}
+
+/** Return what wind does to the shifts of vehicles that fly, of some by name. */
+function calmHours({ fleet, airspace }, names) {
+  if (!airspace?.wind) return [];
+  return fleet
+    .filter(({ id, flies, max_wind_kmh: most }) => flies && most != null
+      && [...names].some((name) => name.slice(0, name.lastIndexOf('-')) === id))
+    .map(({ id, max_wind_kmh: most }) => t('why.noDrone.calm', { who: id, most: number(most) }));
 }
 
 /** Return a sentence for a limit that binds, or a rule without a number. */

@@ -2,7 +2,7 @@
 
 import { shownPlan } from '../actions.js';
 import { money } from '../core/format.js';
-import { alternativeRows, bindingInWords, FIRST_SHOWN } from '../core/why.js';
+import { alternativeRows, bindingInWords, FIRST_SHOWN, noDroneInWords } from '../core/why.js';
 import { askWhy, toldOf } from '../explaining.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -19,10 +19,12 @@ export function WhyHere({ id }) {
   return html`<div class="section"><div class="buttons"><button type="button" disabled=${isAsking}
       onClick=${() => askWhy(entry, id)}>${isOut ? t('why.ask.price') : t('why.ask.here')}</button>
       <span role="status">${isAsking ? t('why.ask.asking') : ''}</span></div>
-    ${answer?.told && html`<${Told} told=${answer.told} customer=${customer} />`}</div>`;
+    ${answer?.told && html`<${Told} told=${answer.told} customer=${customer}
+      request=${entry.request} />`}</div>`;
 }
 
-function Told({ told, customer }) {
+function Told({ told, customer, request }) {
+  const noDrone = noDroneInWords(told, request, customer);
   const rows = alternativeRows(told.alternatives, customer);
   const vehicles = rows.filter(({ kind }) => kind === 'vehicle');
   const more = vehicles.slice(FIRST_SHOWN);
@@ -38,6 +40,9 @@ function Told({ told, customer }) {
       count: more.length,
     })}</summary>
       <${Alternatives} rows=${more} id=${t('why.ask.moreOf', { id: customer.id })} /></details>`}
+    ${noDrone.length > 0 && html`<h4>${t('why.noDrone.title')}</h4><ul>${noDrone.map(
+      (sentence) => html`<li key=${sentence}>${sentence}</li>`,
+    )}</ul>`}
     ${told.binding.length > 0 && html`<h4>${t('why.ask.binds')}</h4><ul>${told.binding.map(
       (limit) => html`<li key=${limit.rule + limit.at}>${bindingInWords(limit)}</li>`,
     )}</ul>`}
