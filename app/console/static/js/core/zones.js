@@ -104,7 +104,11 @@ function words(text) {
   return (english ?? text[0])?.text ?? null;
 }
 
-/** Return from where to where a volume reaches, as `0 m AGL – 120 m AGL`. */
+/**
+ * Return from where to where a volume reaches, as `0 m AGL – 120 m AGL`.
+ *
+ * @param {Record<string, any>} volume
+ */
 function reachOf({ lower, lowerReference, upper, upperReference, uom = 'm' }) {
   const limit = (value, reference) =>
     value === undefined || value === null || !reference || Math.abs(value) >= UNLIMITED
