@@ -5,6 +5,7 @@ import {
   changeDrones,
   droneCount,
   dronesOfSortie,
+  flightCount,
 } from '../../../app/console/static/js/core/drones.js';
 import { applyRemedy } from '../../../app/console/static/js/core/remedies.js';
 import { launchDurations } from '../../../app/console/static/js/core/launches.js';
@@ -73,4 +74,10 @@ test('a remedy changes the drones that it names', () => {
   assert.equal(drones('fits if endurance of large were 2 minutes longer')[1].endurance, 720);
   assert.equal(drones('fits if truck carried 1 battery of large')[1].turnaround.batteries, 1);
   assert.deepEqual(drones('fits if endurance of large were 2 minutes longer')[0], small);
+});
+
+test('trips of vehicles that fly count as flights', () => {
+  const request = { fleet: [{ id: 'van' }, { id: 'quad', flies: true }] };
+  const routes = [{ type: 'van', trips: [{}] }, { type: 'quad', trips: [{}, {}] }];
+  assert.equal(flightCount({ request, plan: { routes, summary: { sorties: 3 } } }), 5);
 });

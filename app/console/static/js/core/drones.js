@@ -22,6 +22,13 @@ export function dronesOfSortie(type, { drone }) {
   return carried.at(-1) ?? null;
 }
 
+/** Return how often a plan flies: its sorties, and trips of vehicles that fly by themselves. */
+export function flightCount({ request, plan }) {
+  const flying = new Set(request.fleet.filter(({ flies }) => flies).map(({ id }) => id));
+  const own = plan.routes.filter(({ type }) => flying.has(type));
+  return own.reduce((sum, { trips }) => sum + trips.length, plan.summary.sorties);
+}
+
 /** Return a vehicle type's `drones` with all of them changed. */
 export function changeDrones({ drones }, change) {
   if (Array.isArray(drones)) return drones.map(change);

@@ -1,5 +1,6 @@
 /** A picture of a plan, map above timeline, as shapes that SVG and a canvas both draw. */
 
+import { flightCount } from './drones.js';
 import { boundsOf, planeOf } from './geometry.js';
 import { clock, money } from './format.js';
 import { tripDash, vehicleColour } from './palette.js';
@@ -41,7 +42,7 @@ function titleShapes({ request, plan }) {
     t('header.served', { served: String(summary.served), customers: String(summary.customers) }),
     t('header.vehicles', { count: summary.vehicles }),
     t('routes.trips', { count: summary.trips }),
-    t('header.flights', { count: summary.sorties }),
+    t('header.flights', { count: flightCount({ request, plan }) }),
   ].join(', ');
   return [{ kind: 'text', at: [MARGIN, 26], text, size: 15, colour: INK }];
 }

@@ -1,6 +1,7 @@
 /** What the plan costs, by term and by vehicle, beside the former plan if one is chosen. */
 
 import { besidePlan, shownPlan } from '../actions.js';
+import { flightCount } from '../core/drones.js';
 import { duration, km, money, number, percent } from '../core/format.js';
 import { legsInWords } from '../core/legs.js';
 import { costTerms, penaltyOf, trueTerms } from '../core/terms.js';
@@ -46,7 +47,7 @@ export function CostsTab() {
       )}
       </tbody></table></section>
     <${DronesWorth} />
-    <${Summary} summary=${plan.summary} />
+    <${Summary} summary=${plan.summary} flights=${flightCount(entry)} />
     <${Legs} legs=${plan.legs} />`;
 }
 
@@ -62,7 +63,7 @@ function Legs({ legs }) {
   )}</section>`;
 }
 
-function Summary({ summary }) {
+function Summary({ summary, flights }) {
   const rates = summary.load_rate;
   const rows = [
     [t('about.driven'), km(summary.distance)],
@@ -71,7 +72,7 @@ function Summary({ summary }) {
       ? []
       : [[t('costs.energy'), `${number(summary.energy_wh, 1)} Wh`]]),
     [t('about.trips'), number(summary.trips, 0)],
-    [t('about.flights'), number(summary.sorties, 0)],
+    [t('about.flights'), number(flights, 0)],
     ...(summary.co2_kg == null ? [] : [['CO\u2082', `${number(summary.co2_kg, 1)} kg`]]),
     [t('costs.loadRate'), t('costs.rates', {
       min: percent(rates.min),

@@ -2,6 +2,7 @@
 
 import { postFlights } from '../api.js';
 import { showFailure } from '../actions.js';
+import { flightCount } from '../core/drones.js';
 import { saidOf } from '../core/said.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { save } from './saving.js';
@@ -16,12 +17,6 @@ const FORMATS = {
   geojson: 'GeoJSON',
 };
 
-/** Tell whether anything flies: drones of trucks, or vehicles by themselves. */
-function hasFlights({ request, plan }) {
-  const flying = new Set(request.fleet.filter(({ flies }) => flies).map(({ id }) => id));
-  return plan.summary.sorties > 0 || plan.routes.some(({ type }) => flying.has(type));
-}
-
 /** The choice of a format, and the button that saves; nothing where no drone flies. */
 export function FlightFiles({ entry }) {
   const [format, setFormat] = useState('qgc-plan');
@@ -29,7 +24,7 @@ export function FlightFiles({ entry }) {
   const [refused, setRefused] = useState([]);
   const [isAsking, setAsking] = useState(false);
   useEffect(() => setRefused([]), [entry.plan, format]);
-  if (!hasFlights(entry)) return null;
+  if (!flightCount(entry)) return null;
   const isGeographic = entry.request.coordinate_system === 'geographic';
   const write = async () => {
     setAsking(true);

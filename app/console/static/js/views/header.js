@@ -1,6 +1,7 @@
 /** The header: what problem is open, planning, and what came of it. */
 
 import { isWaiting, openRequest, shownPlan } from '../actions.js';
+import { flightCount } from '../core/drones.js';
 import { duration, money } from '../core/format.js';
 import { penaltyOf, trueCost } from '../core/terms.js';
 import { html, useRef } from '../libraries.js';
@@ -137,5 +138,5 @@ function Totals({ entry }) {
     ${out > 0 && html`<span class="out">${t('header.out', { count: out })}</span>`}
     <span class="least">${t('header.vehicles', { count: summary.vehicles })}</span>
     <span class="least">${t('routes.trips', { count: summary.trips })}</span>
-    <span class="least">${t('header.flights', { count: summary.sorties })}</span>`;
+    <span class="least">${t('header.flights', { count: flightCount(entry) })}</span>`;
 }
