@@ -33,12 +33,12 @@ def read_day(store: DispatchStore, token: str) -> DriverDay:
     link, dispatch = _open_link(store, token)
     if link.opened_at is None:
         store.note_opening(link.id)
-    steps = store.steps(link.id)
+    steps, flights = store.steps(link.id), store.flights(link.id)
     return DriverDay(
         link=link.id, vehicle=link.vehicle, time_zone=dispatch.time_zone,
         plan_start=instant(dispatch.plan_start, dispatch.zone_offset),
         ends_at=instant(dispatch.ends_at, dispatch.zone_offset), steps=steps,
-        flights=len(store.flights(link.id)),
+        flights=len(flights), flies=any(each.drone == link.vehicle for each in flights),
         standing=standing_reply(_standing(store, link, dispatch), steps))
 
 

@@ -134,6 +134,7 @@ class DriverDay(_Reply):
     steps: list[StepReply] = Field(description="What the driver does, in order.")
     flights: int = Field(
         description="Flights of its drones that `GET /drive/flights` writes for their controllers.")
+    flies: bool = Field(description="Whether the vehicle is a drone whose own trips these are.")
     standing: list[StepStanding] = Field(description="What was told of steps so far.")
 
 

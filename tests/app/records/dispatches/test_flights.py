@@ -34,6 +34,15 @@ def test_flights_are_those_of_the_vehicle_alone(client: httpx.Client) -> None:
     assert reply.json()["errors"][0]["code"] == "NO_FLIGHTS"
 
 
+def test_day_of_a_vehicle_that_flies_says_so(client: httpx.Client) -> None:
+    truck, van = PROBLEM["fleet"]
+    links = links_of(client, problem=PROBLEM | {"fleet": [truck, van | {"flies": True}]})
+    driven, flown = (client.get("/drive/day", headers=link).json() for link in links)
+    assert not driven["flies"]
+    assert flown["flies"]
+    assert flown["flights"] == 1
+
+
 def test_flights_follow_a_change_of_the_day_and_a_new_link(client: httpx.Client) -> None:
     sent = dispatched(client)
     link = sent["links"][0]

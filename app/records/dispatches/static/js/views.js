@@ -45,7 +45,7 @@ export function Day({ day, waiting, isReached, isChanged, failure, link, onTell,
     setNavigator(event.target.value);
   };
   return html`<header>
-      <h1>${day.vehicle}</h1>
+      <h1>${day.flies ? t('day.flies', { vehicle: day.vehicle }) : day.vehicle}</h1>
       <p>${t('day.over', { count: countOver(day.steps, found), of: day.steps.length })}</p>
       <p role="status" class=${waiting.length ? 'unsent' : ''}>${sendingText(
         waiting.length,
@@ -147,7 +147,7 @@ function Step({ day, step, isNext, standing, navigator, link, onTell }) {
     </button>
     ${shown && html`<div class="body">
       <${Facts} day=${day} step=${step} />
-      <${Ways} step=${step} navigator=${navigator} />
+      ${!day.flies && html`<${Ways} step=${step} navigator=${navigator} />`}
       <${Actions} link=${link} step=${step} state=${state} reason=${standing?.reason}
         onTell=${(kind, reason) => {
           setOpen(null);

@@ -24,6 +24,7 @@ export default {
   },
   day: {
     over: '{{count}} von {{of}} erledigt',
+    flies: '{{vehicle}} (fliegt)',
     unsent: '{{count}} noch nicht gesendet: wird gesendet, sobald Netz da ist.',
     sent: 'Alles ist gesendet.',
     offline: 'Kein Netz: Was Sie melden, bleibt auf diesem Telefon.',

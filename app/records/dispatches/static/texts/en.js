@@ -19,6 +19,7 @@ export default {
   },
   day: {
     over: '{{count}} of {{of}} over',
+    flies: '{{vehicle}} (flies)',
     unsent: '{{count}} not sent yet: sent as soon as there is network.',
     sent: 'All is sent.',
     offline: 'No network: what you mark is kept on this phone.',
