@@ -94,7 +94,11 @@ def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:
         expect(page.locator(f"#field-fleet-1-{field}")).to_be_visible()
     page.locator("#field-fleet-1-max_range").fill("5000")
     page.locator("#field-fleet-1-max_range").press("Enter")
+    expect(page.locator("#field-fleet-1-truck_waits")).to_have_count(0)
     page.locator("#field-fleet-1-flies").uncheck()
+    expect(page.locator("#field-fleet-1-altitude")).to_have_count(0)
+    # What is stated stays, so that it can be taken out.
+    expect(page.locator("#field-fleet-1-max_range")).to_be_visible()
     assert state(page, "state.request.fleet.1.max_range") == 5000
     assert state(page, "state.request.fleet.1.flies") is False
     expect(page.locator("#field-fleet-0-truck_waits")).to_be_visible()

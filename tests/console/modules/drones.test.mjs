@@ -6,6 +6,7 @@ import {
   droneCount,
   dronesOfSortie,
   flightCount,
+  needlessFields,
 } from '../../../app/console/static/js/core/drones.js';
 import { applyRemedy } from '../../../app/console/static/js/core/remedies.js';
 import { launchDurations } from '../../../app/console/static/js/core/launches.js';
@@ -80,4 +81,12 @@ test('trips of vehicles that fly count as flights', () => {
   const request = { fleet: [{ id: 'van' }, { id: 'quad', flies: true }] };
   const routes = [{ type: 'van', trips: [{}] }, { type: 'quad', trips: [{}, {}] }];
   assert.equal(flightCount({ request, plan: { routes, summary: { sorties: 3 } } }), 5);
+});
+
+test('forms have the fields that trucks, or vehicles that fly, can have, and what is stated', () => {
+  assert.ok(needlessFields({}).includes('max_range'));
+  assert.ok(!needlessFields({}).includes('drones'));
+  const flying = needlessFields({ flies: true, truck_waits: true });
+  assert.ok(flying.includes('drones'));
+  assert.ok(!flying.includes('max_range') && !flying.includes('truck_waits'));
 });

@@ -22,6 +22,35 @@ export function dronesOfSortie(type, { drone }) {
   return carried.at(-1) ?? null;
 }
 
+/** Fields of a vehicle type that only trucks have, and that only those have that fly. */
+const OF_TRUCKS = [
+  'drones',
+  'speed_profile',
+  'start_location',
+  'start_location_index',
+  'end',
+  'max_sorties',
+  'max_airborne',
+  'truck_waits',
+  'revisits',
+];
+const OF_FLYING = [
+  'altitude',
+  'endurance',
+  'max_range',
+  'max_wind_kmh',
+  'preset',
+  'launch_duration',
+  'recovery_duration',
+  'energy',
+  'turnaround',
+];
+
+/** Return the fields that a vehicle type can't have; one that is stated stays, to be taken out. */
+export function needlessFields(type) {
+  return (type.flies ? OF_TRUCKS : OF_FLYING).filter((name) => type[name] == null);
+}
+
 /** Return how often a plan flies: its sorties, and trips of vehicles that fly by themselves. */
 export function flightCount({ request, plan }) {
   const flying = new Set(request.fleet.filter(({ flies }) => flies).map(({ id }) => id));

@@ -2,7 +2,7 @@
 
 import { edit } from '../actions.js';
 import { freeName } from '../core/changes.js';
-import { droneCount } from '../core/drones.js';
+import { droneCount, needlessFields } from '../core/drones.js';
 import { amounts } from '../core/format.js';
 import { removeIn } from '../core/paths.js';
 import { html, useEffect, useState } from '../libraries.js';
@@ -93,7 +93,7 @@ function VehicleType({ type, position, request, isNew }) {
   ).length;
   const drones = droneCount(type) ? `, ${t('fleet.drones', { count: droneCount(type) })}` : '';
   const choices = { depot: request.depots.map(({ id }) => id) };
-  const skip = request.matrices ? [] : ['profile'];
+  const skip = [...(request.matrices ? [] : ['profile']), ...needlessFields(type)];
   return html`<details class="card" open=${position === 0 || isNew || errors > 0}>
     <summary><strong>${type.id}</strong> ${
       errors > 0 &&
