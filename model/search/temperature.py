@@ -23,8 +23,9 @@ LEAST_HOT = 1.0
 HOT_WITH_DRONES, COLD_WITH_DRONES = 0.5, 0.005
 """Both by a leg where trips are split between truck and drone, which many small changes do."""
 
-HOT_FROM_TRUCKS = 0.2
-"""The same where the search began with trucks alone."""
+HOT_FROM_TRUCKS, FULL_HEAT_FROM_TRUCKS = 0.7, 100
+"""The same where the search began with trucks alone, and the turns for each customer from which on
+that is reached; with less, by their root."""
 
 HOT_IF_LARGE, COLD_IF_LARGE = 6.0, 0.03
 """Both by a leg where loads alone limit the routes of thousands of customers: the savings that it
@@ -69,17 +70,19 @@ class Heat:
             Of the first temperature.
         """
         if self.single_drones:
-            hot, cold = HOT_FROM_TRUCKS if self.from_trucks else HOT_WITH_DRONES, COLD_WITH_DRONES
-            hot *= factor
+            hot, cold = HOT_WITH_DRONES * factor, COLD_WITH_DRONES
+            if self.from_trucks:
+                hot = HOT_FROM_TRUCKS * factor * _haste(turns, FULL_HEAT_FROM_TRUCKS)
         elif self.large:
             hot, cold = HOT_IF_LARGE * factor, COLD_IF_LARGE
         else:
-            hot, cold = self._haste(turns) * factor * HOT * self.customer / self.leg, COLD
+            # Which of several types drive is far from good at first.
+            haste = 1.0 if self.types > 1 else _haste(turns, FULL_HEAT)
+            hot, cold = haste * factor * HOT * self.customer / self.leg, COLD
             hot = max(LEAST_HOT, hot)
         return self.leg * (self.hot or hot), self.leg * (self.cold or cold)
 
-    def _haste(self, turns: float) -> float:
-        """Return the share of the first temperature that there is time for."""
-        if self.types > 1:
-            return 1.0  # which of them drive is far from good at first
-        return min(1.0, max(LEAST_HEAT, math.sqrt(turns / FULL_HEAT)))
+
+def _haste(turns: float, full: float) -> float:
+    """Return the share of a first temperature that there is time for; all from `full` turns on."""
+    return min(1.0, max(LEAST_HEAT, math.sqrt(turns / full)))
