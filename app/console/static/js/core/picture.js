@@ -56,13 +56,14 @@ function mapShapes(index, legsOf) {
   const bounds = boundsOf([...known, ...rings.flat()].map(toPlane));
   if (!bounds) return [];
   const at = fit(bounds, toPlane);
+  const stands = [...request.depots, ...standsOf(request)].filter(placeOf);
   return [
     ...rings.map((ring) => ({ kind: 'area', points: ring.map(at), colour: RED })),
     ...index.vehicles.flatMap((vehicle) =>
       vehicle.trips.flatMap((trip) => tripShapes(trip, legsOf, at)),
     ),
     ...request.customers.flatMap((customer) => customerShapes(index, customer, at)),
-    ...[...request.depots, ...standsOf(request)].filter(placeOf).flatMap(({ kind, id, location }) => [
+    ...stands.flatMap(({ kind, id, location }) => [
       kind === 'launch_site'
         ? { kind: 'circle', at: at(location), radius: 6, colour: INK, fill: '#ffffff' }
         : { kind: 'box', at: move(at(location), -6, -6), size: [12, 12], colour: INK },

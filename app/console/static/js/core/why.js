@@ -100,7 +100,11 @@ function whereInWords(item) {
  * @param told what was told of the customer
  * @param request in which customer and vehicles stand
  */
-export function noDroneInWords({ here, zones = [], alternatives, reasons = [] }, request, customer) {
+export function noDroneInWords(
+  { here, zones = [], alternatives, reasons = [] },
+  request,
+  customer,
+) {
   if (here?.by === 'drone' || !request.fleet.some((type) => type.flies || droneCount(type) > 0)) {
     return [];
   }

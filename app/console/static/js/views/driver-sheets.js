@@ -56,7 +56,8 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
         <td><strong>${halt.id}</strong>${
-          halt.kind === 'launch_site' && html` <small>${t('routes.site')}</small>`}${place(halt, isGeographic)}</td>
+          halt.kind === 'launch_site' && html` <small>${t('routes.site')}</small>`
+        }${place(halt, isGeographic)}</td>
         <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
         <td>${halt.kind === 'customer' ? handed(halt.source) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
