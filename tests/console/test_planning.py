@@ -1,6 +1,7 @@
 """Planning as it happens: the decoded plan, improvements, the cost curve, stopping."""
 
 import json
+import re
 from collections.abc import Callable
 from typing import Any
 
@@ -33,7 +34,7 @@ def test_decoded_plan_comes_at_once_and_improvements_follow(page: Page) -> None:
     assert len(points) >= 2
     assert points[-1]["cost"] < first
     assert points[-1]["cost"] == min(point["cost"] for point in points)
-    expect(page.get_by_text("From ", exact=False).first).to_be_visible()
+    expect(page.get_by_text(re.compile(r"^From \d"))).to_be_visible()
     expect(page.locator(".curve canvas")).to_be_visible()
     assert abs(float(page.locator("#total-cost").inner_text()) - points[-1]["cost"]) < 0.01
 
