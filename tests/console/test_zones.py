@@ -47,3 +47,25 @@ def test_zones_are_refused_beside_places_on_a_plane(page: Page) -> None:
     open_example(page, "drones")
     open_file(page, "zones.json", zones(25.0, 60.0))
     expect(page.get_by_text("The zones of zones.json lie on the globe")).to_be_visible()
+
+
+KML = """<kml xmlns="http://www.opengis.net/kml/2.2"><Document><Placemark><name>Old town</name>
+<Polygon><outerBoundaryIs><LinearRing><coordinates>24.9,60.2 24.92,60.2 24.92,60.21 24.9,60.2
+</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark></Document></kml>"""
+
+POLYGON = {"type": "Polygon", "coordinates": [[[24.9, 60.2], [24.92, 60.2], [24.92, 60.21],
+                                               [24.9, 60.2]]]}
+
+
+@pytest.mark.parametrize(("name", "content"), [
+    ("zones.kml", KML),
+    ("zones.geojson", json.dumps({"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {}, "geometry": POLYGON}]}))])
+def test_areas_of_a_file_are_zones_where_points_would_be_customers(
+        page: Page, name: str, content: str) -> None:
+    open_example(page, "city_day")
+    open_file(page, name, content)
+    open_tab(page, "fleet")
+    expect(page.get_by_role("button", name="Remove file 1")).to_be_visible()
+    assert state(page, "state.request.airspace.zones.0.format") == name.partition(".")[2]
+    expect(page.get_by_role("dialog")).to_have_count(0)

@@ -3,7 +3,9 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { addZones, zoneAreas, zonesOf } from '../../../app/console/static/js/core/zones.js';
+import {
+  addZones, zoneAreas, zonesOf, zonesOfKml,
+} from '../../../app/console/static/js/core/zones.js';
 
 const RING = [[24.9, 60.2], [24.92, 60.2], [24.92, 60.21]];
 const POLYGON = { type: 'Polygon', coordinates: [RING] };
@@ -53,6 +55,19 @@ test('files of zones are told by what they hold', () => {
   const formats = [ED269, ED318, plain(POLYGON), plain({ type: 'Point', coordinates: [1, 2] }),
     { features: [] }, { depots: [] }, null, []].map((content) => zonesOf(content)?.format ?? null);
   assert.deepEqual(formats, ['ed269', 'ed318', 'geojson', null, null, null, null, null]);
+});
+
+test('KML has zones if its marks are areas, and places if some are points', () => {
+  const point = '<Placemark><Point><coordinates>24.9,60.2</coordinates></Point></Placemark>';
+  const labelled = KML.replace('<Polygon>', '<Point></Point><Polygon>');
+  const prefixed = KML.replaceAll(/(<\/?)(?=[A-Z])/g, '$1k:');
+  const bordered = KML.replace('</kml>', '<Placemark><LineString/></Placemark></kml>');
+  for (const text of [KML, labelled, prefixed, bordered]) {
+    assert.deepEqual(zonesOfKml(text), { format: 'kml', data: text });
+  }
+  for (const text of [`<kml>${point}</kml>`, KML.replace('</kml>', `${point}</kml>`), '<kml/>']) {
+    assert.equal(zonesOfKml(text), null);
+  }
 });
 
 test('zones are added beside others', () => {

@@ -4,6 +4,10 @@ import { setIn } from './paths.js';
 
 const AREAS = new Set(['Polygon', 'MultiPolygon', 'GeometryCollection']);
 
+const MARK = /<(\w+:)?Placemark[\s>][\s\S]*?<\/\1?Placemark>/g;
+const POLYGON = /<(\w+:)?Polygon[\s>]/;
+const POINT = /<(\w+:)?Point[\s>]/;
+
 /** From this on a limit stands for none. */
 const UNLIMITED = 99999;
 
@@ -19,6 +23,14 @@ export function zonesOf(content) {
   return features.every(({ geometry }) => AREAS.has(geometry?.type))
     ? { format: 'geojson', data: content }
     : null;
+}
+
+/** Return the zones of a text of KML as a request states them; null if marks are mere points. */
+export function zonesOfKml(text) {
+  const marks = placeMarks(text);
+  const isArea = (mark) => POLYGON.test(mark);
+  const isPlace = (mark) => POINT.test(mark) && !isArea(mark);
+  return marks.some(isArea) && !marks.some(isPlace) ? { format: 'kml', data: text } : null;
 }
 
 /** Return a request with more zones. */
@@ -119,10 +131,13 @@ function reachOf({ lower, lowerReference, upper, upperReference, uom = 'm' }) {
   return `${limit(lower, lowerReference)} – ${to}`;
 }
 
+function placeMarks(text) {
+  return text.match(MARK) ?? [];
+}
+
 /** Return the areas of a text of KML, whose polygons have their coordinates ring by ring. */
 function kmlAreas(text) {
-  const marks = [...text.matchAll(/<Placemark[\s\S]*?<\/Placemark>/g)].map(([mark]) => mark);
-  return marks.flatMap((mark) => {
+  return placeMarks(text).flatMap((mark) => {
     const title = mark.match(/<name>([\s\S]*?)<\/name>/)?.[1].trim() ?? '';
     return [...mark.matchAll(/<Polygon[\s\S]*?<\/Polygon>/g)].map(([polygon]) => ({
       title,

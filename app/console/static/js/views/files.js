@@ -5,7 +5,7 @@ import { ApiError } from '../api.js';
 import { withoutEnding } from '../core/format.js';
 import { labelOf } from '../core/schema.js';
 import { pastedSheet } from '../core/importing.js';
-import { addZones, zonesOf } from '../core/zones.js';
+import { addZones, zonesOf, zonesOfKml } from '../core/zones.js';
 import { beginImport } from '../importing.js';
 import { plan } from '../planning.js';
 import { store } from '../store.js';
@@ -15,7 +15,7 @@ import { t } from '../texts.js';
 export async function openFile(file) {
   try {
     const ending = file.name.slice(file.name.lastIndexOf('.') + 1).toLowerCase();
-    if (ending === 'kml') openZones(file, { format: 'kml', data: await file.text() });
+    if (ending === 'kml') await openKml(file);
     else if (ending === 'json' || ending === 'geojson') await openJson(file);
     else await beginImport(file);
   } catch (error) {
@@ -65,6 +65,12 @@ function openZones(file, zones) {
     );
   }
   edit((request) => addZones(request, zones));
+}
+
+async function openKml(file) {
+  const zones = zonesOfKml(await file.text());
+  if (zones) openZones(file, zones);
+  else await beginImport(file);
 }
 
 async function openJson(file) {
