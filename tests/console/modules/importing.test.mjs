@@ -5,7 +5,6 @@ import {
   byAddress,
   forNextFile,
   placing,
-  pastedSheet,
   readFields,
   remember,
   signatureOf,
@@ -14,6 +13,7 @@ import {
   withColumn,
   withoutUnplaced,
 } from '../../../app/console/static/js/core/importing.js';
+import { pastedSheet } from '../../../app/console/static/js/core/pasted.js';
 
 test('fields become settings, and what cannot be read is named', () => {
   assert.deepEqual(readFields({ depot: ' 48.1, 11.5 ', vehicles: '3', capacity: '800 4.5', shift: '' }), {

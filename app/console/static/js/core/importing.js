@@ -146,10 +146,3 @@ export function remember(known, signature, entry) {
   const others = known.filter((other) => other.signature !== signature);
   return [...others, { signature, ...entry }].slice(-MOST_REMEMBERED);
 }
-
-/** Return a pasted text if it looks like cells of a sheet, else null. */
-export function pastedSheet(content) {
-  const lines = content.trim().split(/\r?\n/);
-  const cut = lines.filter((line) => line.includes('\t'));
-  return cut.length > 1 ? content : null;
-}

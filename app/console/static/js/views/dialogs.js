@@ -2,18 +2,21 @@
 
 import { html, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
-import { ImportDialog } from './import-dialog.js';
 import { KeepingDialogs } from './keeping-dialogs.js';
+import { later } from './later.js';
 import { Dialog } from './parts.js';
 import { OTHER_KEYS, setSingleKeys, SINGLE_KEYS, singleKeysWork } from './shortcuts.js';
 import { t } from '../texts.js';
 
+const ImportDialog = later(async () => (await import('./import-dialog.js')).ImportDialog);
+
 /** The open dialog, if any. */
 export function Dialogs() {
   const dialog = useStore((state) => state.dialog);
+  const imports = useStore((state) => state.importing !== null);
   if (dialog?.name === 'keys') return html`<${KeysDialog} />`;
   if (dialog?.name === 'key') return html`<${KeyDialog} ...${dialog} />`;
-  return html`<${KeepingDialogs} /><${ImportDialog} />`;
+  return html`<${KeepingDialogs} />${imports && html`<${ImportDialog} />`}`;
 }
 
 function close() {

@@ -4,9 +4,8 @@ import { edit, openRequest, showFailure } from '../actions.js';
 import { ApiError } from '../api.js';
 import { withoutEnding } from '../core/format.js';
 import { labelOf } from '../core/schema.js';
-import { pastedSheet } from '../core/importing.js';
+import { pastedSheet } from '../core/pasted.js';
 import { addZones, zonesOf, zonesOfKml } from '../core/zones.js';
-import { beginImport } from '../importing.js';
 import { plan } from '../planning.js';
 import { store } from '../store.js';
 import { t } from '../texts.js';
@@ -17,7 +16,7 @@ export async function openFile(file) {
     const ending = file.name.slice(file.name.lastIndexOf('.') + 1).toLowerCase();
     if (ending === 'kml') await openKml(file);
     else if (ending === 'json' || ending === 'geojson') await openJson(file);
-    else await beginImport(file);
+    else await openSheet(file);
   } catch (error) {
     showFailure(error);
   }
@@ -67,10 +66,16 @@ function openZones(file, zones) {
   edit((request) => addZones(request, zones));
 }
 
+// Few import: what does it is loaded for who does.
+async function openSheet(file) {
+  const { beginImport } = await import('../importing.js');
+  await beginImport(file);
+}
+
 async function openKml(file) {
   const zones = zonesOfKml(await file.text());
   if (zones) openZones(file, zones);
-  else await beginImport(file);
+  else await openSheet(file);
 }
 
 async function openJson(file) {
@@ -86,7 +91,7 @@ async function openJson(file) {
     return;
   }
   if (content?.type === 'FeatureCollection') {
-    await beginImport(file);
+    await openSheet(file);
     return;
   }
   const request = content?.problem ?? content;

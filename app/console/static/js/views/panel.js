@@ -11,12 +11,14 @@ import { DriversTab } from './drivers-tab.js';
 import { ExportTab } from './export-tab.js';
 import { FleetTab } from './fleet-tab.js';
 import { HandBar } from './hand-bar.js';
+import { later } from './later.js';
 import { ReplanTab } from './replan-tab.js';
 import { RoutesTab } from './routes-tab.js';
-import { ScenariosTab } from './scenarios-tab.js';
 import { SolveTab } from './solve-tab.js';
 import { UnassignedTab } from './unassigned-tab.js';
 import { t } from '../texts.js';
+
+const ScenariosTab = later(async () => (await import('./scenarios-tab.js')).ScenariosTab);
 
 /** Views by tab, in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
 export const TABS = {
