@@ -16,7 +16,38 @@ NOTHING = msgspec.Raw(b"null")
 _ALIKE: dict[bytes, Any] = {b"{": {}, b"[": [], b'"': "", b"t": True, b"f": False, b"n": None}
 """Values by how they begin; all others are numbers."""
 
-Fields = dict[str, msgspec.Raw]
+Raw = msgspec.Raw | msgspec.UnsetType
+
+
+class _Stated(msgspec.Struct):
+    request: msgspec.Raw
+    plan: msgspec.Raw = NOTHING
+
+
+class _Customers(msgspec.Struct):
+    customers: msgspec.Raw
+
+
+class _Body(msgspec.Struct, forbid_unknown_fields=True):
+    name: Raw = msgspec.UNSET
+    note: Raw = msgspec.UNSET
+    request: Raw = msgspec.UNSET
+    plan: Raw = msgspec.UNSET
+
+
+class _Request(msgspec.Struct):
+    depots: Raw = msgspec.UNSET
+    customers: Raw = msgspec.UNSET
+    fleet: Raw = msgspec.UNSET
+
+
+class _Plan(msgspec.Struct):
+    cost: Raw = msgspec.UNSET
+    routes: Raw = msgspec.UNSET
+
+
+class _Cost(msgspec.Struct):
+    total: Raw = msgspec.UNSET
 
 
 def read_content(body: bytes) -> Content:
@@ -34,33 +65,40 @@ def read_content(body: bytes) -> Content:
     # What is told of a value's type is how it begins.
     value = msgspec.Raw(body.strip())
     parts = _checked(value)
-    stated = _fields(value)
-    content = b"".join((b'{"request":', stated["request"], b',"plan":',
-                        stated.get("plan", NOTHING), b"}"))
+    stated = msgspec.json.decode(value, type=_Stated)
+    content = b"".join((b'{"request":', stated.request, b',"plan":', stated.plan, b"}"))
+    customers = msgspec.json.decode(stated.request, type=_Customers).customers
     return Content(parts.name, parts.note, msgspec.json.format(content, indent=-1),
-                   len(_entries(_fields(stated["request"])["customers"])),
+                   len(_entries(customers)),
                    None if parts.plan is None else parts.plan.cost.total)
 
 
 def _checked(body: msgspec.Raw) -> KeptPlanInput:
     """Return what is read of a body, its long lists empty; raises as `read_content` does."""
-    outline = _outline(body, {
-        "name": _text, "note": _text,
-        "request": lambda request: _outline(request, {}),
-        "plan": lambda plan: _outline(plan, {
-            "cost": lambda cost: _outline(cost, {"total": _number})}),
-    })
+    try:
+        outline = _outline(body, _Body, {
+            "name": _text, "note": _text,
+            "request": lambda request: _outline(request, _Request, {}),
+            "plan": lambda plan: _outline(plan, _Plan, {
+                "cost": lambda cost: _outline(cost, _Cost, {"total": _number})})})
+    except msgspec.ValidationError as error:
+        # An object may have millions of fields that aren't known, of which one is told.
+        name = str(error).split("`")[1]
+        raise InvalidRequestError([schema_error(
+            {"type": "extra_forbidden", "loc": (name,), "msg": "", "input": None})]) from None
     try:
         return KeptPlanInput.model_validate(outline)
     except ValidationError as error:
         raise InvalidRequestError([schema_error(details) for details in error.errors()]) from None
 
 
-def _outline(value: msgspec.Raw, read: dict[str, Any]) -> Any:
-    """Return an object of which some fields are read, and others are but of the same type."""
+def _outline(value: msgspec.Raw, kind: type[msgspec.Struct], read: dict[str, Any]) -> Any:
+    """Return the known fields of an object, of which some are read, others but of the same type."""
     if _begin(value) != b"{":
         return _alike(value)
-    return {name: read.get(name, _alike)(inner) for name, inner in _fields(value).items()}
+    stated = msgspec.json.decode(value, type=kind)
+    return {name: read.get(name, _alike)(inner) for name in kind.__struct_fields__
+            if (inner := getattr(stated, name)) is not msgspec.UNSET}
 
 
 def _begin(value: msgspec.Raw) -> bytes:
@@ -85,10 +123,6 @@ def _number(value: msgspec.Raw) -> Any:
         return msgspec.json.decode(value, type=float)
     except msgspec.ValidationError:  # beyond all floats
         return inf
-
-
-def _fields(value: msgspec.Raw) -> Fields:
-    return msgspec.json.decode(value, type=Fields)
 
 
 def _entries(value: msgspec.Raw) -> list[msgspec.Raw]:

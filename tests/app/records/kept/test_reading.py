@@ -48,6 +48,16 @@ def test_what_is_wrong_is_named(parts: dict[str, bytes], path: str) -> None:
     assert [error.path for error in refused.value.errors] == [path]
 
 
+def test_of_a_million_unknown_fields_one_is_told_for_little_memory() -> None:
+    body = b"{" + b",".join(b'"k%d":0' % number for number in range(10**6)) + b"}"
+    tracemalloc.start()
+    with pytest.raises(InvalidRequestError) as refused:
+        read_content(body)
+    assert tracemalloc.get_traced_memory()[1] < len(body)
+    tracemalloc.stop()
+    assert [error.path for error in refused.value.errors] == ["$.k0"]
+
+
 @pytest.mark.parametrize("body", [
     b"", b"{", b"{} x", b'{"name":"\xff"}', body_with(plan=b'{"cost":NaN}'),
     body_with(plan=b'["\xff"]'), body_with(plan=b'"\\ud800"'), body_with(plan=b"[" * 100_000)])
