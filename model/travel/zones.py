@@ -69,7 +69,8 @@ def read_back(areas: Sequence[bytes]) -> list[Polygon]:
 def _dissolved(areas: tuple[bytes, ...]) -> tuple[Polygon, ...]:
     if not areas:
         return ()
-    merged = shapely.union_all(read_back(areas))
+    # Which corners go hangs on where an edge begins, which others far away must not change.
+    merged = shapely.union_all(read_back(areas)).normalize()
     simpler = _wider(merged.simplify(SIMPLER_M), SIMPLER_M + EDGE_M)
     # What is simplified may lose what is thin.
     return tuple(_polygons(simpler if simpler.covers(merged) else _wider(merged, EDGE_M)))

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 from shapely import Polygon
 
@@ -57,6 +57,7 @@ def test_what_is_dissolved_holds_what_was_published_and_hardly_more(
 
 
 @given(STARS, st.lists(st.tuples(COORDINATE, COORDINATE), min_size=2, max_size=5))
+@example([(0.0, 17.0, 1.0, [1.0] * 3), (0.0, 1.0, 1.0, [1.0] * 4)], [(0.0, 0.0), (0.0, -5.0)])
 @settings(max_examples=60, deadline=None)
 def test_flights_meet_no_areas_but_those_within_reach(
         stated: list[tuple[float, float, float, list[float]]],
