@@ -266,7 +266,7 @@ class RuleNumbersReply(_Reply):
     altitude: float = Field(description="Metres above the ground.")
 
 
-class RuleReply(_Reply):
+class PublishedRuleReply(_Reply):
     """The numbers of a published rule that a vehicle type's drones name. No permission to fly."""
 
     vehicle_type: str = Field(description="Id of the vehicle type.")
@@ -374,7 +374,7 @@ class PlanReply(_Reply):
     energy_models: list[EnergyModelReply] | None = Field(
         None, description="Presets of drones' energy. Left out if none was named."
     )
-    rules: list[RuleReply] | None = Field(
+    rules: list[PublishedRuleReply] | None = Field(
         None, description="Published rules that drones name. Left out if none was named."
     )
     replan: ReplanReply | None = Field(

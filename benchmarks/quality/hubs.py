@@ -47,7 +47,7 @@ def draw_day(orders: int, drones: int, seed: int) -> Request:
     """Return a request of orders from one to two kilograms, some of whom stand near the hubs."""
     rng = np.random.default_rng(seed)
     areas = [_area(rng, HUBS[index % len(HUBS)]) for index in range(6)]
-    customers = []
+    customers: list[dict[str, Any]] = []
     while len(customers) < orders:
         place = HUBS[int(rng.integers(len(HUBS)))] + rng.normal(0.0, SPREAD_KM, 2)
         if any(_is_inside(place, area) for area in areas):

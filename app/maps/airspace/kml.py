@@ -52,7 +52,7 @@ def kml_areas(text: str) -> list[KmlArea]:
         raise KmlError("KML has no DOCTYPE and no entities: leave them out.")
     try:
         document = KML.from_string(_in_today_s_words(text), strict=False)
-        marks = list(find_all(document, of_type=Placemark))
+        marks: list[Any] = list(find_all(document, of_type=Placemark))
     except (SyntaxError, ValueError, TypeError, AttributeError) as error:
         raise KmlError(f"It is no KML that can be read ({error}).") from error
     areas = [KmlArea(mark.name, mark.id or None, polygons) for mark in marks

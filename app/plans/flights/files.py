@@ -5,12 +5,10 @@ from collections.abc import Callable, Mapping, Sequence, Set
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from app.plans.flights.flight import NOTE, Flight
+from app.plans.flights.flight import NOTE, BeyondFormatError, Flight
 from app.plans.flights.geojson import geojson_files
-from app.plans.flights.kml import kml_files
 from app.plans.flights.packing import packed
 from app.plans.flights.qgc import plan_files, way_point_files
-from app.plans.flights.wpml import BeyondFormatError, wpml_files
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.flights import FlightFormat, Per
 
@@ -29,11 +27,22 @@ class Writer(NamedTuple):
     media_type: str
 
 
+def _kml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
+    # Not before somebody asks: what writes XML takes 5 MB.
+    from app.plans.flights.kml import kml_files
+    return kml_files(flights)
+
+
+def _wpml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
+    from app.plans.flights.wpml import wpml_files
+    return wpml_files(flights)
+
+
 WRITERS: Mapping[FlightFormat, Writer] = {
     "qgc-plan": Writer(plan_files, "application/json"),
     "qgc-wpl": Writer(way_point_files, "text/plain"),
-    "kml": Writer(kml_files, "application/vnd.google-earth.kml+xml"),
-    "dji-wpml": Writer(wpml_files, "application/vnd.google-earth.kmz"),
+    "kml": Writer(_kml_files, "application/vnd.google-earth.kml+xml"),
+    "dji-wpml": Writer(_wpml_files, "application/vnd.google-earth.kmz"),
     "geojson": Writer(geojson_files, "application/geo+json"),
 }
 

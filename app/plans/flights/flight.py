@@ -15,6 +15,10 @@ NOTE = ("Made from a plan by Tandem. These are facts for a flight controller and
 """What every file says of itself."""
 
 
+class BeyondFormatError(ValueError):
+    """A format can't tell a flight."""
+
+
 @dataclass(frozen=True)
 class WayPoint:
     """A place over which a drone comes at its height. Times in seconds since plan start."""

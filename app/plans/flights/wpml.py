@@ -13,7 +13,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from lxml import etree
 from lxml.builder import ElementMaker
 
-from app.plans.flights.flight import NOTE, Flight, WayPoint
+from app.plans.flights.flight import NOTE, BeyondFormatError, Flight, WayPoint
 from app.plans.flights.kml import KML, written
 from app.plans.flights.numbers import plain
 from app.plans.flights.packing import packed
@@ -34,10 +34,6 @@ MATRICE_350_RTK = "89"
 
 STRAIGHT_TO_THE_POINT = "toPointAndStopWithDiscontinuityCurvature"
 """How corners are turned: otherwise they are cut, at zones into these."""
-
-
-class BeyondFormatError(ValueError):
-    """A format can't tell a flight."""
 
 
 def wpml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:

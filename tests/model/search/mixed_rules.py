@@ -92,8 +92,8 @@ def all_rules_in_range(rng: np.random.Generator) -> Problem:
     while True:
         problem = all_rules(rng)
         problem = with_ranges(rng, with_fliers(rng, problem, 0.3))
-        if any(flyer.max_range for kind in problem.vehicle_types
-               for flyer in (kind, *kind.drone_types)):
+        if any(kind.max_range or any(drones.max_range for drones in kind.drone_types)
+               for kind in problem.vehicle_types):
             return problem
 
 
