@@ -105,7 +105,9 @@ template <bool writes>
 class Replay {
 public:
     Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {
-        if (bounds_trips(setting.type)) arrivals_.resize(log.count.stops);
+        if (bounds_trips(setting.type)) {
+            arrivals_.resize(static_cast<std::size_t>(log.count.stops));
+        }
     }
 
     bool run(Int first_trip, Int start) {

@@ -122,7 +122,7 @@ private:
                         std::max(high.y, edges_(edge, end + 1))};
             }
         }
-        if (edges_.size() == 0) low_ = high = {0.0, 0.0};
+        if (edges_.empty()) low_ = high = {0.0, 0.0};
         const double width = high.x - low_.x;
         const double height = high.y - low_.y;
         const double count = static_cast<double>(std::max(edges_.size(), Int{1}));
@@ -245,7 +245,10 @@ public:
         std::int64_t* const marks = dead.data();
         for (std::size_t other = static_cast<std::size_t>(number) + 1; other < x_.size(); ++other) {
             const Point2 line{x_[other] - here.place.x, y_[other] - here.place.y};
-            marks[other] = is_dead_end(line, here, slack) | is_dead_end(line, at(other), slack);
+            // Both are told, as no branch is then.
+            const int either =
+                int{is_dead_end(line, here, slack)} | int{is_dead_end(line, at(other), slack)};
+            marks[other] = either;
         }
     }
 
