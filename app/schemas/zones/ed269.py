@@ -5,8 +5,8 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from app.schemas.zones.parts import (
-    MAX_FEATURES, MAX_PARTS, Authorities, Corner, Number, Periods, Published, Restriction, Rings,
-    Unit, VerticalReference, Words,
+    MAX_FEATURES, MAX_PARTS, Authorities, Corner, Limits, Number, Periods, Published, Restriction,
+    Rings, Words,
 )
 
 
@@ -19,25 +19,9 @@ class Projection(Published):
     radius: Annotated[Number, Field(gt=0)] | None = Field(None, description="Metres.")
 
 
-class AirspaceVolume(Published):
+class AirspaceVolume(Limits):
     """An area from one height to another."""
 
-    unit: Unit = Field(
-        "M", alias="uomDimensions", description="What heights are in: metres or feet."
-    )
-    lower: Number | None = Field(
-        None, alias="lowerLimit",
-        description="From which height. Left out or 99999: unknown or none."
-    )
-    lower_reference: VerticalReference | None = Field(
-        None, alias="lowerVerticalReference", description="What that counts from."
-    )
-    upper: Number | None = Field(
-        None, alias="upperLimit", description="To which height. Left out or 99999: unknown or none."
-    )
-    upper_reference: VerticalReference | None = Field(
-        None, alias="upperVerticalReference", description="What that counts from."
-    )
     area: Projection = Field(alias="horizontalProjection", description="Its area.")
 
 

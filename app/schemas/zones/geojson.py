@@ -5,8 +5,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from app.schemas.zones.parts import (
-    MAX_FEATURES, MAX_PARTS, Authorities, Corner, Number, Periods, Published, Restriction, Rings,
-    Unit, VerticalReference, Words,
+    MAX_FEATURES, MAX_PARTS, Authorities, Corner, Limits, Number, Periods, Published, Restriction,
+    Rings, Unit, VerticalReference, Words,
 )
 
 
@@ -122,7 +122,7 @@ class Ed318Collection(Published):
     )
 
 
-class PlainProperties(Published):
+class PlainProperties(Limits):
     """What an area may state; fields are called as in ED-269."""
 
     identifier: Words = Field(None, description="What the authority calls it.")
@@ -132,22 +132,6 @@ class PlainProperties(Published):
     message: Words = Field(None, description="What the authority says of it.")
     applicability: Periods = Field((), description="When it applies. None: always.")
     authorities: Authorities = Field((), alias="zoneAuthority", description="Who decides.")
-    unit: Unit = Field(
-        "M", alias="uomDimensions", description="What heights are in: metres or feet."
-    )
-    lower: Number | None = Field(
-        None, alias="lowerLimit",
-        description="From which height. Left out or 99999: unknown or none."
-    )
-    lower_reference: VerticalReference | None = Field(
-        None, alias="lowerVerticalReference", description="What that counts from."
-    )
-    upper: Number | None = Field(
-        None, alias="upperLimit", description="To which height. Left out or 99999: unknown or none."
-    )
-    upper_reference: VerticalReference | None = Field(
-        None, alias="upperVerticalReference", description="What that counts from."
-    )
 
 
 class PlainFeature(Published):

@@ -100,6 +100,27 @@ Number = Annotated[float, BeforeValidator(_not_truth, json_schema_input_type=flo
 """A number, which may stand in quotes."""
 
 
+class Limits(Published):
+    """From which height to which an area reaches, as ED-269 calls it."""
+
+    unit: Unit = Field(
+        "M", alias="uomDimensions", description="What heights are in: metres or feet."
+    )
+    lower: Number | None = Field(
+        None, alias="lowerLimit",
+        description="From which height. Left out or 99999: unknown or none."
+    )
+    lower_reference: VerticalReference | None = Field(
+        None, alias="lowerVerticalReference", description="What that counts from."
+    )
+    upper: Number | None = Field(
+        None, alias="upperLimit", description="To which height. Left out or 99999: unknown or none."
+    )
+    upper_reference: VerticalReference | None = Field(
+        None, alias="upperVerticalReference", description="What that counts from."
+    )
+
+
 class Authority(Published):
     """Whom to ask."""
 
