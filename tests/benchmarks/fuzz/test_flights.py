@@ -6,7 +6,6 @@ The study of two hundred plans is `python -m benchmarks.fuzz.flights`.
 import copy
 import json
 import random
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -14,13 +13,11 @@ import httpx
 import pytest
 from shapely import Polygon
 
-from benchmarks.fuzz.api import service
 from benchmarks.fuzz.flight_readers import (
     READERS, Read, Step, read_geojson, read_plans,
 )
 from benchmarks.fuzz.flights import FlightStudy, Planned, random_city
-from benchmarks.fuzz.problems import Fault, client_of
-from tests.conftest import eventually
+from benchmarks.fuzz.problems import Fault
 
 pytestmark = pytest.mark.slow
 
@@ -45,27 +42,6 @@ def test_flights_are_read_back_as_planned(study: FlightStudy) -> None:
     assert len(set(study.read.values())) == 1
     assert min(study.read.values()) > CITIES
     assert study.bent > 50
-
-
-@pytest.fixture
-def idle(tmp_path: Path) -> Iterator[httpx.Client]:
-    """Return a client of a service that nobody else asks."""
-    with service(tmp_path) as target, client_of(target) as asking:
-        yield asking
-
-
-def test_flights_of_a_job_are_those_of_its_plan(idle: httpx.Client) -> None:
-    problem = json.loads(EXAMPLE.read_text("utf-8"))["problem"] | {
-        "options": {"search_iterations": 500}}
-    job = idle.post("/jobs", json=problem).json()["id"]
-    done = eventually(lambda: (read := idle.get(f"/jobs/{job}").json())["finished_at"] and read)
-    assert done["state"] == "done", done
-    flown = idle.get(f"/jobs/{job}/flights", params={"format": "qgc-wpl", "per": "vehicle"})
-    asked = idle.post("/flights", json={
-        "problem": problem, "plan": done["result"], "format": "qgc-wpl", "per": "vehicle"})
-    assert (flown.status_code, flown.headers["content-type"]) == (200, "application/zip")
-    assert flown.headers["content-disposition"] == asked.headers["content-disposition"]
-    assert flown.content == asked.content
 
 
 HUB, DOOR, AROUND = (0.0, 0.0), (0.01, 0.0), (0.005, 0.003)
