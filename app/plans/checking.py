@@ -28,6 +28,7 @@ from app.schemas.hints import with_hints
 from app.schemas.limits import MAX_NUM_SAMPLES, MAX_TIME_LIMIT
 from app.schemas.times import read_body
 from app.schemas.untimed import UntimedPlanInput
+from model.judge.rules import Violation
 
 PROBLEM, PLAN = "problem", "plan"
 
@@ -98,6 +99,15 @@ def read_about_plan(body: bytes, bounds: Bounds, kind: type[Kind]) -> Kind:
         raise InvalidRequestError([
             error.model_copy(update={"path": request.path_of(error.path)}) for error in errors])
     return request
+
+
+def illegal_plan(violations: Iterable[Violation], what_then: str) -> InvalidRequestError:
+    """Return the refusal of a plan, within a request, that breaks rules; `what_then` ends it."""
+    broken = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}") for each in violations]
+    return InvalidRequestError([InputError(
+        code="ILLEGAL_PLAN", path=each["path"],
+        message=f"The plan breaks {each['code']}: {each['message']}. {what_then}")
+        for each in broken])
 
 
 def _refusal(error: ValidationError, body: bytes, bounds: Bounds,

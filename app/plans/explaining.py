@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.checking import PLAN, PROBLEM, read_about_plan
+from app.plans.checking import PLAN, PROBLEM, illegal_plan, read_about_plan
 from app.plans.explain_replies import customer_reply, drones_reply, idle_reply, nobody_reply
-from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies
 from app.requests.bounds import Bounds
@@ -148,12 +147,8 @@ class _Explainer:
         self._judged = task.judge_routes(solution)
         evaluation = task.setting.judge(task.judged_problem, solution, self._judged)
         if evaluation.violations:
-            found = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}")
-                     for each in evaluation.violations]
-            raise InvalidRequestError([InputError(
-                code="ILLEGAL_PLAN", path=each["path"],
-                message=f"The plan breaks {each['code']}: {each['message']}. Only a plan without "
-                "broken rules is explained: correct it, or plan anew.") for each in found])
+            raise illegal_plan(evaluation.violations, "Only a plan without broken rules is "
+                               "explained: correct it, or plan anew.")
         self._task = task
         self._problem, self._setting = task.judged_problem, task.setting
         self._solution = solution

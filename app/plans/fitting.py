@@ -7,10 +7,9 @@ from dataclasses import replace
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.checking import PLAN, PROBLEM, read_about_plan
+from app.plans.checking import PLAN, PROBLEM, illegal_plan, read_about_plan
 from app.plans.explain_replies import here_reply, more_than_without, placed_reply, rules_reply
 from app.plans.explaining import LEAST_TRYING, preparing_within, require_known, require_within
-from app.plans.replan_replies import violation_reply
 from app.plans.replies import Data, cost_reply
 from app.plans.task import Task, task_of, warning_replies
 from app.plans.timing import timed_plan
@@ -85,11 +84,8 @@ def _require_readable(evaluation: Evaluation) -> None:
     """Refuse a plan with routes whose times can't be told; raises `InvalidRequestError`."""
     if all(metrics.trips for metrics in evaluation.routes):
         return
-    found = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}") for each in evaluation.violations]
-    raise InvalidRequestError([InputError(
-        code="ILLEGAL_PLAN", path=each["path"],
-        message=f"The plan breaks {each['code']}: {each['message']}. Nobody can be added to a "
-        "plan that can't be read: correct it.") for each in found])
+    raise illegal_plan(evaluation.violations, "Nobody can be added to a plan that can't be read: "
+                       "correct it.")
 
 
 def _node_of(task: Task, request: FitRequest) -> int:

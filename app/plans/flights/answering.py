@@ -5,12 +5,11 @@ from dataclasses import replace
 from datetime import datetime
 
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.checking import PLAN, PROBLEM, read_about_plan
+from app.plans.checking import PLAN, illegal_plan, read_about_plan
 from app.plans.explaining import preparing_within
 from app.plans.flights.courses import flights_of
 from app.plans.flights.files import FlightFile, flight_file
 from app.plans.flights.flight import Flight
-from app.plans.replan_replies import violation_reply
 from app.plans.task import task_of
 from app.requests.bounds import Bounds
 from app.requests.conversion.ground import Ground
@@ -18,7 +17,7 @@ from app.requests.conversion.locating import at_addresses
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.plan_reading import read_plan
-from app.schemas.errors import InputError, InvalidRequestError
+from app.schemas.errors import InvalidRequestError
 from app.schemas.flights import FlightsRequest
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
@@ -52,12 +51,8 @@ def judged_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing =
     task = task_of(problem, preparing, roads=roads)
     evaluation = task.check(read_plan(plan, task.problem, (PLAN,)))
     if evaluation.violations:
-        broken = [violation_reply(each, f"$.{PROBLEM}", f"$.{PLAN}")
-                  for each in evaluation.violations]
-        raise InvalidRequestError([InputError(
-            code="ILLEGAL_PLAN", path=each["path"],
-            message=f"The plan breaks {each['code']}: {each['message']}. Only flights of a plan "
-            "without broken rules are written: correct it, or plan anew.") for each in broken])
+        raise illegal_plan(evaluation.violations, "Only flights of a plan without broken rules are "
+                           "written: correct it, or plan anew.")
     placed = PlacedRequest(problem) if task.places is None else task.places.placed
     return flights_of(placed, plan, Ground(placed, preparing, roads.zones))
 
