@@ -43,11 +43,18 @@ def request_of(seconds: float, seed: int = 0, **options: Any) -> dict[str, Any]:
 
 
 class SteppingPlanner:
-    """Serves the more customers, from the nearest on, the more of its time is over."""
+    """Serves the more customers, from the nearest on, the more of its time is over.
+
+    Parameters
+    ----------
+    comes_to
+        Share of its work after which it gets no further; below 1 it ends only when it is stopped.
+    """
 
     policies = (DEFAULT_POLICY,)
 
-    def __init__(self) -> None:
+    def __init__(self, comes_to: float = 1.0) -> None:
+        self._comes_to = comes_to
         self.cooled = 0.0  # how far the last search was cooled down when it began
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
@@ -60,12 +67,12 @@ class SteppingPlanner:
         plan = partial_plan(problem, fewest) if start is None else start
         first_cost, turns = cost_of(problem, plan), 0
         listener.on_progress(Progress(first_cost, 0, lambda: plan))
-        while not listener.should_stop() and (share := share_over(options, began, turns)) < 1:
+        while not listener.should_stop() and (share := self._share(options, began, turns)) < 1:
             threading.Event().wait(PAUSE)
             turns += 1
             plan = partial_plan(problem, round(fewest + share * (problem.num_customers - fewest)))
             listener.on_progress(Progress(cost_of(problem, plan), turns, partial(self._same, plan)))
-        if share_over(options, began, turns) >= 1:
+        if self._share(options, began, turns) >= 1:
             plan = partial_plan(problem, problem.num_customers)
         if options.seed == BROKEN_SEED:
             raise PlanCheckError("routes[0]: too late")
@@ -73,6 +80,9 @@ class SteppingPlanner:
         return PlanResult(plan, evaluation, "given" if start else "policy", first_cost,
                           evaluation.cost.total, turns, options.threads, False,
                           Elapsed(0.0, time.perf_counter() - began, 0.0))
+
+    def _share(self, options: PlanOptions, began: float, turns: int) -> float:
+        return min(self._comes_to, share_over(options, began, turns))
 
     @staticmethod
     def _same(plan: Solution) -> Solution:

@@ -107,8 +107,7 @@ def test_a_job_whose_legs_take_longer_than_its_search_is_planned(
 
 
 def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
-    # Long enough that a process which is kept waiting doesn't end it by itself.
-    limit, crashed = 2.5, desk.process()
+    limit, crashed = 2.5, desk.process(SteppingPlanner(comes_to=0.5))
     job = desk.job(limit)
     until(lambda: crashed.advance(job), lambda now: now.cost is not None and now.cost < 700)
     before = desk.row(job)
@@ -132,6 +131,7 @@ def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     assert solver["search_iterations"] == done.search_iterations
     assert solver["deterministic"] is False
     assert 0.9 * limit < solver["elapsed"]["search"] <= done.searched
+    crashed.stop()
 
 
 def test_iterations_asked_for_are_those_of_all_processes(desk: Desk) -> None:
@@ -143,7 +143,7 @@ def test_iterations_asked_for_are_those_of_all_processes(desk: Desk) -> None:
 
 
 def test_process_that_lost_a_job_does_not_end_it(desk: Desk) -> None:
-    job, frozen = desk.job(0.4), desk.process()
+    job, frozen = desk.job(0.4), desk.process(SteppingPlanner(comes_to=0.5))
     frozen.advance(job)
     work = desk.process()
     until(lambda: work.advance(job), lambda now: now.over)
