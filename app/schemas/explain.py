@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.check import PlannedProblem
 from app.schemas.limits import MAX_TIME_LIMIT
-from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
+from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply, ZoneReply
 from app.schemas.times import InstantReply, WordsReply
 
 OTHERS_STAY = "All other customers stay with their vehicles, in their order."
@@ -177,8 +177,8 @@ class ExplainReply(_Reply):
         description="Limits that bind at his stop, those that cost most first.")
     reasons: list[ReasonReply] = Field(
         description="If he is left out: why, by vehicle type, as `POST /plan` tells it.")
-    zones: list[str] = Field(
-        [], description="Published zones in which he is, where no drone lands, in words.")
+    zones: list[ZoneReply] = Field(
+        [], description="Published zones in which he is, where no drone lands.")
     drones: DronesReply | None = Field(description="What drones save. Null: it was not asked.")
     idle_drones: list[IdleDronesReply] | None = Field(
         None, description="Why drones fly nothing, by vehicle in use. Null: it was not asked.")

@@ -107,6 +107,12 @@ def test_who_lies_in_a_zone_is_told_which_and_whose(client: httpx.Client, upper:
     assert reason["message"] == (
         f"It lies in the zone Harbour (FIN0001), where flying is prohibited from the ground to "
         f"{upper} m above the ground. Its authority: Port, tower@port.example.")
+    assert reason["zone"] == {
+        "holds": "customer", "name": "Harbour", "identifier": "FIN0001",
+        "restriction": "PROHIBITED", "lower": {"value": 0, "unit": "M", "reference": "AGL"},
+        "upper": {"value": upper, "unit": "M", "reference": "AGL"},
+        "authority": "Port, tower@port.example",
+        "message": reason["message"].removeprefix("It lies in ")}
     assert reason["remedy"] == "fits if a truck may serve it"
 
 
@@ -120,11 +126,15 @@ def test_who_lies_behind_a_zone_is_told_which(client: httpx.Client) -> None:
     assert reason["code"] == "AIRSPACE"
     assert reason["message"].startswith(
         "No flight leads there from the depot around the zone Harbour (FIN0001), ")
+    assert reason["zone"]["holds"] == "way"
 
 
 def test_a_depot_in_a_zone_is_told(client: httpx.Client) -> None:
-    (left,) = planned(client, asked(ed269(zone(circle(400, DEPOT)))))["unassigned"]
-    assert left["reasons"][0]["message"].startswith("The depot lies in the zone Harbour")
+    (left,) = planned(client, asked(ed269(zone(circle(400, DEPOT, upperLimit=99999)))))[
+        "unassigned"]
+    (reason,) = left["reasons"]
+    assert reason["message"].startswith("The depot lies in the zone Harbour")
+    assert (reason["zone"]["holds"], reason["zone"]["upper"]) == ("depot", None)
 
 
 def test_explain_lists_the_zones_around_a_customer(client: httpx.Client) -> None:
@@ -133,9 +143,11 @@ def test_explain_lists_the_zones_around_a_customer(client: httpx.Client) -> None
     plan = planned(client, request)
     reply = client.post("/explain", json={"problem": request, "plan": plan,
                                           "customer": "behind"}).json()
-    assert reply["zones"] == [
+    (told,) = reply["zones"]
+    assert (told["holds"], told["restriction"]) == ("customer", "REQ_AUTHORISATION")
+    assert told["message"] == (
         "the zone Harbour (FIN0001), where flying takes an authorisation from the ground to 120 m "
-        "above the ground. Its authority: Port, tower@port.example."]
+        "above the ground. Its authority: Port, tower@port.example.")
 
 
 BOWTIE = [[24.90, 60.20], [24.92, 60.21], [24.92, 60.20], [24.90, 60.21]]

@@ -100,7 +100,10 @@ test('why no drone comes is told by zone, by drone, and by the wind that cuts it
   const range = { code: 'MAX_RANGE', message: 'customer A lies 2000 m from its launch' };
   const told = {
     here: { by: 'truck' },
-    zones: ['the zone EDR-4.'],
+    zones: [{
+      holds: 'customer', name: 'EDR-4', identifier: null, restriction: 'PROHIBITED', lower: null,
+      upper: null, authority: null, message: 'the zone EDR-4.',
+    }],
     alternatives: [
       item('place', {}),
       item('by', { ...bySortie, feasible: false, reasons: [range] }),
@@ -110,7 +113,7 @@ test('why no drone comes is told by zone, by drone, and by the wind that cuts it
   const windy = { fleet: FLEET, airspace: { wind: [] } };
   assert.deepEqual(noDroneInWords(told, windy, { served_by: 'truck' }), [
     'It is to be served by truck.',
-    'No drone lands in the zone EDR-4.',
+    'No drone lands in the zone EDR-4, where flying is prohibited from an unstated height up.',
     'a drone of truck-1: customer A lies 2000 m from its launch',
     'quad-1: customer A lies 2000 m from its launch',
     'quad flies only in the longest time without gusts above 30 km/h.',

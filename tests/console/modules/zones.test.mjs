@@ -4,8 +4,11 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import {
-  addZones, zoneAreas, zonesOf, zonesOfKml,
+  addZones, countZones, zoneAreas, zonesOf, zonesOfKml,
 } from '../../../app/console/static/js/core/zones.js';
+import {
+  closureInWords, reachOf, titleOfZone, zoneInWords,
+} from '../../../app/console/static/js/core/zone-words.js';
 
 const RING = [[24.9, 60.2], [24.92, 60.2], [24.92, 60.21]];
 const POLYGON = { type: 'Polygon', coordinates: [RING] };
@@ -77,16 +80,34 @@ test('zones are added beside others', () => {
   assert.deepEqual(two.airspace.wind, {});
 });
 
+const AGL = (value) => ({ value, unit: 'M', reference: 'AGL' });
+
 test('areas have names, limits and authorities', () => {
   const request = { airspace: { zones: [zonesOf(ED269), zonesOf(ED318)] } };
+  const harbour = { name: 'Harbour', identifier: 'FIN1', restriction: 'PROHIBITED' };
   assert.deepEqual(zoneAreas(request), [
-    { title: 'Harbour (FIN1)', restriction: 'PROHIBITED', authority: 'Port', rings: [RING],
-      reach: '0 m AGL – 120 m AGL' },
-    { title: 'Harbour (FIN1)', restriction: 'PROHIBITED', authority: 'Port', center: [25, 60],
-      radius: 9, reach: '? – ∞' },
-    { title: 'Harbour (FIN2)', restriction: 'REQ_AUTHORIZATION', authority: 'Port',
-      center: [25, 60], radius: 7, reach: '50 ft AMSL – 400 ft AGL' },
+    { ...harbour, authority: 'Port', rings: [RING], lower: AGL(0), upper: AGL(120) },
+    { ...harbour, authority: 'Port', center: [25, 60], radius: 9, lower: null, upper: null },
+    {
+      name: 'Harbour', identifier: 'FIN2', restriction: 'REQ_AUTHORISATION', authority: 'Port',
+      center: [25, 60], radius: 7,
+      lower: { value: 50, unit: 'FT', reference: 'AMSL' },
+      upper: { value: 400, unit: 'FT', reference: 'AGL' },
+    },
   ]);
+  assert.deepEqual(request.airspace.zones.map(countZones), [1, 1]);
+});
+
+test('zones are told with what they ask for, where they reach and whose they are', () => {
+  const [low, unlimited, aloft] = zoneAreas({ airspace: { zones: [
+    zonesOf(ED269), zonesOf(ED318)] } });
+  assert.equal(zoneInWords(low), 'the zone Harbour (FIN1), where flying is prohibited from the '
+    + 'ground to 120 m above the ground. Its authority: Port.');
+  assert.equal(reachOf(unlimited), 'from an unstated height up');
+  assert.equal(reachOf(aloft), 'from 50 ft above the sea to 400 ft above the ground');
+  assert.equal(closureInWords({ ...unlimited, authority: null, name: null, holds: 'way' }),
+    'No flight leads there from the depot around the zone FIN1, where flying is prohibited '
+    + 'from an unstated height up.');
 });
 
 test('areas of plain GeoJSON and KML are drawn', () => {
@@ -94,7 +115,8 @@ test('areas of plain GeoJSON and KML are drawn', () => {
   const request = { airspace: { zones: [
     zonesOf(plain(several)), { format: 'geojson', data: POLYGON }, { format: 'kml', data: KML },
   ] } };
-  assert.deepEqual(zoneAreas(request).map(({ title, rings }) => [title, rings]), [
-    ['a', [RING]], ['a', [RING]], ['', [RING]], ['Old town', [RING]]]);
+  assert.deepEqual(zoneAreas(request).map((area) => [titleOfZone(area), area.rings]), [
+    ['a', [RING]], ['a', [RING]], ['without a name', [RING]], ['Old town', [RING]]]);
+  assert.deepEqual(request.airspace.zones.map(countZones), [1, 1, 1]);
   assert.deepEqual(zoneAreas({}), []);
 });

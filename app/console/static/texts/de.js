@@ -329,6 +329,7 @@ export default {
     served: 'Bedient',
     isOut: 'nicht: siehe „Nicht eingeplant“',
     notYet: 'noch nicht geplant',
+    notBecause: 'Nicht mit {{type}}',
     servedBy: 'Bedient von',
     arrival: 'Ankunft',
     vehicle: 'Fahrzeug',
@@ -548,11 +549,30 @@ export default {
     goods: 'Seine Güter, getrennt von anderen',
     pickups: 'Die Reihenfolge der Abholungen',
   },
+  zone: {
+    unnamed: 'ohne Namen',
+    told: 'der Zone {{title}}: {{asks}}, {{reach}}.',
+    authority: 'Zuständig: {{authority}}.',
+    holds: {
+      customer: 'Der Ort liegt in {{zone}}',
+      depot: 'Das Depot liegt in {{zone}}',
+      way: 'Vom Depot führt kein Flug dorthin, vorbei an {{zone}}',
+    },
+    asks: {
+      PROHIBITED: 'Fliegen ist verboten',
+      REQ_AUTHORISATION: 'Fliegen braucht eine Genehmigung',
+      CONDITIONAL: 'Fliegen ist an Bedingungen gebunden',
+      NO_RESTRICTION: 'Fliegen ist frei',
+    },
+    from: { ground: 'vom Boden', height: 'von {{height}}', unknown: 'von unbekannter Höhe' },
+    to: { ground: 'bis zum Boden', height: 'bis {{height}}', none: 'aufwärts' },
+    above: { AGL: 'über Grund', AMSL: 'über dem Meer', WGS84: 'über dem Ellipsoid' },
+  },
   why: {
     noDrone: {
       title: 'Warum hier keine Drohne',
       byTruck: 'Ein Fahrzeug am Boden soll ihn bedienen.',
-      zone: 'Hier landet keine Drohne: {{zone}}',
+      zone: 'Keine Drohne landet in {{zone}}',
       each: '{{who}}: {{why}}',
       costs: 'kann kommen, für {{sum}}.',
       calm: '{{who}} fliegt nur in der längsten Zeit ohne Böen über {{most}} km/h.',
@@ -1713,7 +1733,8 @@ export default {
     area_other: 'Zone {{number}}, {{count}} Ecken',
     removeArea: 'Zone {{number}} entfernen',
     windByHour: 'Die Anfrage nennt ihn nach Stunden.',
-    zones: 'Datei {{number}} mit Zonen ({{format}})',
+    zones_one: 'Datei {{number}}: {{count}} Zone ({{format}})',
+    zones_other: 'Datei {{number}}: {{count}} Zonen ({{format}})',
     removeZones: 'Datei {{number}} entfernen',
     dropZones: 'Ziehen Sie eine Datei auf die Seite: ED-269, ED-318, GeoJSON oder KML.',
     moveAreas: 'Ecken werden auf der Karte verschoben: „Zeichnen“, dann „Verschieben“.',
@@ -1963,6 +1984,7 @@ export default {
     lost: 'Mit ausgefallenem Fahrzeug verloren',
     pinned: 'Beim Fahrzeug festgehalten',
     area: 'Flugverbotszone',
+    zone: 'Veröffentlichte Zone',
   },
   tool: {
     name: {

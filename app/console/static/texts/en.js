@@ -316,6 +316,7 @@ export default {
     served: 'Served',
     isOut: 'not: see Unassigned',
     notYet: 'not planned yet',
+    notBecause: 'Not by {{type}}',
     servedBy: 'Served by',
     arrival: 'Arrival',
     vehicle: 'Vehicle',
@@ -533,6 +534,29 @@ export default {
     skills: 'The skills that it needs',
     goods: 'Its goods, kept apart from others',
     pickups: 'The order of pickups',
+  },
+  zone: {
+    unnamed: 'without a name',
+    told: 'the zone {{title}}, where {{asks}} {{reach}}.',
+    authority: 'Its authority: {{authority}}.',
+    holds: {
+      customer: 'It lies in {{zone}}',
+      depot: 'The depot lies in {{zone}}',
+      way: 'No flight leads there from the depot around {{zone}}',
+    },
+    asks: {
+      PROHIBITED: 'flying is prohibited',
+      REQ_AUTHORISATION: 'flying takes an authorisation',
+      CONDITIONAL: 'flying takes conditions',
+      NO_RESTRICTION: 'flying is free',
+    },
+    from: {
+      ground: 'from the ground',
+      height: 'from {{height}}',
+      unknown: 'from an unstated height',
+    },
+    to: { ground: 'to the ground', height: 'to {{height}}', none: 'up' },
+    above: { AGL: 'above the ground', AMSL: 'above the sea', WGS84: 'above the ellipsoid' },
   },
   why: {
     noDrone: {
@@ -1664,7 +1688,8 @@ export default {
     area_other: 'Area {{number}}, {{count}} corners',
     removeArea: 'Remove area {{number}}',
     windByHour: 'The request states it by the hour.',
-    zones: 'File {{number}} of zones ({{format}})',
+    zones_one: 'File {{number}}: {{count}} zone ({{format}})',
+    zones_other: 'File {{number}}: {{count}} zones ({{format}})',
     removeZones: 'Remove file {{number}}',
     dropZones: 'Drop a file onto the page: ED-269, ED-318, GeoJSON or KML.',
     moveAreas: 'Corners are moved on the map: Draw, then Move.',
@@ -1908,6 +1933,7 @@ export default {
     lost: 'Lost with a broken vehicle',
     pinned: 'Pinned to its vehicle',
     area: 'No-fly area',
+    zone: 'Published zone',
   },
   tool: {
     name: {

@@ -3,9 +3,13 @@
 import { amounts, clock, duration, km, length, money, number, percent } from './format.js';
 import { lengthOf, planeOf } from './geometry.js';
 import { partsOf } from './plan.js';
+import { saidOf } from './said.js';
 import { titleOfVehicle } from './vehicle-labels.js';
 import { windowsInWords, windowsOf } from './windows.js';
 import { t } from '../texts.js';
+
+/** So many reasons why a customer is left out are told at once. */
+const MOST_REASONS = 3;
 
 /** Return title and facts of what a key names: `{title, facts: [[term, value]], late}`. */
 export function describe(request, index, key) {
@@ -71,8 +75,13 @@ function customerFacts(customer) {
 function servedFacts(index, halt, key) {
   if (!index) return [];
   if (halt) return haltFacts(halt);
-  const isOut = index.plan.unassigned.some(({ id }) => id === key.slice(2));
-  return [[t('about.served'), isOut ? t('about.isOut') : t('about.notYet')]];
+  const out = index.plan.unassigned.find(({ id }) => id === key.slice(2));
+  return [
+    [t('about.served'), out ? t('about.isOut') : t('about.notYet')],
+    ...(out?.reasons ?? []).slice(0, MOST_REASONS).map((reason) => [
+      t('about.notBecause', { type: reason.vehicle_type }), saidOf(reason),
+    ]),
+  ];
 }
 
 /** Return what happens at a halt. */

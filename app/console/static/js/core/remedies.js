@@ -242,7 +242,8 @@ export function groupUnassigned(request, unassigned) {
   const groups = new Map();
   for (const customer of unassigned) {
     for (const reason of customer.reasons) {
-      const key = [reason.vehicle_type, reason.code, kindOf(reason)].join('|');
+      const zone = reason.zone?.message ?? '';
+      const key = [reason.vehicle_type, reason.code, kindOf(reason), zone].join('|');
       if (!groups.has(key)) groups.set(key, []);
       groups.get(key).push({ customer, reason });
     }

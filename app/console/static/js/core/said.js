@@ -3,6 +3,7 @@
 import { language, t } from '../texts.js';
 import { timesInWords } from './format.js';
 import { parsePath } from './paths.js';
+import { closureInWords } from './zone-words.js';
 
 /** Names of fields and settings, places in a request, and what is written as in a request. */
 const OF_THE_API = /`|TANDEM_|\$\.|[a-z]\w*_\w|\[\w+, ?\w+\]|"\w+":|\w\[\d+\]/;
@@ -17,8 +18,10 @@ const BOUND = /must be at (least|most) (-?[\d.]+)/;
  * @param code of an error or a warning
  * @param path of what it is about
  * @param message in the service's words, English ones
+ * @param zone that keeps drones away, if it is about one
  */
-export function saidOf({ code, path = '', message }) {
+export function saidOf({ code, path = '', message, zone = null }) {
+  if (zone) return closureInWords(zone);
   const plain = plainOf(withoutDescription(message, path));
   if (language() === 'en' && !OF_THE_API.test(plain)) return plain;
   const [, side, number] = BOUND.exec(plain) ?? [];

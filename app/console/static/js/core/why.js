@@ -5,6 +5,7 @@ import { clock, money, number, signed, timeWindow } from './format.js';
 import { saidOf } from './said.js';
 import { costTerms } from './terms.js';
 import { windowsOf } from './windows.js';
+import { zoneInWords } from './zone-words.js';
 import { t } from '../texts.js';
 
 /** So many other vehicles are shown at first. */
@@ -109,7 +110,7 @@ export function noDroneInWords(
     return [];
   }
   const own = customer.served_by === 'truck' ? [t('why.noDrone.byTruck')] : [];
-  const inZones = zones.map((zone) => t('why.noDrone.zone', { zone }));
+  const inZones = zones.map((zone) => t('why.noDrone.zone', { zone: zoneInWords(zone) }));
   const flown = alternatives.filter(({ by }) => by === 'drone');
   const told = flown.map((item) => t('why.noDrone.each', {
     who: whoseOf(item),

@@ -11,6 +11,17 @@ const POINT = /<(\w+:)?Point[\s>]/;
 /** From this on a limit stands for none. */
 const UNLIMITED = 99999;
 
+/** What files say in place of the service's words. */
+const RESTRICTIONS = {
+  REQ_AUTHORIZATION: 'REQ_AUTHORISATION',
+  REQUIRES_AUTHORISATION: 'REQ_AUTHORISATION',
+  REQUIRES_AUTHORIZATION: 'REQ_AUTHORISATION',
+  USPACE: 'REQ_AUTHORISATION',
+  'U-SPACE': 'REQ_AUTHORISATION',
+  NO_RESTRICTIONS: 'NO_RESTRICTION',
+};
+const REFERENCES = { GND: 'AGL', SFC: 'AGL', MSL: 'AMSL', HAE: 'WGS84' };
+
 /** Return the zones that a parsed file holds as a request states them; null if it holds none. */
 export function zonesOf(content) {
   const features = content?.features;
@@ -38,17 +49,30 @@ export function addZones(request, stated) {
   return setIn(request, ['airspace', 'zones'], [...(request.airspace?.zones ?? []), stated]);
 }
 
+const drawn = new WeakMap();
+
 /**
  * Return the areas of a request's zones as a map draws them: `rings`, or `center` and `radius`,
- * what they are called and where they reach.
+ * `name`, `identifier`, `restriction`, `authority`, `lower` and `upper`, both null where no height
+ * is stated.
  */
 export function zoneAreas(request) {
-  return (request.airspace?.zones ?? []).flatMap(({ format, data }) => {
-    if (format === 'kml') return kmlAreas(data);
-    return collection(data).flatMap((feature) =>
-      format === 'ed269' ? ed269Areas(feature) : geojsonAreas(feature),
-    );
+  return (request.airspace?.zones ?? []).flatMap((stated) => {
+    // A country's file is read once, however often the map is drawn.
+    if (!drawn.has(stated)) drawn.set(stated, areasIn(stated));
+    return drawn.get(stated);
   });
+}
+
+/** Return how many zones a file holds. */
+export function countZones({ format, data }) {
+  return format === 'kml' ? placeMarks(data).filter((mark) => POLYGON.test(mark)).length
+    : collection(data).length;
+}
+
+function areasIn({ format, data }) {
+  if (format === 'kml') return kmlAreas(data);
+  return collection(data).flatMap(format === 'ed269' ? ed269Areas : geojsonAreas);
 }
 
 function collection(data) {
@@ -60,30 +84,17 @@ function ed269Areas(zone) {
   return (zone.geometry ?? []).map((volume) => ({
     ...named(zone, zone.restriction),
     ...areaOf(volume.horizontalProjection ?? {}),
-    reach: reachOf({
-      lower: volume.lowerLimit,
-      lowerReference: volume.lowerVerticalReference,
-      upper: volume.upperLimit,
-      upperReference: volume.upperVerticalReference,
-      uom: volume.uomDimensions,
-    }),
+    ...limitsOf(volume),
   }));
 }
 
 function geojsonAreas({ geometry, properties, id }) {
   const known = { identifier: id, ...properties };
-  const usual = known.variant ? undefined : {
-    lower: known.lowerLimit,
-    lowerReference: known.lowerVerticalReference,
-    upper: known.upperLimit,
-    upperReference: known.upperVerticalReference,
-    uom: known.uomDimensions,
-  };
   const name = named(known, known.variant ? known.type : known.restriction ?? 'PROHIBITED');
   return singleAreas(geometry).map((part) => ({
     ...name,
     ...areaOf(part),
-    reach: reachOf(part.layer ?? geometry.layer ?? usual ?? {}),
+    ...limitsOf(part.layer ?? geometry.layer ?? (known.variant ? {} : known)),
   }));
 }
 
@@ -100,11 +111,11 @@ function areaOf({ coordinates, center, radius, extent }) {
 }
 
 function named({ identifier, name, zoneAuthority }, restriction) {
-  const title = words(name) ?? words(identifier) ?? '';
   const [authority] = [zoneAuthority ?? []].flat();
   return {
-    title: words(identifier) && title !== words(identifier) ? `${title} (${identifier})` : title,
-    restriction: restriction ?? '',
+    name: words(name),
+    identifier: words(identifier),
+    restriction: spelled(restriction ?? '', RESTRICTIONS),
     authority: words(authority?.name) ?? words(authority?.service) ?? '',
   };
 }
@@ -116,19 +127,25 @@ function words(text) {
   return (english ?? text[0])?.text ?? null;
 }
 
-/**
- * Return from where to where a volume reaches, as `0 m AGL – 120 m AGL`.
- *
- * @param {Record<string, any>} volume
- */
-function reachOf({ lower, lowerReference, upper, upperReference, uom = 'm' }) {
+/** Return the heights of a volume of ED-269, a layer of ED-318, or properties like either. */
+function limitsOf(stated) {
+  const unit = String(stated.uomDimensions ?? stated.uom ?? 'M').toUpperCase();
   const limit = (value, reference) =>
     value === undefined || value === null || !reference || Math.abs(value) >= UNLIMITED
-      ? '?'
-      : `${value} ${uom.toLowerCase()} ${reference}`;
-  const to = upper === null || upper === undefined || upper >= UNLIMITED
-    ? '∞' : limit(upper, upperReference);
-  return `${limit(lower, lowerReference)} – ${to}`;
+      ? null
+      : { value: Number(value), unit, reference: spelled(reference, REFERENCES) };
+  return {
+    lower: limit(stated.lowerLimit ?? stated.lower,
+      stated.lowerVerticalReference ?? stated.lowerReference),
+    upper: limit(stated.upperLimit ?? stated.upper,
+      stated.upperVerticalReference ?? stated.upperReference),
+  };
+}
+
+/** Return a word as the service spells it. */
+function spelled(word, meant) {
+  const plain = String(word).trim().toUpperCase().replaceAll(' ', '_');
+  return meant[plain] ?? plain;
 }
 
 function placeMarks(text) {
@@ -138,15 +155,16 @@ function placeMarks(text) {
 /** Return the areas of a text of KML, whose polygons have their coordinates ring by ring. */
 function kmlAreas(text) {
   return placeMarks(text).flatMap((mark) => {
-    const title = mark.match(/<name>([\s\S]*?)<\/name>/)?.[1].trim() ?? '';
+    const name = mark.match(/<name>([\s\S]*?)<\/name>/)?.[1].trim() ?? null;
     return [...mark.matchAll(/<Polygon[\s\S]*?<\/Polygon>/g)].map(([polygon]) => ({
-      title,
+      name,
+      identifier: null,
       restriction: 'PROHIBITED',
       authority: '',
       rings: [...polygon.matchAll(/<coordinates>([\s\S]*?)<\/coordinates>/g)].map(([, corners]) =>
         corners.trim().split(/\s+/).map((corner) => corner.split(',').slice(0, 2).map(Number)),
       ),
-      reach: reachOf({}),
+      ...limitsOf({}),
     }));
   });
 }

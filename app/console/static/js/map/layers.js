@@ -6,6 +6,7 @@ import { tripDash, vehicleColour } from '../core/palette.js';
 import { isByAir, partsOf } from '../core/plan.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
+import { asksOf, reachOf, titleOfZone } from '../core/zone-words.js';
 import { zoneAreas } from '../core/zones.js';
 import { leaflet } from '../libraries.js';
 import { Cross, Disc } from './marks.js';
@@ -194,7 +195,8 @@ export function noFlyShapes(request, dark) {
 /** Return the published zones' shapes, which tell their names, heights and authorities. */
 export function zoneShapes(request, dark) {
   const colour = dark ? '#ff9d94' : '#a8321f';
-  return zoneAreas(request).map(({ rings, center, radius, ...said }) => {
+  return zoneAreas(request).map((area) => {
+    const { rings, center, radius } = area;
     const style = {
       color: colour,
       weight: 1,
@@ -205,7 +207,7 @@ export function zoneShapes(request, dark) {
       ? L.polygon(rings.map((ring) => ring.map(latLng)), style)
       : L.circle(latLng(center), { ...style, radius });
     const told = document.createElement('span');
-    told.innerText = [said.title, said.restriction, said.reach, said.authority]
+    told.innerText = [titleOfZone(area), asksOf(area), reachOf(area), area.authority]
       .filter(Boolean)
       .join('\n');
     return shape.bindTooltip(told, { sticky: true });

@@ -47,7 +47,8 @@ function entriesOf(request, index, parts) {
     [parts.size > 0, 'settled', 'settled'],
     [lost, 'lost', 'lost'],
     [pinned, 'pin', 'pinned'],
-    [request.airspace?.no_fly?.length > 0 || request.airspace?.zones?.length > 0, 'area', 'area'],
+    [request.airspace?.no_fly?.length > 0, 'area', 'area'],
+    [request.airspace?.zones?.length > 0, 'zone', 'zone'],
   ];
   return entries.filter(([there]) => there).map(([, sign, name]) => [sign, name]);
 }
@@ -69,6 +70,7 @@ const SIGNS = {
   pin: html`<path class="filled" d="M9 4H17L13 11Z" />`,
   area: html`<rect class="area" x="4" y="2" width="18" height="10" stroke-width="1.5"
     stroke-dasharray="6 3" />`,
+  zone: html`<rect class="area" x="4" y="2" width="18" height="10" stroke-width="1" />`,
 };
 
 function Sign({ sign }) {

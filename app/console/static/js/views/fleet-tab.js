@@ -5,6 +5,7 @@ import { freeName } from '../core/changes.js';
 import { droneCount, needlessFields } from '../core/drones.js';
 import { amounts } from '../core/format.js';
 import { removeIn } from '../core/paths.js';
+import { countZones } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
@@ -71,8 +72,10 @@ export function FleetTab() {
     </fieldset>
     <fieldset class="group"><legend>${t('field.zones')}</legend>
       ${(request.airspace?.zones ?? []).map(
-        ({ format }, position) => html`<div class="buttons" key=${position}>
-        ${t('fleet.zones', { number: position + 1, format })}
+        (stated, position) => html`<div class="buttons" key=${position}>
+        ${t('fleet.zones', {
+          number: position + 1, format: stated.format, count: countZones(stated),
+        })}
         <button type="button" onClick=${() =>
             edit(removeIn(request, ['airspace', 'zones', position]))}>
           ${t('fleet.removeZones', { number: position + 1 })}</button></div>`,

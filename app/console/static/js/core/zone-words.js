@@ -1,0 +1,48 @@
+/** Published zones of the airspace in words: what they ask for, where they reach, whose they are. */
+
+import { number } from './format.js';
+import { t } from '../texts.js';
+
+/** Return what a zone is called. */
+export function titleOfZone({ name, identifier }) {
+  return name && identifier && name !== identifier
+    ? `${name} (${identifier})`
+    : name || identifier || t('zone.unnamed');
+}
+
+/** Return what a zone asks of those who fly. */
+export function asksOf({ restriction }) {
+  return t(`zone.asks.${restriction}`, { defaultValue: restriction });
+}
+
+/** Return from which height to which a zone reaches; null is a height that isn't stated. */
+export function reachOf({ lower, upper }) {
+  const from = lower
+    ? t(`zone.from.${kindOf(lower)}`, { height: heightOf(lower) })
+    : t('zone.from.unknown');
+  const to = upper
+    ? t(`zone.to.${kindOf(upper)}`, { height: heightOf(upper) })
+    : t('zone.to.none');
+  return `${from} ${to}`;
+}
+
+/** Return why a zone keeps drones away, as the service's reply tells it. */
+export function closureInWords(zone) {
+  return t(`zone.holds.${zone.holds}`, { zone: zoneInWords(zone) });
+}
+
+/** Return all that is told of a zone. */
+export function zoneInWords(zone) {
+  const told = t('zone.told', {
+    title: titleOfZone(zone), asks: asksOf(zone), reach: reachOf(zone),
+  });
+  return zone.authority ? `${told} ${t('zone.authority', { authority: zone.authority })}` : told;
+}
+
+function kindOf({ value, reference }) {
+  return value === 0 && reference === 'AGL' ? 'ground' : 'height';
+}
+
+function heightOf({ value, unit, reference }) {
+  return `${number(value)} ${unit.toLowerCase()} ${t(`zone.above.${reference}`)}`;
+}
