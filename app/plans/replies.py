@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from typing import Any
 
-from app.plans.energy import energy_models, energy_wh
+from app.plans.energy import energy_models, energy_wh, left_by_sorties, left_by_trips
 from app.requests.conversion.units import money, whole
 from model.judge.check import Evaluation
 from model.judge.explain import Reason, explain
@@ -91,22 +91,26 @@ def route_reply(problem: Problem, route: Route, metrics: RouteMetrics) -> Data:
         "working_rate": _finite(metrics.working_rate),
         "overtime": whole(metrics.overtime),
         "cost": money(metrics.cost),
-        "trips": [_trip(problem, route.vehicle_type, name, trip, measured)
-                  for trip, measured in zip(route.trips, metrics.trips, strict=True)],
+        "trips": [_trip(problem, route.vehicle_type, name, trip, measured, left)
+                  for trip, measured, left in zip(route.trips, metrics.trips,
+                                                  left_by_trips(problem, route), strict=True)],
     }
 
 
-def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMetrics) -> Data:
+def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMetrics,
+          left: Sequence[Data]) -> Data:
     return {
         "load": _amounts(problem, metrics.load),
         "load_rate": _finite(metrics.load_rate),
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
-        "stops": [_stop(problem, stop, load)
-                  for stop, load in zip(trip.stops, metrics.stop_loads, strict=True)
+        "stops": [_stop(problem, stop, load) | at_stop
+                  for stop, load, at_stop in zip(trip.stops, metrics.stop_loads, left, strict=True)
                   if not problem.is_nowhere(stop.node)],
-        "sorties": [_sortie(problem, kind, vehicle, sortie, measured)
-                    for sortie, measured in zip(trip.sorties, metrics.sorties, strict=True)],
+        "sorties": [_sortie(problem, kind, vehicle, sortie, measured, behind)
+                    for sortie, measured, behind in zip(
+                        trip.sorties, metrics.sorties, left_by_sorties(problem, kind, trip),
+                        strict=True)],
         "energy_wh": energy_wh(_flights(metrics)),
     }
 
@@ -150,7 +154,7 @@ def _setup(halt: Stop | Visit) -> Data:
 
 
 def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
-            metrics: SortieMetrics) -> Data:
+            metrics: SortieMetrics, left: Sequence[Data]) -> Data:
     drone_type = problem.vehicle_types[kind].drone_type(sortie.drone).id
     return {
         "drone": f"{vehicle}/drone-{sortie.drone + 1}",
@@ -167,14 +171,16 @@ def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
                 **_setup(visit),
                 "lateness": _lateness(problem, visit),
                 "load": _amounts(problem, load),
+                **behind,
             }
-            for visit, load in zip(sortie.visits, metrics.loads[1:], strict=True)
+            for visit, load, behind in zip(sortie.visits, metrics.loads[1:], left, strict=False)
         ],
         "launch_time": whole(sortie.launch_time),
         "recovery_time": whole(sortie.recovery_time),
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
         "energy_wh": energy_wh([metrics.energy]),
+        **left[-1],
     }
 
 

@@ -43,6 +43,7 @@ class VisitInput(_Plan):
     setup: Number = None
     lateness: Number = None
     load: Loads = None
+    energy_left_wh: Number = None
     geometry: Line = None
     info: Details = None
 
@@ -72,6 +73,7 @@ class StopInput(_Plan):
     waiting: Number = None
     lateness: Number = None
     load: Loads = None
+    energy_left_wh: Number = None
     geometry: Line = None
     info: Details = None
 
@@ -95,6 +97,7 @@ class SortieInput(_Plan):
     distance: Number = None
     duration: Number = None
     energy_wh: Number = None
+    energy_left_wh: Number = None
     recovery_geometry: Line = None
 
 

@@ -61,6 +61,11 @@ class StopReply(_Reply):
     load: list[float] = Field(
         description="Load when the truck leaves, or ends its trip, per dimension."
     )
+    energy_left_wh: float | None = Field(
+        None,
+        description="What is left in the battery, reserve included, when the vehicle takes off or, "
+        "at the last stop, has landed, in watt-hours. Left out of trucks, and where not known."
+    )
     geometry: str | None = Field(
         None, description=f"The way from the stop before, {LINE} A trip's first stop has none."
     )
@@ -81,6 +86,11 @@ class VisitReply(_Reply):
         description="Arrival, setup included, after the time window's end in seconds."
     )
     load: list[float] = Field(description="What the drone carries when it leaves, per dimension.")
+    energy_left_wh: float | None = Field(
+        None,
+        description="What is left in the battery, reserve included, when the drone leaves, in "
+        "watt-hours. Left out where not known."
+    )
     geometry: str | None = Field(None, description=f"The flight that leads there, {LINE}")
     info: dict[str, str] | None = Field(
         None, description="The customer's `info` of the request. Left out if it has none."
@@ -104,6 +114,11 @@ class SortieReply(_Reply):
     duration: float = Field(description="From take-off to the end of the recovery in seconds.")
     energy_wh: float | None = Field(
         description="What the flight takes of the battery in watt-hours. Null: not known."
+    )
+    energy_left_wh: float | None = Field(
+        None,
+        description="What is left in the battery, reserve included, as the recovery begins, in "
+        "watt-hours. Left out where not known."
     )
     recovery_geometry: str | None = Field(
         None, description=f"The flight from its last customer to the recovery, {LINE}"

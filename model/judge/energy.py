@@ -72,27 +72,38 @@ def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> li
 def sortie_energy(problem: Problem, drones: DroneType, energy: Energy, trip: Trip,
                   sortie: Sortie) -> int:
     """Return what a sortie takes: its legs, and the time that it waits in the air."""
+    return sum(sortie_energies(problem, drones, energy, trip, sortie))
+
+
+def sortie_energies(problem: Problem, drones: DroneType, energy: Energy, trip: Trip,
+                    sortie: Sortie) -> list[int]:
+    """Return what a sortie takes from place to place, as `flight_energies` does."""
     nodes = [visit.node for visit in sortie.visits]
     path = (trip.stops[sortie.launch_stop].node, *nodes, trip.stops[sortie.recovery_stop].node)
-    return flight_energy(problem, drones, energy, path, sortie.visits, sortie.launch_time,
-                         sortie.recovery_start)
+    return flight_energies(problem, drones, energy, path, sortie.visits, sortie.launch_time,
+                           sortie.recovery_start)
 
 
-def flight_energy(problem: Problem, flyer: DroneType | VehicleType, energy: Energy,
-                  path: Sequence[int], visits: Sequence[Visit | Stop], launch_time: int,
-                  recovery_start: int) -> int:
-    """Return what a flight takes, by the nodes where it begins, comes and ends."""
+def flight_energies(problem: Problem, flyer: DroneType | VehicleType, energy: Energy,
+                    path: Sequence[int], visits: Sequence[Visit | Stop], launch_time: int,
+                    recovery_start: int) -> list[int]:
+    """Return what a flight takes until it leaves each customer, and then until it ends.
+
+    Each from the place before on; `path` is the nodes where it begins, comes and ends.
+    """
     duration = problem.travel[flyer.travel].duration
     aboard = weights_aboard(problem, energy, path[1:-1])
-    node, time, taken = path[0], launch_time, 0
+    node, time, energies = path[0], launch_time, []
     for visit, weight in zip(visits, aboard, strict=False):
-        taken += leg_energy(energy, duration.item(node, visit.node) + visit.setup, weight)
+        taken = leg_energy(energy, duration.item(node, visit.node) + visit.setup, weight)
         if not energy.lands:
             taken += hover_energy(energy, visit.departure - visit.ready, weight)
+        energies.append(taken)
         node, time = visit.node, visit.departure
     home = duration.item(node, path[-1])
-    return (taken + leg_energy(energy, home, aboard[-1])
-            + hover_energy(energy, recovery_start - time - home, aboard[-1]))
+    energies.append(leg_energy(energy, home, aboard[-1])
+                    + hover_energy(energy, recovery_start - time - home, aboard[-1]))
+    return energies
 
 
 def least_energy(problem: Problem, energy: Energy, nodes: Sequence[int], legs: Sequence[int],

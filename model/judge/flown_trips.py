@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from model.judge.energy import (
-    Rest, charge_after, first_rest, flight_energy, least_energy, power_at, time_charged,
+    Rest, charge_after, first_rest, flight_energies, least_energy, power_at, time_charged,
     weights_aboard,
 )
 from model.judge.freshness import most_excess
@@ -19,11 +19,14 @@ def airborne(trip: Trip) -> int:
 
 def trip_energy(problem: Problem, kind: VehicleType, trip: Trip) -> int | None:
     """Return what a trip takes; None where it is not known what flying takes."""
-    if kind.energy is None:
-        return None
+    return None if kind.energy is None else sum(trip_energies(problem, kind, kind.energy, trip))
+
+
+def trip_energies(problem: Problem, kind: VehicleType, energy: Energy, trip: Trip) -> list[int]:
+    """Return what a trip takes from stop to stop, as `flight_energies` does."""
     path = [stop.node for stop in trip.stops]
-    return flight_energy(problem, kind, kind.energy, path, trip.stops[1:-1],
-                         trip.stops[0].departure, trip.stops[-1].arrival)
+    return flight_energies(problem, kind, energy, path, trip.stops[1:-1],
+                           trip.stops[0].departure, trip.stops[-1].arrival)
 
 
 def trip_charges(problem: Problem, kind: VehicleType, trips: Sequence[Trip]) -> list[int]:

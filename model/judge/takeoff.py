@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from model.judge.clock import opening
 from model.judge.energy import (
-    Rest, charge_after, flight_energy, least_energy, longest_hold, time_charged,
+    Rest, charge_after, flight_energies, least_energy, longest_hold, time_charged,
 )
 from model.problem import UNLIMITED, DroneType, Problem
 from model.solution import Visit
@@ -83,6 +83,7 @@ def rest_after(problem: Problem, drones: DroneType, rest: Rest | None, path: Pat
     if energy is None or rest is None:
         return None
     begun = launch_time - drones.launch_duration
-    return Rest(charge_after(energy, rest, begun)
-                - flight_energy(problem, drones, energy, path, visits, launch_time, recovery_start),
+    taken = sum(flight_energies(problem, drones, energy, path, visits, launch_time,
+                                recovery_start))
+    return Rest(charge_after(energy, rest, begun) - taken,
                 recovery_start + drones.recovery_duration)

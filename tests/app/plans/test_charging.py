@@ -43,6 +43,8 @@ def test_a_drone_rests_until_it_has_what_its_next_flight_takes(client: httpx.Cli
     missing = first["energy_wh"] + second["energy_wh"] - battery
     rested = second["launch_time"] - 20 - first["recovery_time"]
     assert rested == pytest.approx(missing / 50 * 3600, abs=0.002)
+    assert first["energy_left_wh"] == pytest.approx(battery - first["energy_wh"])
+    assert second["energy_left_wh"] == pytest.approx(0, abs=1e-4)
     check = {"problem": request, "plan": plan}
     assert client.post("/check", json=check).json()["feasible"]
     slower = {"problem": flying(smallest, 49.0, battery), "plan": plan}

@@ -32,6 +32,23 @@ def test_a_reply_tells_what_flights_take(client: httpx.Client, smallest: Request
     assert (again["feasible"], again["summary"]["energy_wh"]) == (True, sortie["energy_wh"])
 
 
+def test_a_reply_tells_what_is_left_at_each_point(client: httpx.Client,
+                                                  smallest: Request) -> None:
+    request = flying(smallest, power={"cruise_w": 100, "cruise_w_per_kg": 20, "hover_w": 300},
+                     reserve=0.25, lands=False)
+    plan = planned(client, request)
+    trip, = plan["routes"][0]["trips"]
+    sortie, = trip["sorties"]
+    visit, = sortie["customers"]
+    flown, hovered = visit["arrival"] - sortie["launch_time"], visit["departure"] - visit["arrival"]
+    assert visit["energy_left_wh"] == pytest.approx(100 - (200 * flown + 300 * hovered) / 3600,
+                                                    rel=1e-5)
+    assert sortie["energy_left_wh"] == pytest.approx(100 - sortie["energy_wh"])
+    assert not any("energy_left_wh" in stop for stop in trip["stops"])
+    again = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert again["feasible"]
+
+
 def test_what_a_drone_picks_up_weighs_on_its_way_home(client: httpx.Client,
                                                       smallest: Request) -> None:
     request = flying(smallest, power={"cruise_w": 100, "cruise_w_per_kg": 20}, weight_dimension=3)

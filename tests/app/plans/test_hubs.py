@@ -48,6 +48,9 @@ def test_drones_fly_from_the_depot(client: httpx.Client, smallest: Request) -> N
         assert first["departure"] - first["arrival"] == 20
         assert last["departure"] - last["arrival"] == 10
         assert 0 < trip["energy_wh"] <= 100
+        left = [stop["energy_left_wh"] for stop in trip["stops"]]
+        assert left == sorted(left, reverse=True)
+        assert (left[0], left[-1]) == (100, pytest.approx(100 - trip["energy_wh"]))
     summary = plan["summary"]
     assert summary["distance"] == 0
     assert summary["drone_distance"] == pytest.approx(
@@ -104,6 +107,9 @@ def test_batteries_are_swapped_or_charged_between_trips(
     first, second = trips_of(charged)[:2]
     missing = first["energy_wh"] + second["energy_wh"] - most - 0.01
     rested = second["stops"][0]["arrival"] - first["stops"][-1]["departure"]
+    behind, then = (trip["stops"][stop]["energy_left_wh"]
+                    for trip, stop in ((first, -1), (second, 0)))
+    assert then == pytest.approx(min(most + 0.01, behind + 50 * rested / 3600), abs=1e-4)
     assert rested >= missing / 50 * 3600 - 0.01
     assert is_feasible(searching, request, charged)
 
