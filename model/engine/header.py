@@ -29,6 +29,23 @@ def interface() -> Any:
     return ffi
 
 
+def pointer_to(name: str) -> Any:
+    """Return the type of pointers to what has a name: a struct of the header's, or a number."""
+    return _pointers()[name]
+
+
+@cache
+def _pointers() -> dict[str, Any]:
+    """Return the types of pointers to all that has a name, read at once.
+
+    To read one type, cffi reads the names of all.
+    """
+    ffi = interface()
+    names = (*ffi.list_types()[0], *_NUMBERS, "uintptr_t")
+    read = ffi.typeof(f"void (*)({', '.join(f'{name} *' for name in names)})")
+    return dict(zip(names, read.args, strict=True))
+
+
 def _declarations(text: str) -> str:
     """Return a C header without what the preprocessor and C++ alone read."""
     text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
@@ -37,7 +54,7 @@ def _declarations(text: str) -> str:
 
 def dtype_of(name: str) -> np.dtype[Any]:
     """Return NumPy's type of a C struct of numbers, `tandem_node` for example, or of a number."""
-    return dtype_of_type(interface().typeof(name))
+    return dtype_of_type(pointer_to(name).item)
 
 
 @cache

@@ -19,7 +19,9 @@ from typing import Any
 
 import numpy as np
 
-from model.engine.header import dtype_of, dtype_of_type, header, interface, is_opaque, is_row
+from model.engine.header import (
+    dtype_of, dtype_of_type, header, interface, is_opaque, is_row, pointer_to,
+)
 from model.engine.packing import Packed, address_of, number_of, packed
 
 __all__ = ["EndedError", "call", "dtype_of", "packed", "path_of_library"]
@@ -93,7 +95,7 @@ def _library() -> Any:
                           "run 'make engine', or install the project by pip")
     ffi = interface()
     library = ffi.dlopen(str(path))
-    digest = ffi.new("uint64_t *")
+    digest = ffi.new(pointer_to("uint64_t"))
     library.tandem_header(digest)
     if digest[0] != int(hashlib.sha256(header().read_bytes()).hexdigest()[:16], 16):
         raise ImportError(f"{path} was built from another tandem.h than {header()}. Build it again "
@@ -134,7 +136,7 @@ def _conversion(kind: Any, path: str) -> Convert:
     def pack(value: Any) -> Any:
         if type(value) is not Packed:
             try:
-                return Packed(value, kind.item).pointer
+                return Packed(value, kind).pointer
             except TypeError as error:
                 raise TypeError(f"{path}: {error}") from None
         if value.kind is not kind.item:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.header import dtype_of_type, interface, is_laid_out_as
+from model.engine.header import dtype_of_type, interface, is_laid_out_as, pointer_to
 
 Encode = Callable[[Any, list[Any]], None]
 """Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
@@ -34,13 +34,13 @@ class Packed:
 
     __slots__ = ("_value", "kind", "pointer")
 
-    def __init__(self, value: Any, kind: Any) -> None:
-        """Pack a value as a C struct."""
-        layout, encode = _packing(kind)
+    def __init__(self, value: Any, pointer: Any) -> None:
+        """Pack a value as the C struct that a type of pointers points to."""
+        layout, encode = _packing(pointer.item)
         numbers: list[Any] = []
         encode(value, numbers)
-        self.kind = kind
-        self.pointer = interface().from_buffer(_pointer_to(kind), layout.pack(*numbers))
+        self.kind = pointer.item
+        self.pointer = interface().from_buffer(pointer, layout.pack(*numbers))
         self._value = value
 
 
@@ -54,7 +54,7 @@ def packed(value: Any, name: str = "") -> Packed:
     name
         Of the C struct; without, that of the value's class.
     """
-    return Packed(value, interface().typeof(name or struct_name(type(value))))
+    return Packed(value, pointer_to(name or struct_name(type(value))))
 
 
 def struct_name(kind: type) -> str:
@@ -94,11 +94,6 @@ def address_of(dtype: np.dtype[Any], path: str) -> Callable[[Any], Any]:
         raise TypeError(f"{path}: a row of {_shown(dtype)} was expected, not {_told(value)}")
 
     return address
-
-
-@cache
-def _pointer_to(kind: Any) -> Any:
-    return interface().typeof(f"{kind.cname} *")
 
 
 @cache
@@ -151,7 +146,7 @@ def _number(kind: Any, path: str) -> Encode:
 
 def _row(dtype: np.dtype[Any], path: str) -> Encode:
     address, cast = address_of(dtype, path), interface().cast
-    integer = interface().typeof("uintptr_t")
+    integer = pointer_to("uintptr_t").item
 
     def encode(value: Any, numbers: list[Any]) -> None:
         numbers.append(int(cast(integer, address(value))))
@@ -161,7 +156,7 @@ def _row(dtype: np.dtype[Any], path: str) -> Encode:
 
 def _array(dtype: np.dtype[Any], dimensions: int, path: str) -> Encode:
     from_buffer, cast = interface().from_buffer, interface().cast
-    integer = interface().typeof("uintptr_t")
+    integer = pointer_to("uintptr_t").item
 
     def encode(value: Any, numbers: list[Any]) -> None:
         try:

@@ -102,11 +102,11 @@ def test_computed_legs_of_other_rows_are_refused() -> None:
 
 @pytest.fixture(scope="module")
 def made_up() -> Any:
-    """Return a struct with gaps, a pointer, numbers and an array."""
+    """Return pointers to a struct with gaps, a pointer, numbers and an array."""
     ffi = interface()
     ffi.cdef("typedef struct made_up { bool flag; int64_t count; bool other; double share;"
              " tandem_least *row; bool last; tandem_i64_1d numbers; bool end; } made_up;")
-    return ffi.typeof("made_up")
+    return ffi.typeof("made_up *")
 
 
 class MadeUp(NamedTuple):
