@@ -7,8 +7,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
-from tests.console.serving import chromium, new_context, serving
+from tests.console.serving import VIEWPORT, chromium, new_context, serving
 from tests.console.steps import with_table1
+
+OF_A_PAGE = {"viewport", "color_scheme"}
+"""What of a browser's context a page of another can be given."""
 
 WAIT_MS = 30_000
 """For what a page does."""
@@ -65,18 +68,28 @@ class Complaints:
 
 
 @contextmanager
-def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
+def opening(browser: Browser, visitor: BrowserContext | None = None
+            ) -> Iterator[Callable[..., Page]]:
     """Yield a function that opens a page; what its console or network complain of is an error.
 
-    Keywords are those of a browser's context, such as `color_scheme`; `allow` are texts of errors
-    that the test provokes. A console begins with `table1`, whose places are known to the tests.
+    Keywords are those of a browser's context, such as `locale`; `allow` are texts of errors that
+    the test provokes. A console begins with `table1`, whose places are known to the tests.
+
+    The first page is `visitor`'s, if that is given and has no page of a test open, unless the
+    keywords ask for what a page can't be given.
     """
     complaints: list[Complaints] = []
     contexts: list[BrowserContext] = []
 
     def opener(address: str, allow: tuple[str, ...] = (), **options: Any) -> Page:
-        contexts.append(new_context(browser, **options))
-        page = contexts[-1].new_page()
+        if visitor and len(visitor.pages) == 1 and options.keys() <= OF_A_PAGE:
+            page = visitor.new_page()
+            forget(visitor, page, address)
+            page.set_viewport_size(options.get("viewport", VIEWPORT))
+            page.emulate_media(color_scheme=options.get("color_scheme", "light"))
+        else:
+            contexts.append(new_context(browser, **options))
+            page = contexts[-1].new_page()
         complaints.append(Complaints(page, address, allow))
         page.goto(with_table1(address))
         return page
@@ -84,13 +97,15 @@ def opening(browser: Browser) -> Iterator[Callable[..., Page]]:
     yield opener
     for context in contexts:
         context.close()
+    if visitor is not None:
+        leave(visitor)
     assert [text for each in complaints for text in each.texts] == []
 
 
 @pytest.fixture
-def open_page(browser: Browser) -> Iterator[Callable[..., Page]]:
+def open_page(browser: Browser, visitor: BrowserContext) -> Iterator[Callable[..., Page]]:
     """Return what `opening` yields, for one test."""
-    with opening(browser) as opener:
+    with opening(browser, visitor) as opener:
         yield opener
 
 
@@ -118,18 +133,22 @@ def visitor(browser: Browser) -> Iterator[BrowserContext]:
 @pytest.fixture
 def page(visitor: BrowserContext, service: str) -> Iterator[Page]:
     """Return the console with `table1` planned, to whoever has never been there."""
-    for former in visitor.pages[1:]:
-        former.close()
+    leave(visitor)
     page = visitor.new_page()
     forget(visitor, page, service)
     complaints = Complaints(page, service)
     page.goto(with_table1(service))
     expect(page.locator("#total-cost")).to_be_visible()
     yield page
-    for one in visitor.pages[1:]:
-        one.close()
-    visitor.unroute_all()
+    leave(visitor)
     assert complaints.texts == []
+
+
+def leave(visitor: BrowserContext) -> None:
+    """Close what a test has opened. In place."""
+    for page in visitor.pages[1:]:
+        page.close()
+    visitor.unroute_all()
 
 
 def forget(visitor: BrowserContext, page: Page, address: str) -> None:
