@@ -1,6 +1,7 @@
 """Vehicles that fly from hubs, and launch sites, on the map and in lists."""
 
 import json
+import re
 from typing import Any
 
 import pytest
@@ -35,7 +36,13 @@ def test_hubs_drones_and_launch_sites_are_seen(page: Page) -> None:
     panel = page.locator(".panel")
     expect(panel.locator("summary strong", has_text="quad-1 (flies)")).to_be_visible()
     expect(panel).to_contain_text(" Wh")
-    expect(panel.get_by_role("row", name="pier for its drones")).to_be_visible()
+    panel.get_by_role("row", name="quad-1").get_by_role("button").click()
+    profile = panel.locator(".height-profile")
+    expect(profile).to_contain_text("landing at attic")
+    trip = next(route for route in routes if route["vehicle"] == "quad-1")["trips"][0]
+    expect(profile.get_by_role("definition")).to_have_text(
+        [re.compile(rf"^{stop['energy_left_wh']:.1f} Wh".replace(".0 ", " "))
+         for stop in trip["stops"]])
     legend = page.locator(".map-legend")
     expect(legend).to_contain_text("Flight of a drone")
     expect(legend).to_contain_text("Launch site")

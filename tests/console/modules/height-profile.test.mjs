@@ -1,14 +1,18 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 
-import { heightsOf } from '../../../app/console/static/js/core/height-profile.js';
+import {
+  flightOfSortie, flightOfTrip, heightsOf,
+} from '../../../app/console/static/js/core/height-profile.js';
 
 const REPLY = { drone: 'van-1/drone-1', launch_time: 100, recovery_time: 500 };
 const VISITS = [{ id: 'A', arrival: 200, departure: 260 }];
 
-function sortie(drones) {
+function sortie(drones, energies = {}) {
   const type = { id: 'van', drones: { count: 1, ...drones } };
-  return { reply: REPLY, visits: VISITS, trip: { vehicle: { type } } };
+  const visits = VISITS.map((visit) => ({ ...visit, energyLeft: energies.atA ?? null }));
+  const reply = { ...REPLY, ...energies.reply };
+  return flightOfSortie({ reply, visits, trip: { vehicle: { type } } });
 }
 
 function told({ corners }) {
@@ -43,4 +47,26 @@ test('times never go back, however short the flight', () => {
   const climb = { up_seconds: 300, down_seconds: 300 };
   const times = heightsOf(sortie({ energy: { climb } })).corners.map(({ time }) => time);
   assert.deepEqual(times, [...times].sort((a, b) => a - b));
+});
+
+test('what is left is told from take-off over each customer to the landing', () => {
+  const reply = { energy_wh: 60, energy_left_wh: 440 };
+  assert.deepEqual(sortie({ recovery_duration: 30 }, { atA: 480, reply }).left, [
+    { time: 100, wh: 500 }, { id: 'A', time: 260, wh: 480 }, { time: 470, wh: 440 },
+  ]);
+  assert.deepEqual(sortie({}).left, []);
+});
+
+test('a trip of a vehicle that flies is a flight from its take-off to its landing', () => {
+  const stop = (id, arrival, departure, energyLeft) => ({ id, arrival, departure, energyLeft });
+  const flight = flightOfTrip({
+    vehicle: { type: { id: 'quad', flies: true, altitude: 60 } },
+    stops: [stop('hub', 0, 90, 800), stop('A', 200, 260, 700), stop('hub', 400, 460, 650)],
+  });
+  assert.deepEqual(flight.left, [
+    { time: 90, wh: 800 }, { id: 'A', time: 260, wh: 700 }, { time: 400, wh: 650 },
+  ]);
+  assert.deepEqual(told(heightsOf(flight)), [
+    [90, 0], [90, 60], [200, 60], [200, 0], [260, 0], [260, 60], [400, 60], [400, 0],
+  ]);
 });

@@ -351,6 +351,7 @@ export default {
     flownBy: 'Geflogen von',
     flying: '{{vehicle}} (fliegt)',
     energy: 'Energie',
+    energyLeft: 'Energie übrig',
     notKnown: 'nicht bekannt',
     kmIn: '{{way}} in {{time}}',
     trip: '{{vehicle}}, Fahrt {{number}}',
@@ -705,6 +706,9 @@ export default {
   profile: {
     lands: 'In {{height}} Höhe von {{from}} bis {{until}}, landet bei {{names}}.',
     hovers: 'In {{height}} Höhe von {{from}} bis {{until}}, schwebt bei {{names}}.',
+    left: 'Energie übrig',
+    takeOff: 'Beim Start',
+    landing: 'Bei der Landung',
   },
   routes: {
     select:

@@ -338,6 +338,7 @@ export default {
     flownBy: 'Flown by',
     flying: '{{vehicle}} (flies)',
     energy: 'Energy',
+    energyLeft: 'Energy left',
     notKnown: 'not known',
     kmIn: '{{way}} in {{time}}',
     trip: '{{vehicle}}, trip {{number}}',
@@ -695,6 +696,9 @@ export default {
   profile: {
     lands: 'At {{height}} from {{from}} to {{until}}, landing at {{names}}.',
     hovers: 'At {{height}} from {{from}} to {{until}}, hovering at {{names}}.',
+    left: 'Energy left',
+    takeOff: 'At take-off',
+    landing: 'At landing',
   },
   routes: {
     select: 'Select a stop, flight or trip here, on the map or in the timeline.',

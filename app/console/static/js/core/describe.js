@@ -104,6 +104,7 @@ export function haltFacts(halt) {
   facts.push([t('about.departure'), clock(halt.departure, { precise: true })]);
   if (halt.lateness > 0) facts.push([t('about.lateBy'), duration(halt.lateness)]);
   facts.push([halt.sortie ? t('about.payload') : t('about.load'), amounts(halt.load)]);
+  if (halt.energyLeft !== null) facts.push([t('about.energyLeft'), wattHours(halt.energyLeft)]);
   return facts;
 }
 
@@ -129,7 +130,7 @@ function describeSortie(index, key) {
 }
 
 /** Return the sortie that a key names, null if there is none. */
-export function sortieOf(index, key) {
+function sortieOf(index, key) {
   const [vehicle, trip, sortie] = key.slice(2).split('/').map(Number);
   return index?.vehicles[vehicle]?.trips[trip]?.sorties[sortie] ?? null;
 }

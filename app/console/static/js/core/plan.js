@@ -183,6 +183,7 @@ function haltOf(key, reply, trip, source) {
     setup: reply.setup ?? 0,
     departure: reply.departure,
     lateness: reply.lateness,
+    energyLeft: reply.energy_left_wh ?? null,
   };
 }
 

@@ -1,10 +1,11 @@
 /** Routes: vehicles, their trips, and every stop and flight of these. */
 
 import { indexOf, shownPlan } from '../actions.js';
-import { describe, sortieOf } from '../core/describe.js';
+import { describe } from '../core/describe.js';
 import {
   amounts, clock, duration, km, money, number, percent, timeWindow,
 } from '../core/format.js';
+import { flightOfSortie, flightOfTrip } from '../core/height-profile.js';
 import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { customersOf } from '../core/replanning.js';
@@ -42,13 +43,20 @@ function Selected({ index }) {
   const about = describe(request, index, selection);
   if (!about)
     return html`<p class="help">${t('routes.select')}</p>`;
-  const sortie = selection[0] === 's' ? sortieOf(index, selection) : null;
+  const flight = flightOf(index, selection);
   return html`<section class="card"><header><strong>${about.title}</strong></header>
     <div class="inside"><${Facts} facts=${about.facts} />
-      ${sortie && html`<${HeightProfile} sortie=${sortie} rules=${index.plan.rules} />`}
+      ${flight && html`<${HeightProfile} flight=${flight} rules=${index.plan.rules} />`}
       ${selection.startsWith('c:') && html`<${StopMoves} id=${selection.slice(2)} />
         <${WhyHere} id=${selection.slice(2)} />`}
     </div></section>`;
+}
+
+/** Return the flight that a key names, null if it names none. */
+function flightOf(index, key) {
+  const { sortie, trip } = key[0] === 's' || key[0] === 't' ? partsOf(index, key) : {};
+  if (sortie) return flightOfSortie(sortie);
+  return trip?.vehicle.flies ? flightOfTrip(trip) : null;
 }
 
 function Rates({ index }) {
