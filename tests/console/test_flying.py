@@ -51,6 +51,17 @@ def test_hubs_drones_and_launch_sites_are_seen(page: Page) -> None:
     assert findings(page, ".panel") == []
 
 
+def test_drones_of_hubs_that_fly_nothing_are_counted(page: Page) -> None:
+    request = hub_and_site()
+    request["fleet"][1]["count"] = 3
+    open_file(page, "hub.json", json.dumps(request))
+    planned(page, "5 of 5 served")
+    line = page.locator(".drones-line")
+    expect(line).to_contain_text("quad: 2 of 3 fly nothing.")
+    expect(line.get_by_role("status")).to_contain_text("2 drones serve ")
+    expect(line.get_by_role("button", name="What do they save?")).to_have_count(0)
+
+
 def middle(mark: Locator) -> tuple[float, float]:
     """Return where on the screen the middle of a mark is."""
     box = mark.locator("span").bounding_box()

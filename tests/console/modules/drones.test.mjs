@@ -8,6 +8,8 @@ import {
   flightCount,
   needlessFields,
 } from '../../../app/console/static/js/core/drones.js';
+import { flownIn } from '../../../app/console/static/js/core/drones-worth.js';
+import { idleAtHubs } from '../../../app/console/static/js/core/idle-drones.js';
 import { applyRemedy } from '../../../app/console/static/js/core/remedies.js';
 import { launchDurations } from '../../../app/console/static/js/core/launches.js';
 
@@ -81,6 +83,21 @@ test('trips of vehicles that fly count as flights', () => {
   const request = { fleet: [{ id: 'van' }, { id: 'quad', flies: true }] };
   const routes = [{ type: 'van', trips: [{}] }, { type: 'quad', trips: [{}, {}] }];
   assert.equal(flightCount({ request, plan: { routes, summary: { sorties: 3 } } }), 5);
+});
+
+test('drones of hubs are counted beside those aboard, and those that stay as idle', () => {
+  const request = { fleet: [
+    { id: 'van', drones: large }, { id: 'quad', flies: true, count: 3 },
+    { id: 'hexa', flies: true, count: 1 }] };
+  const served = (ids) => [...ids].map((id) => ({ kind: 'customer', id }));
+  const routes = [
+    { type: 'van', trips: [{ sorties: [{ drone: 'van-1/drone-1', customers: served('A') }] }] },
+    { type: 'quad', trips: [{ stops: [{ kind: 'depot' }, ...served('BC')], sorties: [] }] },
+    { type: 'hexa', trips: [{ stops: served('D'), sorties: [] }] },
+  ];
+  const entry = { request, plan: { routes } };
+  assert.deepEqual(flownIn(entry), { drones: 3, customers: 4, ofHubs: 2, present: 5 });
+  assert.deepEqual(idleAtHubs(entry), [{ type: 'quad', count: 2, all: 3 }]);
 });
 
 test('forms have the fields that trucks, or vehicles that fly, can have, and what is stated', () => {

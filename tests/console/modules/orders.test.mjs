@@ -127,5 +127,5 @@ test('drones that fly are counted once, and whom they serve', () => {
       { type: 'van', trips: [{ sorties: [flight('van-1/drone-1', 'A'),
         flight('van-1/drone-1', 'B', 'C')] }, { sorties: [flight('van-1/drone-2', 'D')] }] },
       { type: 'bike', trips: [{}] }] } };
-  assert.deepEqual(flownIn(entry), { drones: 2, customers: 4, carried: 2 });
+  assert.deepEqual(flownIn(entry), { drones: 2, customers: 4, ofHubs: 0, present: 2 });
 });

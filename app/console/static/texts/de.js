@@ -2110,6 +2110,8 @@ export default {
   },
   idleDrones: {
     idle: '{{vehicle}}: Keine Drohne fliegt.',
+    ofHub_one: '{{type}}: {{count}} von {{all}} fliegt nicht.',
+    ofHub_other: '{{type}}: {{count}} von {{all}} fliegen nicht.',
     ask: 'Warum?',
     COSTS_MORE: 'Kein Flug würde sparen: Der beste, zu {{customer}}, würde {{sum}} mehr kosten.',
     SAME: 'Kein Flug würde sparen: Der beste, zu {{customer}}, würde gleich viel kosten.',

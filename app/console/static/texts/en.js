@@ -2056,6 +2056,8 @@ export default {
   },
   idleDrones: {
     idle: '{{vehicle}}: no drone flies.',
+    ofHub_one: '{{type}}: {{count}} of {{all}} flies nothing.',
+    ofHub_other: '{{type}}: {{count}} of {{all}} fly nothing.',
     ask: 'Why?',
     COSTS_MORE: 'No flight would save: the best, to {{customer}}, would cost {{sum}} more.',
     SAME: 'No flight would save: the best, to {{customer}}, would cost as much.',

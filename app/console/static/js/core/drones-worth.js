@@ -3,16 +3,22 @@
 import { droneCount } from './drones.js';
 
 /**
- * Return `{drones, customers, carried}`: drones of a plan that fly, whom they serve, and the drones
- * that its vehicles in use carry.
+ * Return `{drones, customers, ofHubs, present}`: drones of a plan that fly, whom they serve, how
+ * many of them fly from hubs by themselves, and the drones that there are: those that vehicles in
+ * use carry, and all of hubs.
  */
 export function flownIn({ request, plan }) {
   const types = new Map(request.fleet.map((type) => [type.id, type]));
+  const own = plan.routes.filter(({ type }) => types.get(type)?.flies);
   const sorties = plan.routes.flatMap(({ trips }) => trips.flatMap((trip) => trip.sorties ?? []));
+  const served = own.flatMap(({ trips }) => trips.flatMap(({ stops }) => stops))
+    .filter(({ kind }) => kind === 'customer').length;
+  const carried = plan.routes.reduce((sum, { type }) => sum + droneCount(types.get(type)), 0);
   return {
-    drones: new Set(sorties.map(({ drone }) => drone)).size,
-    customers: sorties.reduce((sum, { customers }) => sum + customers.length, 0),
-    carried: plan.routes.reduce((sum, { type }) => sum + droneCount(types.get(type)), 0),
+    drones: new Set(sorties.map(({ drone }) => drone)).size + own.length,
+    customers: sorties.reduce((sum, { customers }) => sum + customers.length, served),
+    ofHubs: own.length,
+    present: request.fleet.reduce((sum, { flies, count }) => sum + (flies ? count : 0), carried),
   };
 }
 

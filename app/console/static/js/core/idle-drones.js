@@ -20,6 +20,18 @@ export function idleCarriers({ request, plan }) {
     .map(({ vehicle }) => vehicle);
 }
 
+/** Return the types of vehicles that fly by themselves of which some don't: `{type, count, all}`. */
+export function idleAtHubs({ request, plan }) {
+  return request.fleet
+    .filter(({ flies }) => flies)
+    .map(({ id, count: all }) => ({
+      type: id,
+      count: all - plan.routes.filter(({ type, trips }) => type === id && trips.length > 0).length,
+      all,
+    }))
+    .filter(({ count }) => count > 0);
+}
+
 /** Return why a vehicle's drones fly nothing, as the service told it, in words. */
 export function idleInWords({ code, message, customer, cost }) {
   if (code === 'SAVES') return t('idleDrones.SAVES', { customer, sum: money(-cost) });

@@ -8,21 +8,23 @@ import { useStore } from '../store.js';
 import { t } from '../texts.js';
 import { IdleDrones } from './idle-drones.js';
 
-/** The sentence, for plans whose vehicles carry drones. */
+/** The sentence, for plans with drones. */
 export function DronesLine() {
   const entry = useStore(shownPlan);
   const answer = toldOf(useStore((state) => state.why), entry, null);
   const idle = useStore(({ run }) => run.state === 'idle');
   const isFirst = useStore(isFirstView);
   const flown = entry && flownIn(entry);
-  const isToBeAsked = Boolean(isFirst && idle && flown?.drones && !answer);
+  // What drones of hubs save isn't known: the service compares with a plan that has them, too.
+  const isAskable = Boolean(flown?.drones && !flown.ofHubs);
+  const isToBeAsked = Boolean(isFirst && idle && isAskable && !answer);
   useEffect(() => {
     if (isToBeAsked) askDrones(entry, true);
   }, [isToBeAsked, entry]);
-  if (!flown?.carried) return null;
+  if (!flown?.present) return null;
   const isAsking = answer?.state === 'asking';
   return html`<div class="drones-line">${flown.drones > 0 && html`<p role="status">${
-    sentence(entry, flown, answer?.told?.drones)}${!answer?.told && html` <button type="button"
+    sentence(entry, flown, isAskable ? answer?.told?.drones : null)}${isAskable && !answer?.told && html` <button type="button"
       class="link" disabled=${!idle || isAsking} onClick=${() => askDrones(entry)}>${
       isAsking ? t('dronesLine.searching') : t('dronesLine.ask')}</button>`}</p>`}
     <${IdleDrones} /></div>`;
