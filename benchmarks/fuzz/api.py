@@ -42,11 +42,7 @@ class Target:
 @contextmanager
 def service(folder: Path) -> Iterator[Target]:
     """Run the service until the block ends."""
-    environment = {
-        **os.environ, "PYTHONPATH": str(ROOT), "TANDEM_ACCESS": "keys",
-        "TANDEM_DATA_DIR": str(folder), "TANDEM_LOG_LEVEL": "error",
-        "TANDEM_WRONG_KEYS_PER_MINUTE": "0",
-    }
+    environment = environment_of(folder)
     tandem = [sys.executable, "-m", "app.cli"]
     scopes = [f"--scope={scope}" for scope in ("plan", "jobs", "admin")]
     key = subprocess.run([*tandem, "keys", "create", "fuzz", *scopes], env=environment, check=True,
@@ -61,6 +57,14 @@ def service(folder: Path) -> Iterator[Target]:
             yield target
         finally:
             process.terminate()
+
+
+def environment_of(folder: Path) -> dict[str, str]:
+    """Return the service's environment: of whoever starts it, all but settings."""
+    others = {name: value for name, value in os.environ.items() if not name.startswith("TANDEM_")}
+    return others | {
+        "PYTHONPATH": str(ROOT), "TANDEM_ACCESS": "keys", "TANDEM_DATA_DIR": str(folder),
+        "TANDEM_LOG_LEVEL": "error", "TANDEM_WRONG_KEYS_PER_MINUTE": "0"}
 
 
 def _await_ready(target: Target) -> None:

@@ -18,6 +18,7 @@ from benchmarks.fuzz.flight_readers import (
 )
 from benchmarks.fuzz.flights import FlightStudy, Planned, random_city
 from benchmarks.fuzz.problems import Fault
+from tests.conftest import eventually
 
 pytestmark = pytest.mark.slow
 
@@ -42,6 +43,20 @@ def test_flights_are_read_back_as_planned(study: FlightStudy) -> None:
     assert len(set(study.read.values())) == 1
     assert min(study.read.values()) > CITIES
     assert study.bent > 50
+
+
+def test_flights_of_a_job_are_those_of_its_plan(client: httpx.Client) -> None:
+    problem = json.loads(EXAMPLE.read_text("utf-8"))["problem"] | {
+        "options": {"search_iterations": 500, "time_limit": 60}}
+    job = client.post("/jobs", json=problem).json()["id"]
+    done = eventually(lambda: (read := client.get(f"/jobs/{job}").json())["finished_at"] and read)
+    assert done["state"] == "done", done
+    flown = client.get(f"/jobs/{job}/flights", params={"format": "qgc-wpl", "per": "vehicle"})
+    asked = client.post("/flights", json={
+        "problem": problem, "plan": done["result"], "format": "qgc-wpl", "per": "vehicle"})
+    assert (flown.status_code, flown.headers["content-type"]) == (200, "application/zip")
+    assert flown.headers["content-disposition"] == asked.headers["content-disposition"]
+    assert flown.content == asked.content
 
 
 HUB, DOOR, AROUND = (0.0, 0.0), (0.01, 0.0), (0.005, 0.003)
