@@ -178,8 +178,9 @@ class _Checker:
             yield _error("TRIP_SHAPE", (*path, "stops"),
                          "A trip begins and ends at a depot, or where its vehicle does, with "
                          "customers between: state it so.")
-        # Whoever drove to a launch that there is no more ends its trip there.
-        has_moved = has_begun and _place(trip.stops[0]) != _place(trip.stops[-1])
+        # Whoever drove to a launch that there is no more ends its trip there, or goes home.
+        has_moved = has_begun and (_place(trip.stops[0]) != _place(trip.stops[-1])
+                                   or "launch_site" in inner)
         if "customer" not in inner and not trip.sorties and not has_moved:
             yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
         for index, stop in enumerate(trip.stops):

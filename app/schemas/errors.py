@@ -111,7 +111,6 @@ ErrorCode = Literal[
     "NO_FLIGHTS",
     "NO_WAY_AROUND",
     "BEYOND_FORMAT",
-    "NOT_SENT_OUT",
     "TOO_MANY_REVISITS",
 ]
 

@@ -1,13 +1,13 @@
 """What drivers told -> the plan to go on from."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from app.records.dispatches.retiming import Retimed, retime
 from app.records.dispatches.schemas import FailedReply, GoingOnReply, StepKind, StepReply
 from app.records.dispatches.standing import Standing, is_broken, of_steps
-from app.records.dispatches.steps import flight_id, stop_id
-from app.schemas.plan import PlanInput, RouteInput, TripInput
+from app.records.dispatches.steps import flight_id, stop_ids
+from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput
 
 GROUNDING = frozenset({"Did not come back", "Drone is broken"})
 """What drivers tell of a drone that flies no more, as their page offers it."""
@@ -69,20 +69,36 @@ def _driven(route: RouteInput, trips: Sequence[Retimed],
             standing: Standing) -> tuple[RouteInput, list[FailedReply]]:
     """Return a route without what failed, and who wasn't served."""
     left, failed = [], []
+    come_back_to = frozenset(
+        stop.id for index, retimed in enumerate(trips)
+        for stop in _met(retimed.trip, _flown(index, retimed.trip, standing)).values()
+        if stop.kind == "launch_site")
     for index, retimed in enumerate(trips):
-        trip, failures = _without_failed(route.vehicle, index, retimed, standing)
+        trip, failures = _without_failed(route.vehicle, index, retimed, standing, come_back_to)
         failed += failures
         if trip is not None:
             left.append(trip)
     return route.model_copy(update={"trips": tuple(left)}), failed
 
 
-def _without_failed(vehicle: str, index: int, retimed: Retimed,
-                    standing: Standing) -> tuple[TripInput | None, list[FailedReply]]:
+def _flown(index: int, trip: TripInput, standing: Standing) -> list[SortieInput]:
+    """Return the flights of a trip but for those that could not be launched."""
+    return [sortie for sortie in trip.sorties
+            if not _has_failed(standing, flight_id(index, "launch", sortie))]
+
+
+def _met(trip: TripInput, flown: Sequence[SortieInput]) -> dict[int, StopInput]:
+    """Return the stops, by place, at which drones are launched or met."""
+    return {place: trip.stops[place] for sortie in flown
+            for place in (sortie.launch_stop, sortie.recovery_stop)}
+
+
+def _without_failed(vehicle: str, index: int, retimed: Retimed, standing: Standing,
+                    come_back_to: Collection[str]) -> tuple[TripInput | None, list[FailedReply]]:
     """Return a trip without what failed, None if nothing is left of it; and who wasn't served.
 
     A stop where a drone is launched or met stays, and so does the last of a trip that is under
-    way: the truck was there.
+    way: the truck was there. So does one at a customer to whom the truck comes back.
     """
     trip = retimed.trip
     stops, failed = trip.stops, list[FailedReply]()
@@ -93,24 +109,24 @@ def _without_failed(vehicle: str, index: int, retimed: Retimed,
                                   reason=told.reason, is_open=is_open,
                                   parcel_back=stops[-1].arrival))
 
-    flown = []
     for sortie in trip.sorties:
-        ids = {kind: flight_id(index, kind, sortie) for kind in _FLIGHTS}
-        for kind, step in ids.items():
+        for kind in _FLIGHTS:
+            step = flight_id(index, kind, sortie)
             if _has_failed(standing, step):
                 for visit in sortie.customers:
                     note(visit.id, kind, step, is_open=kind == "launch")
-        if not _has_failed(standing, ids["launch"]):
-            flown.append(sortie)
-    meetings = {stop for sortie in flown for stop in (sortie.launch_stop, sortie.recovery_stop)}
-    in_vain = [place for place, stop in enumerate(stops) if stop.kind == "customer"
-               and _has_failed(standing, stop_id(index, trip, place))]
-    dropped = [place for place in in_vain if place not in meetings]
-    served = sum(stop.kind == "customer" for stop in stops) - len(dropped)
+    flown = _flown(index, trip, standing)
+    meetings = _met(trip, flown)
+    failing = {place: step for place, stop in enumerate(stops) if stop.kind == "customer"
+               for step in stop_ids(index, trip, place) if _has_failed(standing, step)}
+    dropped = [place for place, stop in enumerate(stops) if place not in meetings and (
+        stop.kind == "launch_site" or (place in failing and stop.id not in come_back_to))]
+    served = sum(stop.kind == "customer" and place not in dropped
+                 for place, stop in enumerate(stops))
     if not served and not flown and dropped and not retimed.is_over:
-        dropped.pop()
-    for place in in_vain:
-        note(stops[place].id, "stop", stop_id(index, trip, place), place in dropped)
+        dropped.remove(max(dropped, key=lambda place: (stops[place].kind == "customer", place)))
+    for place, step in failing.items():
+        note(stops[place].id, "stop", step, place in dropped)
     if not served and not flown and retimed.is_over:
         return None, failed
     return _cut(trip, flown, dropped), failed

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from app.records.dispatches.schemas import StepKind
 from app.records.dispatches.standing import Standing
-from app.records.dispatches.steps import flight_id, stop_id
+from app.records.dispatches.steps import flight_id, stop_ids
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 
 MOMENT = 60.0
@@ -49,7 +49,7 @@ class _TripTold:
         self.index = index
         self.planned = trip
         self._standing = standing
-        ids = [[stop_id(index, trip, number)] for number in range(len(trip.stops))]
+        ids = [stop_ids(index, trip, number) for number in range(len(trip.stops))]
         for sortie in trip.sorties:
             ids[sortie.launch_stop].append(flight_id(index, "launch", sortie))
             ids[sortie.recovery_stop].append(flight_id(index, "recover", sortie))
@@ -80,7 +80,7 @@ class _TripTold:
         plain = list(range(len(stops)))
         if self.planned.sorties:
             return plain
-        inner = [number for number in plain if stops[number].kind == "customer"]
+        inner = [number for number in plain if stops[number].kind in ("customer", "launch_site")]
         visited = sorted((number for number in inner if self._times[number]),
                          key=lambda number: max(self._times[number]))
         rest = [number for number in inner if not self._times[number]]

@@ -1,7 +1,7 @@
 """A plan and its problem -> what each driver does, step by step."""
 
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from app.records.dispatches.schemas import (
@@ -31,16 +31,20 @@ class Visit:
     step: StepReply
 
 
-def stop_kind(trip: TripInput, number: int) -> StepKind:
-    """Return what a driver does at a stop but for drones."""
+def stop_kind(trip: TripInput, number: int) -> StepKind | None:
+    """Return what a driver does at a stop but for drones; None: nothing, at a launch site."""
+    if trip.stops[number].kind == "launch_site":
+        return None
     if trip.stops[number].kind == "customer":
         return "stop"
     return "depart" if number == 0 else "return"
 
 
-def stop_id(index: int, trip: TripInput, number: int) -> str:
-    """Return the name of what a driver does at a stop of a vehicle's trip but for drones."""
-    return _step_id(index, stop_kind(trip, number), [trip.stops[number].id])
+def stop_ids(index: int, trip: TripInput, number: int) -> list[str]:
+    """Return the name of what a driver does at a stop of a vehicle's trip but for drones, if any.
+    """
+    kind = stop_kind(trip, number)
+    return [] if kind is None else [_step_id(index, kind, [trip.stops[number].id])]
 
 
 def flight_id(index: int, kind: StepKind, sortie: SortieInput) -> str:
@@ -61,6 +65,11 @@ class StepMaker:
         self._is_geographic = problem.coordinate_system == GEOGRAPHIC
         self._depots = {depot.id: point_of(depot.location) for depot in problem.depots}
         self._customers = {customer.id: customer for customer in problem.customers}
+        # Those come back to are named as depots and customers are.
+        self._sites = (
+            self._depots
+            | {customer.id: point_of(customer.location) for customer in problem.customers}
+            | {site.id: point_of(site.location) for site in problem.launch_sites})
         self._types = {kind.id: kind for kind in problem.fleet}
         self._units = [dimension.unit or dimension.name
                        for dimension in problem.load_dimensions or ()]
@@ -73,8 +82,8 @@ class StepMaker:
 
     def _steps_of_trip(self, kind: VehicleTypeInput, index: int,
                        trip: TripInput) -> list[StepReply]:
-        at_stops: list[list[Visit]] = [[self._visit(kind, index, trip, position)]
-                                       for position in range(len(trip.stops))]
+        at_stops = [list(self._visits(kind, index, trip, position))
+                    for position in range(len(trip.stops))]
         for number, (sortie, lasts) in enumerate(
                 zip(trip.sorties, launch_durations(kind, trip), strict=True)):
             drones = drones_named(kind, sortie.drone)
@@ -86,19 +95,24 @@ class StepMaker:
         return [visit.step for visits in at_stops for visit in sorted(
             visits, key=lambda visit: (visit.begin, _RANKS[visit.step.kind]))]
 
-    def _visit(self, kind: VehicleTypeInput, index: int, trip: TripInput, position: int) -> Visit:
-        """Return what is done at a stop but for drones."""
+    def _visits(self, kind: VehicleTypeInput, index: int, trip: TripInput,
+                position: int) -> Iterator[Visit]:
+        """Yield what is done at a stop but for drones, if anything."""
         stop, name = trip.stops[position], stop_kind(trip, position)
+        if name is None:
+            return
         times = {"stop": stop.service_start, "depart": stop.departure, "return": stop.arrival}
+        (name_of_step,) = stop_ids(index, trip, position)
         step = self._step(name, kind, index, stop, position, times[name]).model_copy(
-            update={"id": stop_id(index, trip, position)})
+            update={"id": name_of_step})
         if name == "stop":
             customer = self._customers[stop.id]
-            return Visit(stop.service_start, step.model_copy(update={
+            yield Visit(stop.service_start, step.model_copy(update={
                 "windows": _windows(customer), "customers": [_goods(customer)],
                 "duration": stop.departure - stop.service_start}))
+            return
         load = self._load(trip) if name == "depart" else None
-        return Visit(step.time, step.model_copy(update={"load": load}))
+        yield Visit(step.time, step.model_copy(update={"load": load}))
 
     def _flight(self, name: StepKind, kind: VehicleTypeInput, index: int, trip: TripInput,
                 number: int, lasts: float) -> Visit:
@@ -127,6 +141,8 @@ class StepMaker:
             place = point_of(self._customers[stop.id].location)
         elif stop.kind == "depot":
             place = self._depots[stop.id]
+        elif stop.kind == "launch_site":
+            place = self._sites[stop.id]
         elif stop.kind == "start":
             place = point_of(kind.start_location)
         else:

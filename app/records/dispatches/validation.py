@@ -1,6 +1,5 @@
 """Whether a plan can be driven as it stands."""
 
-from app.requests.conversion.places import revisits
 from app.requests.plan_validation import Names, replan_errors
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.plan import PlanInput
@@ -25,10 +24,6 @@ def require_drivable(problem: PlanRequest, plan: PlanInput) -> None:
         message = f"At most {MOST_VEHICLES} vehicles have links: send out parts of the plan."
         raise InvalidRequestError([
             InputError(code="TOO_MANY_VEHICLES", path="$.plan.routes", message=message)])
-    if problem.launch_sites or any(map(revisits, problem.fleet)):
-        raise InvalidRequestError([InputError(
-            code="NOT_SENT_OUT", path="$.problem", message="Drivers aren't told of launch_sites "
-            "and revisits yet: leave them out.")])
     names = Names.of(problem.depots, problem.customers, problem.fleet)
     errors = [error.model_copy(update={"path": error.path.replace(GIVEN, "$.plan", 1)})
               for error in replan_errors(ReplanInput(plan=plan), names)]

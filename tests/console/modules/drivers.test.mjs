@@ -9,7 +9,7 @@ register('./as-served.mjs', import.meta.url);
 const { clock, windowText } = await import('../../../app/records/dispatches/static/js/clocks.js');
 const { linkOf, tokenOf } = await import('../../../app/records/dispatches/static/js/link.js');
 const { chosenNavigator, NAVIGATORS, navigation } = await import('../../../app/records/dispatches/static/js/navigators.js');
-const { isBroken, isOther, nextStep, standings, telephone } = await import('../../../app/records/dispatches/static/js/steps.js');
+const { isBroken, isOther, nextStep, standings, telephone, titleOf } = await import('../../../app/records/dispatches/static/js/steps.js');
 
 const PLACE = { latitude: 48.1, longitude: 11.5 };
 
@@ -47,6 +47,12 @@ test('navigators are told latitude before longitude', () => {
 test('sheets say latitude before longitude, and which is which', () => {
   assert.equal(pointText([11.5, 48.1], { isGeographic: true }), 'Latitude, longitude: 48.1, 11.5');
   assert.equal(pointText([3, 4], { isGeographic: false }), 'x, y: 3, 4');
+});
+
+test('where nobody ordered, a drone is all that the driver comes for', () => {
+  const launch = { kind: 'launch', drone: 'truck-1/drone-1', place: 'pier', customers: [{ id: 'C' }] };
+  assert.equal(titleOf({ ...launch, place_kind: 'launch_site' }), 'Launch drone-1 to C, at pier');
+  assert.equal(titleOf({ ...launch, place_kind: 'customer' }), 'Launch drone-1 to C');
 });
 
 test('what was told last of a step holds, sent or not', () => {

@@ -1477,7 +1477,6 @@ export default {
     PINNED_TO_UNAVAILABLE: 'Das Fahrzeug, an dem dieser Kunde festgehalten ist, ist ausgefallen.',
     TIMES_DISORDERED: 'Zeiten stehen nicht der Reihe nach.',
     FLIGHTS_ON_PLANE: 'Flüge brauchen Längen und Breiten; dieses Problem liegt auf einer Ebene.',
-    NOT_SENT_OUT: 'Fahrern werden Startplätze und Rückkehr noch nicht gesagt: weglassen.',
     TOO_MANY_REVISITS: 'Zu viele Orte, zu denen Fahrzeuge zurückkommen: revisits weglassen.',
     NO_FLIGHTS: 'In diesem Plan fliegt keine Drohne.',
     NO_WAY_AROUND: 'An den Flugverbotszonen führt kein Weg vorbei.',

@@ -44,11 +44,13 @@ export function mayFail({ kind }) {
 }
 
 /** Return what a step is called. */
-export function titleOf({ kind, place, drone, customers }) {
+export function titleOf({ kind, place, place_kind: placeKind, drone, customers }) {
   if (kind === 'stop') return place;
   const flown = drone ? drone.slice(drone.lastIndexOf('/') + 1) : '';
   const names = customers.map(({ id }) => id).join(', ');
-  return t(`title.${kind}`, { place, drone: flown, names });
+  const title = t(`title.${kind}`, { place, drone: flown, names });
+  // The driver goes there for that alone.
+  return placeKind === 'launch_site' ? t('title.there', { title, place }) : title;
 }
 
 /** Return amounts such as `12 / 3.5`, or `12 kg / 3.5 l` where units are known. */

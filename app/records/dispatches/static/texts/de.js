@@ -52,6 +52,7 @@ export default {
     launch: '{{drone}} starten zu {{names}}',
     recover: '{{drone}} aufnehmen',
     return: 'Zurück bei {{place}}',
+    there: '{{title}}, bei {{place}}',
   },
   state: {
     done: 'erledigt',

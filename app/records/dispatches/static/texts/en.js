@@ -47,6 +47,7 @@ export default {
     launch: 'Launch {{drone}} to {{names}}',
     recover: 'Recover {{drone}}',
     return: 'Back at {{place}}',
+    there: '{{title}}, at {{place}}',
   },
   state: {
     done: 'done',
