@@ -7,6 +7,7 @@
 #include "guard.h"
 #include "rules/drone_types.h"
 #include "search/insertion/offers.h"
+#include "search/route/rarer.h"
 
 namespace tandem {
 namespace {
@@ -27,6 +28,11 @@ Int most_offers(const ProblemData& data, const Fleet& fleet) {
 // Returns how many slots a ruin touches at most, or stops move.
 Int most_moved(const Fleet& fleet) { return std::max(fleet.route.size(), fleet.stop.shape(1)) + 2; }
 
+// Returns how many places a line of two routes has at most.
+Int longest_line(const ProblemData& data, const Fleet& fleet) {
+    return data.num_nodes + 3 + (has_halts(data) ? 2 * fleet.stop.shape(1) : 0);
+}
+
 }  // namespace
 
 SplitScratch::SplitScratch(Int longest)
@@ -38,13 +44,14 @@ SplitScratch::SplitScratch(Int longest)
       out(longest) {}
 
 Scratch::Scratch(const ProblemData& data, const Searcher& searcher)
-    : Scratch(data.num_nodes, most_moved(searcher.now), most_offers(data, searcher.now)) {}
+    : Scratch(longest_line(data, searcher.now), data.num_nodes, most_moved(searcher.now),
+              most_offers(data, searcher.now)) {}
 
-Scratch::Scratch(Int num_nodes, Int most_moved, Int most_offers)
-    : line(num_nodes + 3),
-      aside(num_nodes + 3),
-      split(num_nodes + 3),
-      changed(num_nodes + 3),
+Scratch::Scratch(Int longest, Int num_nodes, Int most_moved, Int most_offers)
+    : line(longest),
+      aside(longest),
+      split(longest),
+      changed(longest),
       key(num_nodes),
       moved(most_moved),
       offer(most_offers),
@@ -52,8 +59,8 @@ Scratch::Scratch(Int num_nodes, Int most_moved, Int most_offers)
 
 void Scratch::lend_to(const ProblemData& data, Searcher& searcher) {
     const Fleet& fleet = searcher.now;
-    if (key.size() < data.num_nodes || moved.size() < most_moved(fleet) ||
-        offer.size() < most_offers(data, fleet)) {
+    if (line.size() < longest_line(data, fleet) || key.size() < data.num_nodes ||
+        moved.size() < most_moved(fleet) || offer.size() < most_offers(data, fleet)) {
         throw std::length_error("the scratch was made for a smaller search");
     }
     offers = 0;

@@ -74,8 +74,8 @@ struct Scratch {
     // Lends it to a call. Throws where the search is larger than the one that it was made for.
     void lend_to(const ProblemData& data, Searcher& searcher);
 
-    Row<Line> line;   // (node + 3,) places of a trip or two in order
-    Row<Line> aside;  // (node + 3,) some of them before a change
+    Row<Line> line;   // (place,) those of a trip or two in order
+    Row<Line> aside;  // (place,) some of them before a change
     SplitScratch split;
     SplitScratch changed;  // of a line of which some places were changed
     Row<double> key;       // (node,) order of insertion
@@ -85,7 +85,7 @@ struct Scratch {
     Int offers = 0;        // how many are listed
 
 private:
-    Scratch(Int num_nodes, Int most_moved, Int most_offers);
+    Scratch(Int longest, Int num_nodes, Int most_moved, Int most_offers);
 };
 
 }  // namespace tandem

@@ -97,7 +97,7 @@ TEST_CASE("a changed order costs what it does if all of it is cut anew") {
         const double after = split(data, 0, {again.data(), {nodes + 1}}, line.size(), fresh);
         const double most = static_cast<double>(below(rng, 20));
         const double found =
-            split_changed(data, 0, line, line.size(), {one, other, scratch, most}, changed);
+            split_changed(data, 0, line, line.size(), {{one, other}, scratch, most}, changed);
         if (found == infinite_cost) {
             CHECK(after >= before + most);
             ++given_up;
@@ -109,6 +109,49 @@ TEST_CASE("a changed order costs what it does if all of it is cut anew") {
     }
     CHECK(cheaper > 10);
     CHECK(given_up > 10);
+}
+
+TEST_CASE("an order with a place more or less costs what it does if all of it is cut anew") {
+    std::array<std::uint64_t, 1> state{5};
+    const View<std::uint64_t, 1> rng{state.data(), {1}};
+    Day day(rng);
+    const ProblemData data = day.data();
+    SplitScratch scratch(nodes + 1);
+    SplitScratch changed(nodes + 1);
+    SplitScratch fresh(nodes + 1);
+    Int given_up = 0;
+    for (Int trial = 0; trial < 300; ++trial) {
+        const Int more = trial % 2 == 0 ? 1 : -1;
+        const Int one = 1 + below(rng, nodes - 3);
+        // Customers in order, without that at place `one`, or all of them.
+        const auto write = [&](std::vector<Line>& room, bool lacks_one) {
+            room.resize(num_nodes + 1);
+            Int place = 0;
+            for (Int node = 0; node < nodes; ++node) {
+                if (node != one || !lacks_one) room[static_cast<std::size_t>(place++)].node = node;
+            }
+            room[static_cast<std::size_t>(place++)].node = 0;
+            const View<Line, 1> line{room.data(), {place}};
+            measure(data, 0, line, place);
+            return line;
+        };
+        std::vector<Line> before, now, again;
+        const View<Line, 1> former = write(before, more > 0);
+        const double cost = split(data, 0, former, former.size(), scratch);
+        const View<Line, 1> line = write(now, more < 0);
+        const double after = split(data, 0, write(again, more < 0), line.size(), fresh);
+        const double most = static_cast<double>(below(rng, 20));
+        const double found =
+            split_changed(data, 0, line, line.size(), {{one, one, more}, scratch, most}, changed);
+        if (found == infinite_cost) {
+            CHECK(after >= cost + most);
+            ++given_up;
+            continue;
+        }
+        CHECK(found == doctest::Approx(after));
+    }
+    CHECK(given_up > 10);
+    CHECK(given_up < 290);
 }
 
 }  // namespace

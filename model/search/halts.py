@@ -55,6 +55,11 @@ def _near(problem: Problem, numbering: Numbering, sites: IntArray) -> Int32Array
         duration = problem.travel[travel].duration
         there = duration[sites[:, None], customers].T
         flights = np.minimum(flights, np.minimum(there, duration[customers[:, None], sites]))
+    place = {problem.depots[site].after: column for column, site in enumerate(sites.tolist())}
+    for row, customer in enumerate(customers.tolist()):
+        column = place.get(problem.customers[customer - first].id)
+        if column is not None:
+            flights[row, column] = np.iinfo(np.int64).max
     order = np.argsort(flights, axis=1, kind="stable")[:, :ranks]
     near[first:] = sites[order]
     return near

@@ -10,7 +10,7 @@ from model.engine.leg import are_the_same_back
 from model.engine.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.evaluation import evaluate
-from model.search.halts import halts_of
+from model.search.halts import Halts, halts_of
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import ProblemData
@@ -51,13 +51,21 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         no_launch=instance.no_launch[0], **halts._asdict(),
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),
         evaluation=evaluation, reload=instance.reload[0], visits=visits,
-        can=np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1)),
+        can=_can(instance, halts),
         swap=swap, splice=_splices(problem, instance.rate[0], swap),
         leg=neighbourhood.leg, back=neighbourhood.back,
         profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=neighbourhood.near, granular=neighbourhood.granular,
         deadline=Alarm().setting if deadline is None else deadline,
     )
+
+
+def _can(instance: Instance, halts: Halts) -> BoolArray:
+    """Return (row, 2, node): whom trucks may serve, or where they may halt, and whom drones may."""
+    can = np.ascontiguousarray(np.stack([instance.can_drive[0], instance.can_fly[0]], axis=1))
+    types, depots = halts.halts.shape
+    can[:types, 0, :depots] |= halts.halts
+    return can
 
 
 def _per_unit(rates: Records) -> Records:

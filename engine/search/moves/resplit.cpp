@@ -6,11 +6,13 @@
 #include "randomness.h"
 #include "rules/load.h"
 #include "rules/shift.h"
+#include "search/moves/halting.h"
 #include "search/moves/operations.h"
 #include "search/moves/split.h"
 #include "search/moves/splitter.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
+#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
 #include "search/route/state.h"
@@ -43,8 +45,8 @@ bool flown_over(const Fleet& fleet, Int slot, Int p) {
     });
 }
 
-// How many places there are in a line, 0 if a sortie serves several customers or the truck stops at
-// a launch site, and whether all that the drone does is operations.
+// How many places there are in a line, 0 if a sortie serves several customers, and whether all that
+// the drone does is operations.
 struct LinedUp {
     Int length;
     bool exact;
@@ -62,7 +64,6 @@ LinedUp line_up(const Fleet& fleet, Int slot, Int first, Int last, View<Line, 1>
     bool exact = true;
     while (s < sorties.size() && sorties[s].launch < first) ++s;
     for (Int p = first; p <= last; ++p) {
-        if (stops[p].kind == halt_stop) return {0, false};
         line[length].node = stops[p].node;
         if (p == landing) {
             line[length].before = begin;
@@ -86,8 +87,18 @@ LinedUp line_up(const Fleet& fleet, Int slot, Int first, Int last, View<Line, 1>
     return {length, exact};
 }
 
-// Return what a route costs beside its operations, of which the last ends at no customer.
-double beside(const Rate& rate) { return rate.fixed - rate.stop; }
+// Return what a route costs beside its operations, of which the last ends at no customer, and those
+// between at a customer each but where the truck stops at a launch site.
+double beside(const ProblemData& data, Int k, View<const Line, 1> line, Int length) {
+    const Rate& rate = data.rate[k];
+    double cost = rate.fixed - rate.stop;
+    if (!has_halts(data)) return cost;
+    for (Int place = 1; place < length - 1; ++place) {
+        const Int node = line[place].node;
+        if (node < data.num_depots) cost += data.halt_cost[node] - rate.stop;
+    }
+    return cost;
+}
 
 // Tell whether a drone is launched at the last stop of a route, which no line knows of.
 bool ends_in_flight(const Fleet& fleet, Int slot) {
@@ -96,9 +107,12 @@ bool ends_in_flight(const Fleet& fleet, Int slot) {
 }
 
 // Return where in a line of two routes the first ends, or the end of a line of one.
-Int depot_between(const ProblemData& data, View<const Line, 1> line, Int length) {
+Int depot_between(const ProblemData& data, Int k, View<const Line, 1> line, Int length) {
     Int place = 1;
-    while (place < length - 1 && line[place].node >= data.num_depots) ++place;
+    while (place < length - 1 &&
+           (line[place].node >= data.num_depots || is_halt(data, k, line[place].node))) {
+        ++place;
+    }
     return place;
 }
 
@@ -128,8 +142,12 @@ void turn_round(View<Line, 1> line, Int length) {
 // Append the stops that the operations make, but for the last. In place; turns `before` round.
 //
 // `kind` is that of the first stop.
-void write_operations(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
-                      View<Line, 1> line, Int length, Int kind) {
+void write_operations(const ProblemData& data, const Sequence& sequence, View<Line, 1> line,
+                      Int length, Int kind) {
+    const auto& [route, stops, sorties] = sequence;
+    const auto kind_of = [&](Int place) {
+        return line[place].node < data.num_depots ? halt_stop : customer_stop;
+    };
     turn_round(line, length);
     put(stops, route.length, line[0].node, kind);
     for (Int i = 0; i < length - 1;) {
@@ -143,11 +161,11 @@ void write_operations(Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties
             if (flown == no_flight) {
                 add_sortie(route, sorties, p, p, 0, line[place].node);
             } else if (place != flown) {
-                put(stops, ++route.length, line[place].node, customer_stop);
+                put(stops, ++route.length, line[place].node, kind_of(place));
             }
         }
         ++route.length;
-        if (j < length - 1) put(stops, route.length, line[j].node, customer_stop);
+        if (j < length - 1) put(stops, route.length, line[j].node, kind_of(j));
         i = j;
     }
 }
@@ -228,7 +246,7 @@ bool Resplit::line_up(Int slot, Part part) {
                         is_dearer(data_.rate[type_], work_of(data_.type[type_], route));
     if (lines_.exact) {
         measure(data_, type_, rest, count);
-        lines_.cost += present_cost(data_, type_, rest, count) + beside(data_.rate[type_]);
+        lines_.cost += present_cost(data_, type_, rest, count) + beside(data_, type_, rest, count);
     }
     lines_.length = begin + count;
     return true;
@@ -253,6 +271,7 @@ bool Resplit::is_worth(double after, double limit) const {
 bool Resplit::split_first(double limit) {
     if (other_ >= 0) return change_once(limit);
     const Scratch& scratch = *searcher_.scratch;
+    beside_ = beside(data_, type_, scratch.line, lines_.length);
     least_ = split_between(0, lines_.length - 1);
     if (is_worth(least_, limit)) return write(lines_.length - 1);
     std::copy_n(scratch.line.view().begin(), lines_.length, scratch.aside.view().begin());
@@ -265,33 +284,46 @@ bool Resplit::change_again(double limit) {
     --tries_;
     Scratch& scratch = *searcher_.scratch;
     const Int length = lines_.length;
-    const View<Line, 1> line = scratch.line.view().first(length);
+    const View<Line, 1> line = scratch.line;
     std::copy_n(scratch.aside.view().begin(), length, line.begin());
-    const auto [first, last] = shuffle(data_, line, length, searcher_.rng);
-    if (last <= first) return false;
-    measure(data_, type_, line, length);
-    const double most = lines_.cost + limit - least_;
-    const double after = split_changed(data_, type_, line, length,
-                                       {first, last, scratch.split, most}, scratch.changed) +
-                         beside(data_.rate[type_]);
+    const Places changed = change_order(line, length);
+    const Int count = length + changed.more;
+    if (!changed.any() || !are_halts_in_order(data_, line, count)) return false;
+    measure(data_, type_, line, count);
+    const double apart = beside(data_, type_, line, count);
+    const double most = lines_.cost + limit - least_ + (beside_ - apart);
+    const double after =
+        split_changed(data_, type_, line, count, {changed, scratch.split, most}, scratch.changed) +
+        apart;
     if (!is_worth(after, limit)) return false;
     tries_ = 0;
-    return write(length - 1);
+    return write(count - 1);
 }
 
 // Change the order, and cut all of it at least cost.
 bool Resplit::change_once(double limit) {
     const View<Line, 1> line = searcher_.scratch->line;
-    const Int length = lines_.length;
     if (other_ >= 0 && uniform(searcher_.rng) < cut_elsewhere_share) {
-        shift(line, depot_between(data_, line, length), 1 + below(searcher_.rng, length - 2));
+        const Int cut = depot_between(data_, type_, line, lines_.length);
+        shift(line, cut, 1 + below(searcher_.rng, lines_.length - 2));
     } else {
-        shuffle(data_, line, length, searcher_.rng);
+        lines_.length += change_order(line, lines_.length).more;
     }
-    const Int cut = depot_between(data_, line, length);
+    if (!are_halts_in_order(data_, line, lines_.length)) return false;
+    const Int cut = depot_between(data_, type_, line, lines_.length);
     double after = split_between(0, cut);
-    if (after < infinite_cost) after += split_between(cut, length - 1);
+    if (after < infinite_cost) after += split_between(cut, lines_.length - 1);
     return is_worth(after, limit) && write(cut);
+}
+
+// Change the order of the customers a little, or where the truck stops at launch sites. In place;
+// tell between which places.
+Places Resplit::change_order(View<Line, 1> line, Int length) const {
+    const View<std::uint64_t, 1> rng = searcher_.rng;
+    if (has_halts(data_) && uniform(rng) < halts_changed_share) {
+        return change_halts(data_, type_, line, length, rng);
+    }
+    return shuffle(data_, line, length, rng);
 }
 
 // Cut a route's places in the line, `begin` to `end`, at least cost; return that. In place; maybe
@@ -302,7 +334,8 @@ double Resplit::split_between(Int begin, Int end) const {
     const Int count = end - begin + 1;
     if (overloads(data_, type_, line, 0, count - 1)) return infinite_cost;
     measure(data_, type_, line, count);
-    return split(data_, type_, line, count, searcher_.scratch->split) + beside(data_.rate[type_]);
+    return split(data_, type_, line, count, searcher_.scratch->split) +
+           beside(data_, type_, line, count);
 }
 
 // Write places `begin` to `end` of the line into the part of a route that is kept aside. In place;
@@ -318,10 +351,12 @@ bool Resplit::write_between(Int slot, Int begin, Int end) const {
     route.type = type_;
     ++now.used[type_];
     append(now, spare, 0, part_.first, slot);
-    write_operations(route, now.stop[slot], now.sortie[slot],
-                     behind(searcher_.scratch->line.view(), begin), end - begin + 1,
-                     now.stop(spare, part_.first).kind);
+    write_operations(data_, sequence_in(now, slot), behind(searcher_.scratch->line.view(), begin),
+                     end - begin + 1, now.stop(spare, part_.first).kind);
     append(now, spare, part_.last, now.route[spare].length, slot);
+    if (has_halts(data_)) {
+        close_ranks(sequence_in(now, slot), searcher_.marked, searcher_.scratch->moved);
+    }
     const bool done = refresh(data_, now, slot);
     locate(now, slot);
     return done;

@@ -4,6 +4,7 @@
 // is split in two, or two become one, with the drones' share of each chosen anew at once.
 #pragma once
 
+#include "search/moves/split.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -49,6 +50,7 @@ private:
     bool split_first(double limit);
     bool change_again(double limit);
     bool change_once(double limit);
+    Places change_order(View<Line, 1> line, Int length) const;
 
     double split_between(Int begin, Int end) const;
     bool write_between(Int slot, Int begin, Int end) const;
@@ -62,7 +64,8 @@ private:
     Int type_ = 0;
     Part part_{};
     Lines lines_;
-    double least_ = 0.0;  // what the order as it is costs at least
+    double least_ = 0.0;   // what the order as it is costs at least
+    double beside_ = 0.0;  // what of that isn't operations
 };
 
 }  // namespace tandem

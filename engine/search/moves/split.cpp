@@ -83,7 +83,7 @@ Places shuffle(const ProblemData& data, View<Line, 1> line, Int length,
     }
     // Either way the neighbour comes beside place `one`, or the other way round.
     const Places changed = other > one ? Places{one + 1, other} : Places{other, one - 1};
-    auto [low, high] = changed;
+    Int low = changed.first, high = changed.last;
     if (change == Change::swap) {
         std::swap(line[low].node, line[high].node);
         return changed;

@@ -11,10 +11,14 @@ constexpr Int near_places = 8;  // among how many nearest neighbours of a place 
 // Move what is at place `one` to place `to`. In place.
 void shift(View<Line, 1> line, Int one, Int to);
 
-// Places of a line, both included; none where the last comes first.
+// Between which places of a line, both included, the order was changed, and how many more places
+// there are.
 struct Places {
     Int first;
     Int last;
+    Int more = 0;
+
+    bool any() const { return first < last || more != 0; }
 };
 
 // Change the order of the customers in the line a little. In place; tell between which places.

@@ -242,13 +242,14 @@ double split(const ProblemData& data, Int k, View<Line, 1> line, Int length,
 double split_changed(const ProblemData& data, Int k, View<Line, 1> line, Int length,
                      const Changed& changed, SplitScratch& scratch) {
     Splitting splitting(data, k, line, length, scratch);
-    splitting.begin_behind(changed.before, changed.first);
+    const auto [first, last, more] = changed.places;
+    splitting.begin_behind(changed.before, first);
     Int dearer = 0;
-    for (Int j = changed.first; j < length; ++j) {
+    for (Int j = first; j < length; ++j) {
         splitting.end_at(j);
-        if (j <= changed.last) continue;
+        if (j <= last) continue;
         // All that comes costs as before from here on, wherever an operation begins.
-        dearer = scratch.cost[j] - changed.before.cost[j] < changed.most ? 0 : dearer + 1;
+        dearer = scratch.cost[j] - changed.before.cost[j - more] < changed.most ? 0 : dearer + 1;
         if (dearer == longest_operation) return infinite_cost;
     }
     return scratch.cost[length - 1];

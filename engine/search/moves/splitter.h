@@ -7,6 +7,7 @@
 // problem with drone, Transportation Science 52:965-981.
 #pragma once
 
+#include "search/moves/split.h"
 #include "search/scratch.h"
 
 namespace tandem {
@@ -14,11 +15,10 @@ namespace tandem {
 // Cut the line into operations at least cost; return that. In place; infinite if it can't be cut.
 double split(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch);
 
-// Which places of a line were changed, both included, how it was split before, and how much more it
-// may cost at most.
+// Which places of a line were changed, how it was split before, and how much more it may cost at
+// most.
 struct Changed {
-    Int first;
-    Int last;
+    Places places;
     const SplitScratch& before;
     double most;
 };
