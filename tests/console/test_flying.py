@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -9,6 +10,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.console.steps import EXAMPLES, idle, open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
+from tests.console.test_panning import Stroke, by_finger, by_mouse
 
 pytestmark = pytest.mark.slow
 
@@ -94,6 +96,26 @@ def test_launch_sites_are_drawn_moved_and_erased(page: Page) -> None:
     tools.get_by_role("button", name="Erase").click()
     page.mouse.click(*middle(marks.nth(1)))
     expect(marks).to_have_text(["pier"])
+
+
+@pytest.mark.parametrize("way", [by_mouse, by_finger])
+def test_a_launch_site_follows_mouse_or_finger_while_the_map_stays(
+        open_page: Callable[..., Page], service: str, way: Callable[[Page], Stroke]) -> None:
+    page = open_page(service, has_touch=True)
+    open_file(page, "hub.json", json.dumps(hub_and_site()))
+    planned(page, "5 of 5 served")
+    page.get_by_role("button", name="Draw", exact=True).click()
+    page.get_by_role("button", name="Move", exact=True).click()
+    pier, park = (middle(page.locator(".site-mark").nth(place)) for place in (0, 1))
+    stroke = way(page)
+    stroke([pier, (pier[0] + 60, pier[1] + 30)])
+    (x, y) = state(page, "state.request.launch_sites.0.location")
+    assert x > 1
+    assert y < 7
+    assert middle(page.locator(".site-mark").nth(1)) == park
+    # A finger that does not move, moves nothing.
+    stroke([park, (park[0] + 2, park[1])])
+    assert state(page, "state.request.launch_sites.1") == hub_and_site()["launch_sites"][1]
 
 
 def test_launch_sites_and_vehicles_that_fly_have_fields(page: Page) -> None:

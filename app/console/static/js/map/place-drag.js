@@ -34,34 +34,45 @@ export function pressPlace(view, id, { originalEvent }) {
   press(view, placeDrag(view, id), originalEvent, () => select(`c:${id}`));
 }
 
-/** Let a launch site whose mark is pressed be dragged with the mouse. */
+/** Let a launch site whose mark is pressed be dragged with mouse, pen or finger. */
 export function pressSite(view, { id, mark }, event) {
+  if (event.button !== 0) return;
   const drop = (place) => edit((request) => moveSite(request, id, place));
   press(view, marksDrag(view, [mark], drop), event);
 }
 
-/** Let the work of a drag follow the mouse until its button is let go. */
+/** Let the work of a drag follow the pointer until it is let go; Escape gives it up. */
 function press(view, work, originalEvent, onDrop = () => {}) {
   const { map } = view;
   const pointOf = (event) => map.mouseEventToContainerPoint(event);
   const from = pointOf(originalEvent);
   const ending = new AbortController();
   let isDrag = false;
+  // Presses of a mouse come without the pointer's id.
+  const isOther = ({ pointerId }) => pointerId !== (originalEvent.pointerId ?? pointerId);
   const move = (event) => {
+    if (isOther(event)) return;
     isDrag ||= pointOf(event).distanceTo(from) > LEAST_DRAG;
     if (isDrag) work.follow(pointOf(event));
   };
-  const up = (event) => {
-    move(event);
+  const end = () => {
     ending.abort();
     map.dragging.enable();
     work.clear();
+  };
+  const up = (event) => {
+    if (isOther(event)) return;
+    move(event);
+    end();
     if (!isDrag) return;
     work.drop();
     onDrop();
   };
   map.dragging.disable();
-  document.addEventListener('mousemove', move, { signal: ending.signal });
-  document.addEventListener('mouseup', up, { signal: ending.signal });
+  const on = (name, react) => document.addEventListener(name, react, { signal: ending.signal });
+  on('pointermove', move);
+  on('pointerup', up);
+  on('pointercancel', (event) => isOther(event) || end());
+  on('keydown', ({ key }) => key === 'Escape' && end());
   L.DomEvent.stop(originalEvent);
 }

@@ -197,7 +197,7 @@ function changeSites(view) {
     view.sites.forEach((site) => {
       const element = site.mark.getElement();
       element.classList.add('movable');
-      element.addEventListener('mousedown', (event) => pressSite(view, site, event),
+      element.addEventListener('pointerdown', (event) => pressSite(view, site, event),
         { signal: ending.signal });
     });
   // Marks are drawn anew with each edit.
