@@ -24,6 +24,7 @@ from app.maps.streets.routes import router as streets_router
 from app.plans.flights.routes import router as flights_router
 from app.plans.routes import router as plans_router
 from app.plans.service import PlanService
+from app.plans.warming import warmed
 from app.records.dispatches.pages import mount_drivers_page
 from app.records.dispatches.routes import router as dispatches_router
 from app.records.dispatches.store import delete_expired
@@ -68,7 +69,7 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        loaded = planner or load_planner(settings.weights_dir, settings.policies)
+        loaded = planner or warmed(load_planner(settings.weights_dir, settings.policies))
         with _running(app, settings, loaded, observer), shutdown.listening(settings.drain_seconds):
             yield
         observer.stop()
