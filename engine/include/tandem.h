@@ -57,6 +57,13 @@ typedef struct tandem_goods {
     int64_t barred_on_vehicle;
 } tandem_goods;
 
+/* Charged batteries, and places to charge, for vehicles that fly from a depot: how many there are,
+   `unlimited` if enough, or how many are taken. */
+typedef struct tandem_hub {
+    int64_t batteries;
+    int64_t chargers;
+} tandem_hub;
+
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
    beside its customers' is taken from its capacity; what it has worked when it may begin (`begun`)
    is taken from its working duration, and costs as if it were fixed. The end of the shift and the
@@ -67,7 +74,9 @@ typedef struct tandem_goods {
    trip delivers, which is something, or was before the trip begins here; what else it carries in
    the first dimension. No drone is in the air while it storms. `rules/drone_types.h` says which
    rows tell of which drones. Of one that flies by itself, what is said of drones holds for its
-   trips; its legs hold launches and recoveries. */
+   trips; its legs hold launches and recoveries. Each of its trips takes a battery of the depot
+   where it begins, or all beyond so many `trips_uncharged` together a place to charge at its own.
+ */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -110,6 +119,8 @@ typedef struct tandem_vehicle_type {
     int64_t descent_duration;
     int64_t charge;
     int64_t flies;
+    int64_t takes_batteries;
+    int64_t trips_uncharged;
     int64_t pickup_order;
     int64_t carried;
     int64_t capacity[9];
@@ -681,6 +692,14 @@ typedef struct tandem_goods_2d {
     tandem_goods* data;
     int64_t shape[2];
 } tandem_goods_2d;
+typedef struct tandem_hub_1d {
+    tandem_hub* data;
+    int64_t shape[1];
+} tandem_hub_1d;
+typedef struct tandem_hub_2d {
+    tandem_hub* data;
+    int64_t shape[2];
+} tandem_hub_2d;
 typedef struct tandem_stop_load_2d {
     tandem_stop_load* data;
     int64_t shape[2];
@@ -895,6 +914,7 @@ typedef struct tandem_instance {
                                       nobody has one */
     tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
                                       (problem, 0) where any may */
+    tandem_hub_2d hub;             /* (problem, depot), or (problem, 0) where all have enough */
     tandem_vehicle_type_2d type;   /* (problem, row); trucks first, as many as `size` says */
     tandem_rate_2d rate;           /* (problem, row) */
     tandem_bool_3d reload; /* (problem, type, node) where a trip may end and the next begin */
@@ -923,9 +943,10 @@ typedef struct tandem_state {
     tandem_bool_2d served;      /* (rollout, node) */
     tandem_i64_1d num_unserved; /* (rollout,) */
     tandem_i64_2d used;         /* (rollout, type) vehicles opened */
-    tandem_bool_1d done;        /* (rollout,) */
-    tandem_vehicle_1d vehicle;  /* (rollout,) the open one */
-    tandem_drone_2d drone;      /* (rollout, drone) its drones */
+    tandem_hub_2d taken;       /* (rollout, depot) by the vehicles closed so far, or (rollout, 0) */
+    tandem_bool_1d done;       /* (rollout,) */
+    tandem_vehicle_1d vehicle; /* (rollout,) the open one */
+    tandem_drone_2d drone;     /* (rollout, drone) its drones */
     tandem_vehicle_logs log;
     tandem_cost_1d cost;  /* (rollout,) of the vehicles closed so far */
     tandem_bool_3d fresh; /* (problem, type, node) servable alone by a fresh vehicle */
@@ -998,7 +1019,8 @@ typedef struct tandem_problem_data {
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
     tandem_bool_1d
-        no_launch; /* (node,) no drone takes off or is recovered there; none where any may */
+        no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */
+    tandem_hub_1d hub; /* (depot,) none where all have enough */
     tandem_bool_2d
         halts; /* (type, depot) launch sites where it may stop; (0, 0) if there are none */
     tandem_i64_1d halt_after;    /* (depot,) who is served before a stop there, or -1 */

@@ -11,6 +11,7 @@ using Node = tandem_node;
 using Setup = tandem_setup;
 using Price = tandem_price;
 using Goods = tandem_goods;
+using Hub = tandem_hub;
 using VehicleType = tandem_vehicle_type;
 using Rate = tandem_rate;
 using Cost = tandem_cost;
@@ -61,6 +62,7 @@ struct Instance {
                                                   // (problem, 0) if nobody has one
     View<const bool, 2> no_launch;  // (problem, node) no drone takes off or is recovered there, or
                                     // (problem, 0) where any may
+    View<const Hub, 2> hub;         // (problem, depot), or (problem, 0) where all have enough
     View<const VehicleType, 2> type;  // (problem, row); trucks first, as many as `size` says
     View<const Rate, 2> rate;         // (problem, row)
     View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
@@ -87,6 +89,7 @@ inline Instance instance_of(const tandem_instance& from) {
             from.setup,
             from.max_time_aboard,
             from.no_launch,
+            from.hub,
             from.type,
             from.rate,
             from.reload,

@@ -11,6 +11,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
+#include "simulation/hubs.h"
 #include "simulation/transition.h"
 #include "simulation/trial.h"
 #include "simulation/vehicle_log.h"
@@ -126,7 +127,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const bool is_idle = vehicle.idle != 0;
     const Int trips = log.count.trips;
     if (is_idle && trips > 0 &&
-        !(trips < setting.type.max_trips && instance.reload(b, k, vehicle.node))) {
+        !(trips < setting.type.max_trips && instance.reload(b, k, vehicle.node) &&
+          may_take_off(instance, state, r, k, vehicle.node, trips))) {
         return 0;
     }
     const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
@@ -187,7 +189,10 @@ Int legal_returns(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1>
 // Tell whether a vehicle of type `k` may open: one is left and has a customer to serve.
 bool open_legal(const Instance& instance, const State& state, Int r, Int k) {
     const Int b = state.problem[r];
-    if (state.used(r, k) >= instance.type(b, k).count) return false;
+    const VehicleType& type = instance.type(b, k);
+    if (state.used(r, k) >= type.count || !may_take_off(instance, state, r, k, type.begins_at, 0)) {
+        return false;
+    }
     const Size& size = instance.size[b];
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.fresh(b, k, node) && !state.served(r, node)) return true;

@@ -90,6 +90,7 @@ struct State {
     View<bool, 2> served;                // (rollout, node)
     View<std::int64_t, 1> num_unserved;  // (rollout,)
     View<std::int64_t, 2> used;          // (rollout, type) vehicles opened
+    View<Hub, 2> taken;                  // (rollout, depot) by vehicles closed, or (rollout, 0)
     View<bool, 1> done;                  // (rollout,)
     View<Vehicle, 1> vehicle;            // (rollout,) the open one
     View<Drone, 2> drone;                // (rollout, drone) its drones
@@ -99,7 +100,7 @@ struct State {
 };
 
 inline State state_of(const tandem_state& from) {
-    return {from.problem, from.served, from.num_unserved,         from.used, from.done,
+    return {from.problem, from.served, from.num_unserved,         from.used, from.taken, from.done,
             from.vehicle, from.drone,  vehicle_logs_of(from.log), from.cost, from.fresh};
 }
 

@@ -10,6 +10,7 @@
 #include "rules/start.h"
 #include "simulation/aboard.h"
 #include "simulation/cost.h"
+#include "simulation/hubs.h"
 #include "simulation/meeting.h"
 #include "simulation/vehicle_log.h"
 
@@ -314,6 +315,7 @@ void close_vehicle(const Instance& instance, State& state, Int r) {
         if (start > log.trip[trip].start) retime(setting, log, trip, start);
     }
     if (log.count.trips == 0) return;
+    note_taken(instance, state, r);
     add_cost(instance, setting, log, b, vehicle.type, state.cost[r]);
 }
 

@@ -4,6 +4,7 @@
 
 #include "rules/load.h"
 #include "rules/shift.h"
+#include "simulation/hubs.h"
 #include "simulation/transition.h"
 #include "simulation/vehicle_log.h"
 
@@ -66,7 +67,10 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     const View<const Int, 2> legs = instance.distance[b][type.travel];
     const Int home = type.ends_at;
     const Int reach = longest_trip(type);
-    if (vehicle.distance + legs(vehicle.node, place) > reach) return false;
+    if (vehicle.distance + legs(vehicle.node, place) > reach ||
+        !may_take_off(instance, state, r, k, place, state.log.count[r].trips)) {
+        return false;
+    }
     const Size& size = instance.size[b];
     const View<const Goods, 1> goods = instance.goods[b];
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {

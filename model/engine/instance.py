@@ -61,6 +61,7 @@ class Instance(NamedTuple):
     setup: Records  # (problem, node), or (problem, 0)
     max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
     no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
+    hub: Records  # (problem, depot), or (problem, 0) where all have enough
     type: Records  # (problem, row); trucks first, as many as `size` says
     rate: Records  # (problem, row)
     reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
@@ -107,6 +108,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     """Allocate arrays for problems with so many types and tables of nodes and of `legs`, if any."""
     rows = len(problems)
     nodes = max(problem.num_nodes for problem in problems)
+    depots = max(problem.num_depots for problem in problems)
     ends = nodes if legs else 0
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
@@ -123,6 +125,8 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
                        dtype_of("tandem_setup")),
         max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
         no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
+        hub=np.zeros((rows, depots if any(problem.limits_hubs for problem in problems) else 0),
+                     dtype_of("tandem_hub")),
         type=np.zeros((rows, types), dtype_of("tandem_vehicle_type")),
         rate=np.zeros((rows, types), dtype_of("tandem_rate")),
         reload=np.zeros((rows, types, nodes), np.bool_),
@@ -186,6 +190,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
         for name, time in (("window_earliest", place.earliest), ("arrival_limit", place.latest),
                            ("window_latest", place.latest)):
             instance.node[row, :, site, 0][name] = time
+    if instance.hub.shape[1]:
+        instance.hub[row, :problem.num_depots] = [
+            (_limit(depot.batteries), _limit(depot.chargers)) for depot in problem.depots]
     if problem.forbids_launches:
         instance.no_launch[row, :problem.num_nodes] = [
             not problem.may_launch_at(node) for node in range(problem.num_nodes)]
@@ -269,7 +276,8 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         _most_sorties(kind), kind.most_airborne, int(kind.truck_waits), kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
-        drone_variant, *battery_row(energy), int(kind.flies), _pickup_order(kind), load[0],
+        drone_variant, *battery_row(energy), int(kind.flies), int(kind.takes_batteries),
+        kind.trips_uncharged, _pickup_order(kind), load[0],
         _padded(free, room), _padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
         *_storm_rows(drones))

@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
+from model.judge.hubs import hub_violations
 from model.judge.launch_sites import site_violations, with_launch_sites
 from model.judge.metrics import (
     RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
@@ -48,7 +49,7 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
     routes = [known.get(index) or judge_route(problem, route, f"routes[{index}]", past)
               for index, route in enumerate(solution.routes)]
     violations = [*_assignment_violations(problem, solution, routes),
-                  *_fleet_violations(problem, solution)]
+                  *_fleet_violations(problem, solution), *hub_violations(problem, solution)]
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
     for judged in routes:

@@ -78,6 +78,8 @@ class RoutePool:
                  alarm: IntArray | None = None) -> Rollout:
         """Return the cheapest plan that is found by the routes seen, at most as dear as `best`.
 
+        That is `best` where vehicles share batteries, or places to charge.
+
         Parameters
         ----------
         best
@@ -88,6 +90,8 @@ class RoutePool:
             Setting of an alarm at which the best so far is returned.
         """
         alarm = Alarm().setting if alarm is None else alarm
+        if self._instance.hub.shape[1]:
+            return best
         self._forget(best)
         for _ in range(-(-int(self._instance.size[0].customers) // REGION)):
             if has_rung(alarm) or len(best.actions) == 0:

@@ -22,12 +22,16 @@ class Depot:
     latest: int = UNLIMITED  # last arrival there
     stop_cost: float = 0.0  # of each stop there
     after: str | None = None  # id of the customer who has been served before, by the same vehicle
+    batteries: int | None = None  # charged, for trips of who flies from there; None: enough
+    chargers: int | None = None  # for who flies from there, each for one all day; None: enough
 
     def __post_init__(self) -> None:
         require_quantity(f"{self.kind} {self.id} earliest", self.earliest)
         require(self.earliest <= self.latest <= UNLIMITED, f"{self.kind} {self.id} latest",
                 self.latest)
         require_rate(f"{self.kind} {self.id} stop_cost", self.stop_cost)
+        require_quantity(f"{self.kind} {self.id} batteries", self.batteries or 0)
+        require_quantity(f"{self.kind} {self.id} chargers", self.chargers or 0)
 
     @property
     def is_launch_site(self) -> bool:

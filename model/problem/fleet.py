@@ -132,6 +132,7 @@ class VehicleType:
     recovery_duration: int = 0  # of one that flies, as each trip ends
     energy: Energy | None = None  # of one that flies: what a trip may take of the battery
     max_range: int | None = None  # of one that flies: mm to customers from a trip's ends
+    has_charger: bool = False  # of one that flies: it has a place to charge at its depot already
     straight: int = 0  # index into Problem.travel, whose distances tell that
     co2_kg_per_km: float | None = None  # of the truck, for replies alone
     co2_kg_per_kwh: float | None = None  # of the energy that its drones use
@@ -194,6 +195,18 @@ class VehicleType:
     def service_at(self, customer: Customer) -> int:
         """Return how long a truck serves a customer."""
         return self.service_durations.get(customer.id, customer.service_duration)
+
+    @property
+    def takes_batteries(self) -> bool:
+        """Whether each of its trips takes a battery of those at the depot where it begins."""
+        return self.flies and not (self.energy is not None and self.energy.charge)
+
+    @property
+    def trips_uncharged(self) -> int:
+        """How many trips it makes at most that needs no place to charge at its depot."""
+        if not self.flies or self.takes_batteries or self.has_charger:
+            return UNLIMITED
+        return 0 if self.charge_left else 1
 
     @property
     def most_airborne(self) -> int:

@@ -126,6 +126,12 @@ class Problem:
         """Nodes where trucks may stop for their drones alone; they are among the depots."""
         return tuple([node for node, depot in enumerate(self.depots) if depot.is_launch_site])
 
+    @cached_property
+    def limits_hubs(self) -> bool:
+        """Tell whether batteries, or places to charge, of who flies are limited at any depot."""
+        return any(depot.batteries is not None or depot.chargers is not None
+                   for depot in self.depots)
+
     def is_launch_site(self, node: int) -> bool:
         """Tell whether trucks may stop at a node for their drones alone."""
         return 0 <= node < self.num_depots and self.depots[node].is_launch_site

@@ -1,5 +1,7 @@
 """The plan that a search begins with where none is given."""
 
+from collections.abc import Sequence
+
 from model.problem import Problem
 from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.packing import packed_routes
@@ -30,8 +32,10 @@ def first_plan(problem: Problem, data: ProblemData,
         return Solution(tuple(_by_types(problem, data)) if joined else (), everyone)
     if data.num_types > 1:
         data = data._replace(can=by_nearest(data))
-    return Solution(tuple(route for k in range(data.num_types)
-                          for route in _routes_of_type(problem, data, k, numbering)), everyone)
+    routes: list[Route] = []
+    for k in range(data.num_types):
+        routes += _routes_of_type(problem, data, k, numbering, routes)
+    return Solution(tuple(routes), everyone)
 
 
 def _by_types(problem: Problem, data: ProblemData) -> list[Route]:
@@ -39,19 +43,22 @@ def _by_types(problem: Problem, data: ProblemData) -> list[Route]:
     can, routes = data.can.copy(), list[Route]()
     data = data._replace(can=can)
     for k in sorted(range(data.num_types), key=lambda k: cost_by_savings(data, k)):
-        more = _routes_of_type(problem, data, k, None)
+        more = _routes_of_type(problem, data, k, None, routes)
         can[:, 0, [stop.node for route in more for stop in route.trips[0].stops]] = False
         routes += more
     return routes
 
 
 def _routes_of_type(problem: Problem, data: ProblemData, k: int,
-                    numbering: Numbering | None) -> list[Route]:
-    """Return routes of a type, for as many vehicles as there are, those of most customers."""
+                    numbering: Numbering | None, beside: Sequence[Route]) -> list[Route]:
+    """Return routes of a type, for as many vehicles as there are, those of most customers.
+
+    Those `beside` take of batteries and places to charge.
+    """
     kind = problem.vehicle_types[k]
-    if kind.flies and kind.max_trips > 1:
+    if kind.flies and (kind.max_trips > 1 or problem.limits_hubs):
         return packed_routes(problem, k, savings_routes(data, k),
-                             None if numbering is None else numbering.node.tolist())
+                             None if numbering is None else numbering.node.tolist(), beside)
     join = shortest_routes if may_be_turned(data) else savings_routes
     longest = sorted(join(data, k), key=len, reverse=True)[:kind.count]
     return [Route(k, number, (Trip(tuple(Stop(node, 0, 0, 0) for node in (

@@ -22,8 +22,11 @@ from model.search.sharing import ROUNDING
 def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     """Let the best plan take over the parts of the plan as it is that cost less. In place.
 
-    Where that would take too many vehicles, those parts alone that need no more of any type.
+    Where that would take too many vehicles, those parts alone that need no more of any type. None
+    where routes share batteries, or places to charge, of which there are only so many.
     """
+    if len(data.hub):
+        return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
     nodes = np.arange(data.num_depots, data.num_nodes)
     nodes = nodes[now.where["slot"][nodes] != ELSEWHERE]

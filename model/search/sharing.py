@@ -42,7 +42,7 @@ class Crew:
             return self._rooms
         routes = int(whole.count.active)
         self._divided = (whole.count.customers >= DIVIDED_FROM
-                         and routes >= FEWEST_ROUTES * threads)
+                         and routes >= FEWEST_ROUTES * threads and len(self._data.hub) == 0)
         if self._divided:
             self._divide()
             return self._parts

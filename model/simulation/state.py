@@ -36,6 +36,7 @@ class State(NamedTuple):
     served: BoolArray  # (rollout, node)
     num_unserved: IntArray  # (rollout,)
     used: IntArray  # (rollout, type) vehicles opened
+    taken: Records  # (rollout, depot) by the vehicles closed so far, or (rollout, 0)
     done: BoolArray  # (rollout,)
     vehicle: Records  # (rollout,) the open one
     drone: Records  # (rollout, drone) its drones
@@ -65,6 +66,7 @@ def empty_state(instance: Instance, rows: int) -> State:
         served=np.zeros((rows, num_nodes), np.bool_),
         num_unserved=np.zeros(rows, np.int64),
         used=np.zeros((rows, num_types), np.int64),
+        taken=np.zeros((rows, instance.hub.shape[1]), dtype_of("tandem_hub")),
         done=np.zeros(rows, np.bool_),
         vehicle=np.zeros(rows, dtype_of("tandem_vehicle")),
         drone=np.zeros((rows, max_drones), dtype_of("tandem_drone")),

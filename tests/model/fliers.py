@@ -1,10 +1,13 @@
-"""Tiny problems some of whose vehicles fly by themselves."""
+"""Tiny problems some of whose vehicles fly by themselves, from hubs that may have little."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from model.judge.hubs import taken_at_hubs
 from model.problem import UNLIMITED, Energy, Problem, VehicleType
+from model.solution import Route
 from tests.model.tiny import MINUTE, draw_battery
 
 
@@ -35,3 +38,35 @@ def with_fliers(rng: np.random.Generator, problem: Problem, share: float = 0.7) 
             recovery_duration=int(rng.integers(3)) * MINUTE, energy=battery())
 
     return replace(problem, vehicle_types=tuple(map(flying, problem.vehicle_types)))
+
+
+def with_hubs(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose depots have few batteries, or places to charge, for who flies."""
+    def few(most: int) -> int | None:
+        return int(rng.integers(0, most)) if rng.random() < 0.8 else None
+
+    return replace(problem, depots=tuple(
+        replace(depot, batteries=few(3), chargers=few(2)) if depot.kind == "depot" else depot
+        for depot in problem.depots))
+
+
+def from_few_hubs(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem of several trips in the air, for which hubs have too little."""
+    problem = with_hubs(rng, with_fliers(rng, problem, 0.9))
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, max_trips=int(rng.integers(1, 4)), earliest=0, latest=UNLIMITED)
+        for kind in problem.vehicle_types), customers=tuple(
+            replace(customer, served_by="either") for customer in problem.customers))
+
+
+def without_taken(problem: Problem, routes: Sequence[Route]) -> Problem:
+    """Return a problem whose depots have what some routes leave."""
+    if not problem.limits_hubs:
+        return problem
+    taken = taken_at_hubs(problem, routes)
+    return replace(problem, depots=tuple(
+        replace(depot,
+                batteries=None if depot.batteries is None
+                else depot.batteries - taken.batteries[node],
+                chargers=None if depot.chargers is None else depot.chargers - taken.chargers[node])
+        for node, depot in enumerate(problem.depots)))

@@ -18,6 +18,7 @@ from model.judge.timing import Operation, latest_release, schedule_trip
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from tests.model.fliers import without_taken
 from tests.model.open_trip import (
     Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred,
 )
@@ -359,9 +360,11 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
                 yield place * NUM_KINDS + RETURN
     if vehicle is None or (vehicle.is_idle and vehicle.trips
                            and vehicle.trips[-1].nodes[-1] == home):
+        left = problem if vehicle is None else without_taken(
+            problem, (judge(problem, vehicle, None)[0],))
         for kind, vehicle_type in enumerate(problem.vehicle_types):
             if used[kind] < vehicle_type.count and _is_useful(
-                    problem, Vehicle(kind, used[kind]), customers, any_start):
+                    left, Vehicle(kind, used[kind]), customers, any_start):
                 yield kind * NUM_KINDS + OPEN
 
 

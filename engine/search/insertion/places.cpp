@@ -11,6 +11,7 @@
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
+#include "search/route/hubs.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -128,7 +129,10 @@ void offer_beside(const Insertion& insertion, Int other) {
 
 void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, Best& best) {
     for (Int k = 0; k < data.num_types; ++k) {
-        if (!is_left(data, searcher.now, k)) continue;
+        if (!is_left(data, searcher.now, k) ||
+            !may_take_off(data, searcher, k, data.type[k].begins_at, 0)) {
+            continue;
+        }
         for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
             if (!best.takes(searcher.alone(k, way, node))) continue;
             best.move.kind = way == 0 ? new_route : new_flight;
@@ -165,7 +169,8 @@ void try_trips(const Insertion& insertion, Int number) {
         const Int slot = searcher.active[index < active ? index : index - active];
         const Int k = now.route[slot].type;
         if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
-            !goods_may_follow(data, now, slot, node)) {
+            !goods_may_follow(data, now, slot, node) ||
+            !may_take_off(data, searcher, k, data.type[k].depot, now.route[slot].trips)) {
             continue;
         }
         if (data.can(k, 0, node)) {

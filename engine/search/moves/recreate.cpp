@@ -11,6 +11,7 @@
 #include "search/insertion/places.h"
 #include "search/moves/halting.h"
 #include "search/route/edit.h"
+#include "search/route/hubs.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -90,7 +91,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
     apply(data.type[route.type].depot, sequence_in(now, slot), move, node);
-    const bool allowed = refresh(data, now, slot);
+    const bool allowed = refresh(data, now, slot) && hubs_suffice(data, searcher);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);
         keep_aside(now, spare, slot);

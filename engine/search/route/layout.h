@@ -75,6 +75,7 @@ struct ProblemData {
     View<const Setup, 1> setup;                   // (node,) none where nobody sets up
     View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
     View<const bool, 1> no_launch;                // (node,) none where drones may take off anywhere
+    View<const Hub, 1> hub;                       // (depot,) none where all have enough
     View<const bool, 2> halts;  // (type, depot) launch sites where it may stop; (0, 0) if none
     View<const std::int64_t, 1> halt_after;  // (depot,) who is served before, or `nowhere`
     View<const double, 1> halt_cost;         // (depot,) of each stop there
@@ -116,6 +117,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.setup,
             from.max_time_aboard,
             from.no_launch,
+            from.hub,
             from.halts,
             from.halt_after,
             from.halt_cost,

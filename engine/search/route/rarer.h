@@ -17,6 +17,9 @@ inline bool has_halts(const ProblemData& data) { return !data.halts.empty(); }
 // Tell whether some goods must not go with others.
 inline bool goods_count(const ProblemData& data) { return !data.goods.empty(); }
 
+// Tell whether depots have only so many batteries, or places to charge, for who flies.
+inline bool hubs_count(const ProblemData& data) { return !data.hub.empty(); }
+
 // Tell whether some parcels may be aboard for so long and no longer.
 inline bool time_aboard_counts(const ProblemData& data) { return !data.max_time_aboard.empty(); }
 

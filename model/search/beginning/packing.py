@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from model.problem import Problem, VehicleType
+from model.search.beginning.stock import left_at
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
@@ -14,25 +15,32 @@ LONG_AGO = -1
 
 
 def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
-                  nodes: Sequence[int] | None = None) -> list[Route]:
+                  nodes: Sequence[int] | None = None,
+                  beside: Sequence[Route] = ()) -> list[Route]:
     """Return trips of a type, each given by its customers, on vehicles one after another.
 
     What must begin first comes first, each time on the vehicle that has been back for least time by
-    then; on another where none is in time. What no vehicle can fly any more is left out. Routes
-    have no times yet. `nodes` are the problem's, by the numbers that trips have.
+    then; on another where none is in time. What no vehicle can fly any more is left out, or for
+    what routes `beside` leave no batteries, fewest customers first. Routes have no times yet.
+    `nodes` are the problem's, by the numbers that trips have.
     """
     kind = problem.vehicle_types[k]
+    stock = left_at(problem, beside, kind.depot)
+    if kind.takes_batteries and len(trips) > stock.batteries:
+        trips = sorted(trips, key=len, reverse=True)[:stock.batteries]
     timing = _Timing(problem, kind, nodes or range(problem.num_nodes))
     back: list[int] = []  # by vehicle
     made: list[list[Sequence[int]]] = []
     for trip in sorted(trips, key=timing.latest_start):
         chosen, ready = LONG_AGO, timing.ready(trip)
+        charged = sum(len(route) > kind.trips_uncharged for route in made)
         for vehicle, free in enumerate(back):
-            if len(made[vehicle]) < kind.max_trips and (
+            if _may_go_on(kind, len(made[vehicle]), charged < stock.chargers) and (
                     timing.end(trip, max(free, ready)) is not None
                     and (chosen == LONG_AGO or _is_better(free, back[chosen], ready))):
                 chosen = vehicle
-        if chosen == LONG_AGO and len(made) < kind.count:
+        if (chosen == LONG_AGO and len(made) < kind.count
+                and _may_go_on(kind, 0, charged < stock.chargers)):
             chosen = len(made)
             made.append([])
             back.append(kind.earliest)
@@ -61,10 +69,16 @@ def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
     for k in sorted(packed):
         trips = [[stop.node for stop in trip.stops[1:-1]]
                  for route in made if route.vehicle_type == k for trip in route.trips]
-        routes += packed_routes(problem, k, trips, nodes)
+        routes += packed_routes(problem, k, trips, nodes, routes)
     found = make_searcher(problem, data, Solution(tuple(routes), left_out(searcher)),
                           np.random.SeedSequence(0))
     return found if found.value.best < searcher.value.best else searcher
+
+
+def _may_go_on(kind: VehicleType, trips: int, is_place_left: bool) -> bool:
+    """Tell whether a vehicle that makes so many trips may make another, with a place to charge."""
+    needs_one = trips == kind.trips_uncharged
+    return trips < kind.max_trips and (is_place_left or not needs_one)
 
 
 def _is_better(free: int, other: int, ready: int) -> bool:

@@ -5,7 +5,8 @@ from functools import cached_property
 
 import numpy as np
 
-from model.problem import Problem
+from model.problem import Depot, Problem
+from model.search.beginning.stock import taken_at
 from model.search.regions.region import Region, Vehicle, customers_of
 from model.solution import Solution, renumbered
 
@@ -63,7 +64,7 @@ def part_of(problem: Problem, region: Region) -> Part:
         may_serve = may_serve[np.ix_(np.array(kinds), chosen[first:] - first)]
     may_stop = None if problem.may_stop is None else problem.may_stop[kinds]
     return Part(replace(
-        problem,
+        problem, depots=_depots_for(problem, region),
         customers=tuple(problem.customers[node - first] for node in customers),
         vehicle_types=tuple(replace(problem.vehicle_types[kind], count=len(all_of_it), numbers=())
                             for kind, all_of_it in zip(kinds, vehicles, strict=True)),
@@ -71,3 +72,14 @@ def part_of(problem: Problem, region: Region) -> Part:
         coordinates=problem.coordinates[chosen],
         may_serve=may_serve, may_stop=may_stop,
     ), nodes, vehicles)
+
+
+def _depots_for(problem: Problem, region: Region) -> tuple[Depot, ...]:
+    """Return depots that have as many batteries, and places to charge, as the region takes."""
+    if not problem.limits_hubs:
+        return problem.depots
+    taken = [taken_at(problem, region.plan.routes, node) for node in range(problem.num_depots)]
+    return tuple([
+        replace(depot, batteries=None if depot.batteries is None else batteries,
+                chargers=None if depot.chargers is None else chargers)
+        for depot, (batteries, chargers) in zip(problem.depots, taken, strict=True)])

@@ -69,6 +69,7 @@ class ProblemData(NamedTuple):
     setup: Records  # (node,), none where nobody sets up
     max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
+    hub: Records  # (depot,), none where all have enough
     halts: BoolArray  # (type, depot) launch sites where it may stop; (0, 0) if there are none
     halt_after: IntArray  # (depot,) who is served before a stop there, or NOWHERE
     halt_cost: FloatArray  # (depot,) of each stop there

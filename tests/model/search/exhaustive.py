@@ -12,10 +12,12 @@ from functools import cache, partial
 from itertools import (
     combinations, combinations_with_replacement, pairwise, permutations, product,
 )
+from operator import add, le
 
 from model.judge.check import check
+from model.judge.hubs import taken_at_hubs
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import MM_PER_KM, MS_PER_HOUR, IntArray, Problem, VehicleType
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, IntArray, Problem, VehicleType
 from model.solution import Route, Solution
 from tests.model.mask_oracle import costs_nothing
 
@@ -23,56 +25,82 @@ STEP = 30_000
 """Departures are tried every half minute: enough where all else is in whole minutes."""
 
 Nodes = tuple[int, ...]
+Taken = tuple[int, ...]
 
 
 def cheapest_cost(problem: Problem) -> float:
     """Return the cost of the cheapest plan of a problem of a few customers."""
     everyone = tuple(range(problem.num_depots, problem.num_nodes))
     kinds = range(len(problem.vehicle_types))
-    route = {(kind, nodes): _cheapest_route(problem, kind, nodes)
+    routes = {(kind, nodes): _cheapest_routes(problem, kind, nodes)
              for kind in kinds for size in range(1, len(everyone) + 1)
              for nodes in combinations(everyone, size)}
 
+    stock = _stock(problem)
     without = {node: problem.cost_of_leaving_out(problem.customer_at(node)) for node in everyone}
 
     @cache
-    def cheapest(left: Nodes, used: tuple[int, ...]) -> float:
+    def cheapest(left: Nodes, used: tuple[int, ...], taken: Taken) -> float:
         """Return the cost of serving or leaving out the customers left."""
         if not left:
             return 0.0
-        best = without[left[0]] + cheapest(left[1:], used)
+        best = without[left[0]] + cheapest(left[1:], used, taken)
         for kind in kinds:
             if used[kind] < problem.vehicle_types[kind].count:
                 more = (*used[:kind], used[kind] + 1, *used[kind + 1:])
                 for size in range(len(left)):
                     for others in combinations(left[1:], size):
                         rest = tuple(node for node in left[1:] if node not in others)
-                        cost = route[kind, (left[0], *others)] + cheapest(rest, more)
-                        best = min(best, cost)
+                        for own, cost in routes[kind, (left[0], *others)].items():
+                            total = tuple(map(add, taken, own))
+                            if all(map(le, total, stock)):
+                                best = min(best, cost + cheapest(rest, more, total))
         return best
 
-    return cheapest(everyone, (0,) * len(kinds))
+    return cheapest(everyone, (0,) * len(kinds), (0,) * len(stock))
 
 
-def _cheapest_route(problem: Problem, kind: int, nodes: Nodes) -> float:
-    """Return the cost of the cheapest route that serves exactly these; infinite without one."""
-    best, vehicle_type = math.inf, problem.vehicle_types[kind]
+def _stock(problem: Problem) -> Taken:
+    """Return the batteries, and the places to charge, at all depots; none where all have enough."""
+    if not problem.limits_hubs:
+        return ()
+    return tuple(UNLIMITED if stated is None else stated for depot in problem.depots
+                 for stated in (depot.batteries, depot.chargers))
+
+
+def _taken(problem: Problem, route: Route) -> Taken:
+    """Return what a route takes of that."""
+    if not problem.limits_hubs:
+        return ()
+    taken = taken_at_hubs(problem, (route,))
+    return tuple(part[node] for node in range(problem.num_depots) for part in taken)
+
+
+def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[Taken, float]:
+    """Return the costs of the cheapest routes that serve exactly these, by what they take."""
+    found, vehicle_type = dict[Taken, float](), problem.vehicle_types[kind]
     bounded = [(_least_cost(problem, vehicle_type, trips), trips) for trips in _trip_lists(
         problem, vehicle_type, nodes, vehicle_type.max_trips, vehicle_type.begins_at)]
     # The most promising first, so that the others need not be timed.
     for least, trips in sorted(bounded, key=lambda entry: entry[0]):
-        if least >= best:
+        if least == math.inf or (not problem.limits_hubs and least >= found.get((), math.inf)):
             break
         decision = RouteDecision(kind, 0, trips)
         soon = schedule(problem, decision)
+        taken = _taken(problem, soon)
+        best = found.get(taken, math.inf)
+        if least >= best:
+            continue
         evaluation = check(problem, Solution((soon,)))
         broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
         cost = evaluation.cost
         # A later start saves nothing but time and waiting.
         driven = cost.fixed + cost.distance + cost.stops
         if broken <= {"WORKING_DURATION"} and driven + cost.lateness < best:
-            best = min(best, _cost_begun_late(problem, decision, soon))
-    return best
+            late = _cost_begun_late(problem, decision, soon)
+            if late < best:
+                found[taken] = late
+    return found
 
 
 def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, ...]) -> float:

@@ -3,7 +3,7 @@
 import numpy as np
 
 from model.problem import Problem
-from tests.model.fliers import with_fliers
+from tests.model.fliers import from_few_hubs, with_fliers
 from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
@@ -32,6 +32,14 @@ def all_rules_fliers(rng: np.random.Generator) -> Problem:
             changes = (with_gaps, with_pickups, with_setups, with_limits_aboard, with_duty)
             change = changes[int(rng.integers(len(changes)))]
             return change(rng, problem) if rng.random() < 0.4 else problem
+
+
+def all_rules_few_at_hubs(rng: np.random.Generator) -> Problem:
+    """Return problems whose depots have too few batteries, or places to charge, for who flies."""
+    while True:
+        problem = from_few_hubs(rng, all_rules(rng))
+        if problem.limits_hubs and any(kind.flies for kind in problem.vehicle_types):
+            return with_reloads(rng, problem) if rng.random() < 0.2 else problem
 
 
 def all_rules_elsewhere(rng: np.random.Generator) -> Problem:

@@ -14,9 +14,10 @@ from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
 from model.simulation.extract import extract
-from tests.model.mask_oracle import MINUTE, Vehicle, after, legal_codes
+from model.solution import Route
+from tests.model.mask_oracle import MINUTE, Vehicle, after, judge, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, roll
-from tests.model.fliers import with_fliers
+from tests.model.fliers import from_few_hubs, with_fliers, without_taken
 from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
@@ -39,11 +40,14 @@ class Position:
     used: list[int]
     vehicle: Vehicle | None = None
     served: set[int] = field(default_factory=set)
+    closed: list[Route] = field(default_factory=list)
 
     def advance(self, problem: Problem, code: int) -> None:
         """Do an action. In place."""
         kind, target = code % NUM_KINDS, code // NUM_KINDS
         if kind == OPEN:
+            if self.vehicle is not None:
+                self.closed.append(judge(problem, self.vehicle, None)[0])
             self.vehicle = Vehicle(target, self.used[target])
             self.used[target] += 1
             return
@@ -151,6 +155,11 @@ def few_launch_places_among_all(rng: np.random.Generator, problem: Problem) -> P
     return with_few_launch_places(rng, problem)
 
 
+def few_at_hubs_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    problem = with_some(rng, problem, with_pickups, with_gaps, with_duty, with_reloads)
+    return from_few_hubs(rng, problem)
+
+
 def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_some(rng, with_fliers(rng, problem), with_pickups, with_gaps, with_duty,
                      with_places)
@@ -162,7 +171,8 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     with_turnaround, swapping_among_all, charging_often, charging_among_all, with_drone_types,
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
-    few_launch_places_among_all, with_fliers, fliers_among_all, with_storms,
+    few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
+    few_at_hubs_among_all, with_storms,
     storms_among_all, fliers_in_range, with_launch_sites, few_airborne_in_no_time])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
@@ -217,7 +227,8 @@ def test_what_is_aboard_at_each_stop_decides_what_is_legal(
 def assert_exact(problem: Problem, rng: np.random.Generator, seed: int) -> None:
     """Compare the mask with the oracle's along a random rollout, and another with the checker."""
     for codes, position in walk(problem, rng):
-        expected = legal_codes(problem, position.vehicle, position.served, position.used)
+        expected = list(legal_codes(without_taken(problem, position.closed), position.vehicle,
+                                    position.served, position.used))
         assert sorted(codes) == sorted(expected), f"seed {seed}"
     rollout = roll([problem], seed).rollouts[0]
     evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))

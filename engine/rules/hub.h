@@ -1,0 +1,28 @@
+// What vehicles that fly share at a depot: each trip takes a battery, or all that a vehicle flies
+// but the first a place to charge.
+#pragma once
+
+#include "problem/instance.h"
+
+namespace tandem {
+
+// Whether each trip of a type takes a battery of the depot where it begins.
+inline bool takes_batteries(const VehicleType& type) { return type.takes_batteries != 0; }
+
+// Whether a vehicle that makes so many trips needs a place to charge at its depot.
+inline bool needs_charger(const VehicleType& type, Int trips) {
+    return trips > type.trips_uncharged;
+}
+
+// Whether a depot has what one trip more takes that begins there.
+inline bool has_battery_for(const VehicleType& type, const Hub& hub, Int taken) {
+    return !takes_batteries(type) || taken < hub.batteries;
+}
+
+// Whether a depot has what one trip more takes of a vehicle that is at home there and has made so
+// many; `taken` by others.
+inline bool has_charger_for(const VehicleType& type, const Hub& hub, Int trips, Int taken) {
+    return needs_charger(type, trips) || !needs_charger(type, trips + 1) || taken < hub.chargers;
+}
+
+}  // namespace tandem
