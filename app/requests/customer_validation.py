@@ -22,12 +22,14 @@ def window_errors(draft: Draft) -> Errors:
         if customer.time_windows is None:
             if _ends_early(customer.time_window):
                 yield from _order_errors(draft, (*path, "time_window"), customer.time_window)
+            yield from _price_errors((*path, "time_window"), customer.time_window)
             continue
         if customer.time_window != TimeWindowInput():
             yield error_at("TWO_KINDS_OF_WINDOWS", (*path, "time_windows"),
                            "There is a time_window, too: state one of both.")
         for index, window in enumerate(customer.time_windows):
             yield from _order_errors(draft, (*path, "time_windows", index), window)
+            yield from _price_errors((*path, "time_windows", index), window)
         yield from _sequence_errors(draft, (*path, "time_windows"), customer.time_windows)
 
 
@@ -83,6 +85,13 @@ def _order_errors(draft: Draft, path: Path, window: TimeWindowInput) -> Errors:
                        f"The window ends at {draft.told(latest)}, before it starts at "
                        f"{draft.told(earliest)}: {draft.next_day(earliest, latest)}raise latest "
                        "or lower earliest.")
+
+
+def _price_errors(path: Path, window: TimeWindowInput) -> Errors:
+    if window.late_cost > 0 and window.late_cost_per_hour is None:
+        yield error_at("LATE_COST_OF_HARD_WINDOW", (*path, "late_cost"),
+                       "Nobody may be late where late_cost_per_hour isn't stated: state it too, 0 "
+                       "if only being late at all costs.")
 
 
 def _sequence_errors(draft: Draft, path: Path, windows: list[TimeWindowInput]) -> Errors:

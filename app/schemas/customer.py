@@ -38,6 +38,10 @@ class TimeWindowInput(Input):
         None,
         description="Cost per hour of arriving after `latest`. Null: arriving later isn't allowed.",
     )
+    late_cost: Money = Field(
+        0.0, description="Cost of arriving after `latest` at all, however late, where "
+        "`late_cost_per_hour` is stated.",
+    )
     early_cost_per_hour: Money = Field(
         0.0, description="Cost per hour of waiting for `earliest` at the customer."
     )

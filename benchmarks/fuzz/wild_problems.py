@@ -117,7 +117,7 @@ def _windows(rng: random.Random) -> Data:
         times.reverse()
     windows: list[Data] = [{"earliest": earliest, "latest": latest, "early_cost_per_hour": price}
                            for earliest, latest in zip(times[::2], times[1::2], strict=True)]
-    windows[-1] |= rng.choice(({}, {"latest": None}, {"late_cost_per_hour": 12.5}))
+    windows[-1] |= rng.choice(({}, {"latest": None}, {"late_cost_per_hour": 12.5, "late_cost": 5}))
     return {"time_windows": windows}
 
 

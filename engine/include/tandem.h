@@ -43,10 +43,12 @@ typedef struct tandem_setup {
     int64_t setup_duration;
 } tandem_setup;
 
-/* What lateness and waiting at a node cost per hour; in a search per ms. */
+/* What lateness and waiting at a node cost per hour, in a search per ms; and what it costs once to
+   be late at all. */
 typedef struct tandem_price {
     double lateness;
     double waiting;
+    double late;
 } tandem_price;
 
 /* Bits of the goods at a node that some others must not go with, and of those others: on one trip

@@ -120,9 +120,10 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
         left = std::min(static_cast<double>(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
-    const double window_cost = static_cast<double>(late) * prices[node].lateness +
-                               static_cast<double>(wait) * prices[node].waiting;
-    feature.lateness = to_float(ratio(window_cost / ms_per_hour, unit.cost));
+    const double hourly = static_cast<double>(late) * prices[node].lateness +
+                          static_cast<double>(wait) * prices[node].waiting;
+    const double once = once_late_cost(prices[node], place, outlook.arrival);
+    feature.lateness = to_float(ratio(hourly / ms_per_hour + once, unit.cost));
     describe_demand(now, node, feature);
     feature.shift_slack = to_float(slack(usual_end(setting.type), outlook.end, unit.time));
     const Int departure = log.count.trips > 0 ? vehicle.departure_best : vehicle.next_start;

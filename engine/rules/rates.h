@@ -44,10 +44,16 @@ inline double airborne_cost(const Rate& rate, Int duration, Units units = ms_and
     return static_cast<double>(duration) / units.duration * rate.drone_time;
 }
 
+// What it costs once to arrive behind the window.
+inline double once_late_cost(const Price& price, Windows place, Int arrival) {
+    return place.lateness(arrival) > 0 ? price.late : 0.0;
+}
+
 // What an arrival behind the window costs.
 inline double lateness_cost(const Price& price, Windows place, Int arrival,
                             Units units = ms_and_mm) {
-    return static_cast<double>(place.lateness(arrival)) / units.duration * price.lateness;
+    return static_cast<double>(place.lateness(arrival)) / units.duration * price.lateness +
+           once_late_cost(price, place, arrival);
 }
 
 // What it costs to wait for the window.

@@ -213,7 +213,7 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
             served[variant, :, 0]["demand"] = weight_rows(problem, weighs, DIMENSIONS_PER_TIER)
     _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
     instance.price[row, depots:nodes] = [
-        (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour)
+        (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour, customer.late_cost)
         for customer in problem.customers]
     costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])
     instance.unassigned_cost[row] = costs.min()

@@ -117,7 +117,7 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
                 earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
             elif halt.ready > customer.latest and customer.late_cost_per_hour is not None:
                 late = halt.ready - customer.latest
-                lateness += late * customer.late_cost_per_hour / MS_PER_HOUR
+                lateness += late * customer.late_cost_per_hour / MS_PER_HOUR + customer.late_cost
     return lateness, earliness
 
 

@@ -169,6 +169,7 @@ class Screen:
             cost = (detour * kind.cost_per_km / MM_PER_KM + push * kind.cost_per_hour / MS_PER_HOUR
                     + kind.cost_per_stop
                     + too_late * (customer.late_cost_per_hour or 0.0) / MS_PER_HOUR
+                    + (customer.late_cost if too_late else 0.0)
                     + (start - arrival) * customer.early_cost_per_hour / MS_PER_HOUR)
             yield Guess(late, cost, push, Place(vehicle, number, "truck", index))
 

@@ -62,6 +62,7 @@ class Customer:
     """Between several windows: last arrival in one, first start of service in the next."""
     pickup: tuple[int, ...] = ()  # (dimension,) parts taken in, to where the trip ends; (): nothing
     launch: bool = True  # drones may take off, and be recovered, from a truck there
+    late_cost: float = 0.0  # once, of coming late at all; where the window is soft
 
     def __post_init__(self) -> None:
         for amount in self.demand:
@@ -80,6 +81,7 @@ class Customer:
         require(opens <= self.latest, f"customer {self.id} gaps", self.gaps)
         require_rate(f"customer {self.id} early_cost_per_hour", self.early_cost_per_hour)
         require_rate(f"customer {self.id} late_cost_per_hour", self.late_cost_per_hour or 0.0)
+        require_rate(f"customer {self.id} late_cost", self.late_cost)
         require_rate(f"customer {self.id} unassigned_cost", self.unassigned_cost or 0.0)
 
     @property

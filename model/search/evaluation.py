@@ -15,8 +15,9 @@ def evaluate(instance: Instance) -> Records:
     `docs/develop/by-problem.md` has a table of what each rule does.
     """
     place, types, rates = instance.node[0], instance.type[0], instance.rate[0]
-    late, early = (bool((instance.price[0][name] > 0).any()) for name in ("lateness", "waiting"))
-    soft = bool((place["arrival_limit"] == FAR).any()) and late
+    hourly, early, once = (bool((instance.price[0][name] > 0).any())
+                           for name in ("lateness", "waiting", "late"))
+    soft = bool((place["arrival_limit"] == FAR).any()) and (hourly or once)
     costly = np.any([rates[name] > 0 for name in WORK_RATES], axis=0)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE

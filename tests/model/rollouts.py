@@ -145,6 +145,7 @@ class Units:
             gaps=tuple((self.time * closes, self.time * opens) for closes, opens in customer.gaps),
             release_time=self.time * customer.release_time,
             late_cost_per_hour=None if late is None else late * self.money / self.time,
+            late_cost=customer.late_cost * self.money,
             early_cost_per_hour=early * self.money / self.time)
 
     def energy(self, energy: Energy) -> Energy:

@@ -45,7 +45,7 @@ def _customer(rng: np.random.Generator, name: int, dimensions: int) -> Customer:
         str(name), tuple(_draw(rng, 0, 3, 1) for _ in range(dimensions)),
         service_duration=_draw(rng, 0, 4),
         earliest=earliest, latest=UNLIMITED if width is None else earliest + width,
-        late_cost_per_hour=None if rng.random() < 0.6 else 30.0,
+        late_cost_per_hour=None if rng.random() < 0.6 else 30.0, late_cost=2.0 * (name % 3),
         early_cost_per_hour=float(rng.integers(0, 2)) * 6,
         served_by=("truck", "drone", "either", "either")[int(rng.integers(4))],
         skills=frozenset({"cold"} if rng.random() < 0.2 else ()),

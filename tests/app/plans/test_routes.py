@@ -198,6 +198,8 @@ def _set(request: Request, path: str, value: Any) -> None:
      "$.customers[0].time_windows[0].latest"),
     ("customers.0.time_windows", [{"latest": 4, "late_cost_per_hour": 0}, {"earliest": 5}],
      "SOFT_WINDOW_BEFORE_ANOTHER", "$.customers[0].time_windows[0].late_cost_per_hour"),
+    ("customers.0.time_window", {"latest": 4, "late_cost": 5},
+     "LATE_COST_OF_HARD_WINDOW", "$.customers[0].time_window.late_cost"),
     ("customers.0.time_windows", [{"latest": 4}, {"earliest": 5, "early_cost_per_hour": 1}],
      "EARLY_COSTS_DIFFER", "$.customers[0].time_windows[1].early_cost_per_hour"),
     ("customers.0.location", None, "MISSING_LOCATION", "$.customers[0].location"),

@@ -78,10 +78,12 @@ def test_an_arrival_is_late_or_too_late_when_the_judge_says() -> None:
                        if other != node)
         judged = check(problem, Solution((route,), others))
         _, _, _, late, forbidden = times(place, route.trips[0].stops[1].arrival)
-        rate = problem.customer_at(node).late_cost_per_hour
+        customer = problem.customer_at(node)
+        rate = customer.late_cost_per_hour
         assert forbidden == any(v.code == "TIME_WINDOW" for v in judged.violations)
         assert forbidden == (late > 0 and rate is None)
-        assert judged.cost.lateness == pytest.approx(late / MS_PER_HOUR * (rate or 0.0))
+        assert judged.cost.lateness == pytest.approx(
+            0.0 if rate is None or not late else late / MS_PER_HOUR * rate + customer.late_cost)
         hard, soft = hard + forbidden, soft + (judged.cost.lateness > 0)
     assert hard > 10 < soft
 

@@ -35,7 +35,7 @@ def test_columns_state_limits_windows_and_demands(tiny_problem, customers, truck
     assert instance.node[0, 0, 1:, 0]["window_latest"].tolist() == [5, UNLIMITED]
     assert instance.node[0, 0, 1:, 0]["arrival_limit"].tolist() == [FAR, UNLIMITED]
     assert instance.node[0, 0, 1:, 0]["demand"][:, 0].tolist() == [1000, 1000]
-    assert instance.price[0, 1].tolist() == (2.0, 0.0)
+    assert instance.price[0, 1].tolist() == (2.0, 0.0, 0.0)
     assert instance.type[0]["max_working_duration"].tolist() == [UNLIMITED, 7]
     assert instance.type[0]["capacity"][:, 0].tolist() == [10_000, 10_000]
     assert instance.type[0]["drones"].tolist() == [0, 1]

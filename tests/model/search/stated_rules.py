@@ -42,6 +42,7 @@ RULES = {
     "parcels come later": with_customers(release_time=HOUR),
     "trucks have drones": with_vehicles(drones=DRONES),
     "lateness costs": with_customers(latest=HOUR, late_cost_per_hour=1.0),
+    "being late costs once": with_customers(latest=HOUR, late_cost_per_hour=0.0, late_cost=1.0),
     "waiting costs": with_customers(earliest=HOUR, early_cost_per_hour=1.0),
     "speed changes": with_vehicles(
         speed_profile=SpeedProfile((HOUR,), (FULL_SPEED, FULL_SPEED // 2))),

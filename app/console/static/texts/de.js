@@ -964,6 +964,7 @@ export default {
     info: 'Hinweise',
     kg_per_unit: 'kg je Einheit',
     lands: 'Landet',
+    late_cost: 'Kosten zu spät',
     late_cost_per_hour: 'Kosten zu spät je Stunde',
     latest: 'Spätestens',
     launch: 'Drohnenstarts',
@@ -1133,6 +1134,7 @@ export default {
       latest: 'Späteste Ankunft. Leer: ohne Grenze.',
       late_cost_per_hour:
         'Was eine Stunde Verspätung kostet. Leer: Verspätung ist nicht erlaubt.',
+      late_cost: 'Was es einmal kostet, überhaupt zu spät zu kommen.',
       early_cost_per_hour: 'Was eine Stunde Warten auf das Zeitfenster kostet.',
     },
     VehiclesInput: {
@@ -1428,6 +1430,7 @@ export default {
     WINDOW_ENDS_BEFORE_START: 'Das Zeitfenster schließt, bevor es öffnet.',
     WINDOWS_OVERLAP: 'Die Zeitfenster überschneiden sich.',
     WINDOW_WITHOUT_END: 'Nur das letzte Zeitfenster darf ohne Ende sein.',
+    LATE_COST_OF_HARD_WINDOW: 'Wo eine Stunde Verspätung keinen Preis hat, darf niemand zu spät kommen.',
     SOFT_WINDOW_BEFORE_ANOTHER: 'Nur das letzte Zeitfenster darf gegen Aufpreis verpasst werden.',
     TWO_KINDS_OF_WINDOWS: 'Geben Sie ein Zeitfenster an oder mehrere, nicht beides.',
     TWO_LISTS_OF_VEHICLES:

@@ -950,6 +950,7 @@ export default {
     info: 'Info',
     kg_per_unit: 'Kg per unit',
     lands: 'Lands',
+    late_cost: 'Late cost',
     late_cost_per_hour: 'Late cost per hour',
     latest: 'Latest',
     launch: 'Launches',
@@ -1118,6 +1119,7 @@ export default {
       earliest: 'Service starts no earlier; who comes before waits.',
       latest: 'Latest arrival. Empty: no limit.',
       late_cost_per_hour: 'What an hour of lateness costs. Empty: late is not allowed.',
+      late_cost: 'What it costs once to be late at all.',
       early_cost_per_hour: 'What an hour of waiting for the window costs.',
     },
     VehiclesInput: {
@@ -1404,6 +1406,7 @@ export default {
     WINDOW_ENDS_BEFORE_START: 'The window closes before it opens.',
     WINDOWS_OVERLAP: 'The windows overlap.',
     WINDOW_WITHOUT_END: 'Only the last window may have no end.',
+    LATE_COST_OF_HARD_WINDOW: 'Where an hour of lateness has no price, nobody may be late.',
     SOFT_WINDOW_BEFORE_ANOTHER: 'Only the last window may be missed at a price.',
     TWO_KINDS_OF_WINDOWS: 'State one window or several, not both.',
     TWO_LISTS_OF_VEHICLES: 'State the vehicles allowed or those forbidden, not both.',

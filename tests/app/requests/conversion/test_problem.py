@@ -64,12 +64,13 @@ def test_several_windows_are_one_after_another(smallest: Request) -> None:
     first["time_windows"] = [
         {"earliest": 5, "latest": 5, "early_cost_per_hour": 2},
         {"earliest": 7.5, "latest": 8, "early_cost_per_hour": 2},
-        {"earliest": 20, "late_cost_per_hour": 9, "early_cost_per_hour": 2}]
+        {"earliest": 20, "late_cost_per_hour": 9, "late_cost": 4, "early_cost_per_hour": 2}]
     second["time_windows"] = [{"earliest": 3, "latest": 4}]
     several, one = problem_of(smallest).customers
     assert (several.earliest, several.gaps, several.latest) == (
         5000, ((5000, 7500), (8000, 20_000)), UNLIMITED)
     assert (several.late_cost_per_hour, several.early_cost_per_hour) == (9, 2)
+    assert several.late_cost == 4
     assert (one.earliest, one.gaps, one.latest) == (3000, (), 4000)
 
 
