@@ -20,7 +20,7 @@ export function idleCarriers({ request, plan }) {
     .map(({ vehicle }) => vehicle);
 }
 
-/** Return the types of vehicles that fly by themselves of which some don't: `{type, count, all}`. */
+/** Return the types of vehicles that fly by themselves where some don't: `{type, count, all}`. */
 export function idleAtHubs({ request, plan }) {
   return request.fleet
     .filter(({ flies }) => flies)

@@ -1,4 +1,4 @@
-/** Published zones of the airspace in words: what they ask for, where they reach, whose they are. */
+/** Published zones of the airspace in words: what they ask for, where they reach, and whose. */
 
 import { number } from './format.js';
 import { t } from '../texts.js';

@@ -24,7 +24,8 @@ export function DronesLine() {
   if (!flown?.present) return null;
   const isAsking = answer?.state === 'asking';
   return html`<div class="drones-line">${flown.drones > 0 && html`<p role="status">${
-    sentence(entry, flown, isAskable ? answer?.told?.drones : null)}${isAskable && !answer?.told && html` <button type="button"
+    sentence(entry, flown, isAskable ? answer?.told?.drones : null)}${isAskable
+      && !answer?.told && html` <button type="button"
       class="link" disabled=${!idle || isAsking} onClick=${() => askDrones(entry)}>${
       isAsking ? t('dronesLine.searching') : t('dronesLine.ask')}</button>`}</p>`}
     <${IdleDrones} /></div>`;
