@@ -1,10 +1,12 @@
 /** Opens files: problems as JSON, sheets of customers in any format that the service reads. */
 
-import { edit, openRequest, showFailure } from '../actions.js';
+import { edit, openRequest, openTab, showFailure } from '../actions.js';
 import { ApiError } from '../api.js';
+import { dayOf } from '../core/day.js';
 import { withoutEnding } from '../core/format.js';
 import { labelOf } from '../core/schema.js';
 import { pastedSheet } from '../core/pasted.js';
+import { forecastOf, withWind } from '../core/wind.js';
 import { addZones, zonesOf, zonesOfKml } from '../core/zones.js';
 import { plan } from '../planning.js';
 import { store } from '../store.js';
@@ -66,6 +68,15 @@ function openZones(file, zones) {
   edit((request) => addZones(request, zones));
 }
 
+/** Take the wind of the problem that is open from a forecast. */
+function openForecast(file, wind) {
+  if (!dayOf(store.get().request)) {
+    throw new ApiError(0, t('files.noDay', { file: file.name }), t('files.noDayHelp'));
+  }
+  edit((request) => withWind(request, wind));
+  openTab('fleet');
+}
+
 // Few import: what does it is loaded for who does.
 async function openSheet(file) {
   const { beginImport } = await import('../importing.js');
@@ -88,6 +99,11 @@ async function openJson(file) {
   const zones = zonesOf(content);
   if (zones) {
     openZones(file, zones);
+    return;
+  }
+  const forecast = forecastOf(content);
+  if (forecast) {
+    openForecast(file, forecast);
     return;
   }
   if (content?.type === 'FeatureCollection') {

@@ -9,12 +9,8 @@ import { countZones } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
+import { WindForm } from './wind-form.js';
 import { t } from '../texts.js';
-
-/** Tell whether a wind is the same always, so that there is a form for it. */
-function isSteady(wind) {
-  return !Array.isArray(wind) && !wind?.open_meteo;
-}
 
 /** The tab. */
 export function FleetTab() {
@@ -54,11 +50,7 @@ export function FleetTab() {
       (type, position) => html`<${VehicleType} key=${position} type=${type}
       position=${position} request=${request} isNew=${position === added?.position} />`,
     )}
-    <fieldset class="group"><legend>${t('field.wind')}</legend>
-      ${isSteady(request.airspace?.wind)
-        ? html`<${Fields} schema=${schemas.WindInput} keys=${['airspace', 'wind']}
-          request=${request} onChange=${edit} />`
-        : html`<p class="help">${t('fleet.windByHour')}</p>`}</fieldset>
+    <${WindForm} request=${request} />
     <fieldset class="group"><legend>${t('field.no_fly')}</legend>
       ${(request.airspace?.no_fly ?? []).map(
         (ring, position) => html`<div class="buttons" key=${position}>

@@ -135,6 +135,26 @@ function PlainField({
   </div>`;
 }
 
+/** A field in a table: its input alone, called by its `label`. */
+export function Cell({ schema, keys, request, onChange, label, required = false }) {
+  const schemas = useStore((state) => state.schemas);
+  const errors = useStore((state) => state.errors).filter(
+    (error) => keyOf(error.keys) === keyOf(keys),
+  );
+  const [problem, setProblem] = useState(null);
+  const found = resolve(schemas, schema);
+  const id = idOf(keys);
+  const set = (next) =>
+    onChange(next === undefined ? removeIn(request, keys) : setIn(request, keys, next));
+  const isWrong = Boolean(problem) || errors.length > 0;
+  return html`<${TextInput} id=${id} kind=${timeKind(schema) ?? kindOf(found.schema)} label=${label}
+      schema=${found.schema} value=${getIn(request, keys)} set=${set} nullable=${found.nullable}
+      required=${required} onProblem=${setProblem} invalid=${isWrong}
+      describedBy=${isWrong ? `${id}-error` : null} />
+    ${isWrong && html`<div class="error" id=${`${id}-error`}>${
+      problem ?? errors.map((error) => html`<${Said} key=${error.code} ...${error} />`)}</div>`}`;
+}
+
 /** Stands for a value that is no choice but an object. */
 const OWN_PLACE = 'own place';
 
@@ -203,6 +223,7 @@ function TextInput({
   describedBy,
   invalid,
   onProblem,
+  label = null,
 }) {
   const [text, setText] = useState(textOf(kind, value));
   useLayoutEffect(() => {
@@ -216,8 +237,8 @@ function TextInput({
   };
   const numeric = kind === 'number';
   return html`<input type="text" id=${id} value=${text} aria-describedby=${describedBy}
-    aria-invalid=${invalid} aria-required=${required} autocomplete="off" spellcheck=${false}
-    inputmode=${numeric ? 'decimal' : 'text'}
+    aria-label=${label} aria-invalid=${invalid} aria-required=${required} autocomplete="off"
+    spellcheck=${false} inputmode=${numeric ? 'decimal' : 'text'}
     placeholder=${TIMES[kind] && schema.default === 0 ? '' : emptyMeans(schema, nullable)}
     onInput=${(event) => setText(event.target.value)} onBlur=${commit}
     onKeyDown=${(event) => event.key === 'Enter' && commit()} />`;
