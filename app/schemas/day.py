@@ -106,6 +106,10 @@ class Day:
             instant = instant.replace(tzinfo=self.start.tzinfo)
         return (instant.astimezone(UTC) - self._start) / MICROSECOND / 1e6
 
+    def seconds_since_epoch(self, instant: float) -> float:
+        """Return the seconds since plan start of an instant in seconds since 1970 (Unix time)."""
+        return round(instant - self._start.timestamp(), 6)
+
     def instant(self, seconds: float) -> datetime:
         """Return an instant in the plan's zone, to the millisecond."""
         passed = timedelta(milliseconds=round(seconds * 1000))

@@ -132,12 +132,12 @@ _CODES: dict[str, ErrorCode] = {
 
 IN_WORDS, IN_PLACE, ALONE, LISTED = "(word)", "(place)", "(one)", "(list)"
 FORECAST = "(forecast)"
-AS_NUMBER, AS_TEXT = "(number)", "(text)"
+AS_NUMBER, AS_EPOCH, AS_TEXT = "(number)", "(epoch)", "(text)"
 """Tags of values that may be one or the other; no part of a path."""
 
-TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, FORECAST, AS_NUMBER, AS_TEXT, "(ed269)",
-                  "(ed318)", "(geojson)", "(kml)", "(Polygon)", "(MultiPolygon)", "(Point)",
-                  "(GeometryCollection)"})
+TAGS = frozenset({IN_WORDS, IN_PLACE, ALONE, LISTED, FORECAST, AS_NUMBER, AS_EPOCH, AS_TEXT,
+                  "(ed269)", "(ed318)", "(geojson)", "(kml)", "(Polygon)", "(MultiPolygon)",
+                  "(Point)", "(GeometryCollection)"})
 
 _TYPE_NAMES = {
     "float_type": "a JSON number",
@@ -285,11 +285,18 @@ def schema_errors(found: Sequence[ErrorDetails]) -> list[InputError]:
 
     What may be a number or a text is one error, of that which it was meant to be.
     """
-    texts = {details["loc"][:-1] for details in found if _is_of_text(details)}
+    others = {details["loc"][:-1] for details in found
+              if _is_of_text(details) or _is_of_epoch(details)}
     kept = [details for details in found
-            if details["loc"][-1:] != (AS_TEXT,) or _is_of_text(details)]
+            if details["loc"][-1:] not in ((AS_TEXT,), (AS_EPOCH,))
+            or _is_of_text(details) or _is_of_epoch(details)]
     return [schema_error(details) for details in kept
-            if details["loc"][-1:] != (AS_NUMBER,) or details["loc"][:-1] not in texts]
+            if details["loc"][-1:] != (AS_NUMBER,) or details["loc"][:-1] not in others]
+
+
+def _is_of_epoch(details: ErrorDetails) -> bool:
+    """Tell whether an error is of what was read as seconds since 1970."""
+    return details["loc"][-1:] == (AS_EPOCH,) and details["type"] in _STATED_CODES
 
 
 def _is_of_text(details: ErrorDetails) -> bool:

@@ -13,13 +13,16 @@ from pydantic import (
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from app.schemas.day import LONGEST_TEXT, Day, DayOfBody, is_instant, read_date_time, zone_of
-from app.schemas.errors import AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
+from app.schemas.errors import AS_EPOCH, AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
 
 Model = TypeVar("Model", bound=BaseModel)
 
 _HOURS = re.compile(r"(\d{1,4}):([0-5]\d)(?::([0-5]\d(?:\.\d{1,6})?))?")
 _ISO_DURATION = re.compile(r"P(?:[\d.]+[WD])*(?:T(?:[\d.]+[HMS])+)?")
 _PARSED = TypeAdapter(timedelta)
+
+EPOCH_FROM, EPOCH_UNTIL = 1e9, 7.5e9
+"""Numbers between are seconds since 1970 where the plan's day is stated: until the year 2207."""
 
 MAX_UNREADABLE = 20_000
 """Unreadable times of a body after which reading ends."""
@@ -93,6 +96,16 @@ def _read_instant(text: str, info: ValidationInfo) -> float:
         raise _no_instant(info) from None
 
 
+def _read_epoch(instant: float, info: ValidationInfo) -> float:
+    """Return an instant told in seconds since 1970; itself where no day is stated."""
+    stated = info.context
+    try:
+        day = stated.day if isinstance(stated, DayOfBody) else None
+    except ValueError:
+        day = None
+    return instant if day is None else day.seconds_since_epoch(instant)
+
+
 def _no_instant(info: ValidationInfo) -> PydanticCustomError:
     return _wrong_time(info, "WRONG_TYPE", "This is no instant: state seconds since plan start as "
                        "a JSON number, a time of the plan's day such as 07:30 (or +1 07:30 on the "
@@ -101,7 +114,10 @@ def _no_instant(info: ValidationInfo) -> PydanticCustomError:
 
 def _read_later(text: str, info: ValidationInfo) -> float:
     """Return an instant from plan start on."""
-    seconds = _read_instant(text, info)
+    return _not_before(_read_instant(text, info), info)
+
+
+def _not_before(seconds: float, info: ValidationInfo) -> float:
     if seconds < 0:
         raise _wrong_time(info, "BEFORE_PLAN_START", "The instant lies before plan_start: state a "
                           "later one, such as +1 07:30 for the next day, or an earlier "
@@ -112,6 +128,14 @@ def _read_later(text: str, info: ValidationInfo) -> float:
 def _read_opening(text: str, info: ValidationInfo) -> float:
     """Return an instant from which on something is so; it may have been before plan start."""
     return max(0.0, _read_instant(text, info))
+
+
+def _read_later_epoch(instant: float, info: ValidationInfo) -> float:
+    return _not_before(_read_epoch(instant, info), info)
+
+
+def _read_opening_epoch(instant: float, info: ValidationInfo) -> float:
+    return max(0.0, _read_epoch(instant, info))
 
 
 def _read_duration(text: str, info: ValidationInfo) -> float:
@@ -142,6 +166,7 @@ class _Readable:
     read: Callable[[str, ValidationInfo], float]
     description: str
     examples: tuple[str, ...]
+    read_epoch: Callable[[float, ValidationInfo], float] | None = None
 
     def __get_pydantic_core_schema__(self, source: Any,
                                      handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -152,13 +177,21 @@ class _Readable:
             number,
         ])
         # Numbers come first: they are read without a call of Python.
-        return core_schema.union_schema([(number, AS_NUMBER), (text, AS_TEXT)],
-                                        mode="left_to_right",
+        choices: list[CoreSchema | tuple[CoreSchema, str]] = [(number, AS_NUMBER)]
+        if self.read_epoch is not None:
+            choices.append((core_schema.chain_schema([
+                core_schema.float_schema(gt=EPOCH_FROM, le=EPOCH_UNTIL),
+                core_schema.with_info_plain_validator_function(self.read_epoch),
+                number,
+            ]), AS_EPOCH))
+        return core_schema.union_schema([*choices, (text, AS_TEXT)], mode="left_to_right",
                                         serialization=core_schema.simple_ser_schema("float"))
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema,
                                      handler: GetJsonSchemaHandler) -> dict[str, Any]:
-        number, text = handler(schema)["anyOf"]
+        number, *epochs, text = handler(schema)["anyOf"]
+        for epoch in epochs:
+            number["maximum"] = epoch["maximum"]
         return {"anyOf": [number, text | {
             "title": self.title, "maxLength": LONGEST_TEXT, "description": self.description,
             "examples": list(self.examples)}]}
@@ -168,9 +201,10 @@ _INSTANT_TEXT = ("A time of the plan's day in its zone, `+1 06:00` being on the 
                  "and time after ISO 8601; needs `plan_start`.")
 _INSTANTS = ("07:30", "+1 06:00", "2026-03-29T07:30:00+02:00")
 
-READ_INSTANT = _Readable("Instant", _read_later, _INSTANT_TEXT, _INSTANTS)
+READ_INSTANT = _Readable("Instant", _read_later, _INSTANT_TEXT, _INSTANTS, _read_later_epoch)
 READ_OPENING = _Readable(
-    "Opening", _read_opening, f"{_INSTANT_TEXT} Before plan start: from then on.", _INSTANTS)
+    "Opening", _read_opening, f"{_INSTANT_TEXT} Before plan start: from then on.", _INSTANTS,
+    _read_opening_epoch)
 READ_ANY_INSTANT = _Readable("Instant", _read_instant, _INSTANT_TEXT, _INSTANTS)
 READ_DURATION = _Readable(
     "Duration", _read_duration, "A length of time: `H:MM`, or a duration after ISO 8601.",

@@ -140,6 +140,25 @@ def test_openings_before_plan_start_hold_from_then_on(client: httpx.Client, day:
     assert planned(client, day)["summary"]["served"] == 2
 
 
+def test_large_numbers_are_unix_time(client: httpx.Client, day: Request) -> None:
+    midnight = 1774738800  # 2026-03-29T00:00 in Berlin
+    day["customers"][0]["time_window"] = {"earliest": midnight + 7 * HOUR,
+                                          "latest": midnight + 7 * HOUR + 0.25}
+    day["customers"][1]["release_time"] = midnight - 1
+    start = planned(client, day | {"options": {"times": "seconds"}})
+    stops = [stop for route in start["routes"] for trip in route["trips"] for stop in trip["stops"]]
+    assert 7.0 * HOUR in [stop["service_start"] for stop in stops]
+    day["customers"][0]["time_window"] = {"latest": midnight - 1}
+    assert refused(client, day) == {"$.customers[0].time_window.latest": "BEFORE_PLAN_START"}
+    day["customers"][0]["time_window"] = {"latest": 1e10}
+    assert refused(client, day) == {"$.customers[0].time_window.latest": "OUT_OF_RANGE"}
+
+
+def test_large_numbers_need_a_day(client: httpx.Client, smallest: Request) -> None:
+    smallest["customers"][0]["time_window"] = {"latest": 1774738800}
+    assert refused(client, smallest) == {"$.customers[0].time_window.latest": "OUT_OF_RANGE"}
+
+
 @pytest.mark.parametrize(("changes", "errors"), [
     ({"plan_start": None, "time_zone": None},
      {"$.fleet[0].shift.earliest": "MISSING_PLAN_START",
