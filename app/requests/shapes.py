@@ -73,7 +73,7 @@ def _look_at(kind: type, value: object) -> object:
             raise ValueError(str(error).partition(" - at ")[0]) from None
     elif kind is LooseList and not isinstance(value, list):
         raise ValueError("Expected `array`")
-    elif _size(value) > MAX_LOOSE:
+    elif isinstance(value, dict | list) and _size(value) > MAX_LOOSE:
         raise ValueError(f"There are more than {MAX_LOOSE} values")
     return kind()
 
@@ -86,7 +86,7 @@ def _size(value: object) -> int:
         entries = (inner.values() if isinstance(inner, dict)
                    else inner if isinstance(inner, list) else ())
         size += 1 + len(entries)
-        left.extend(entry for entry in entries if isinstance(entry, dict | list))
+        left += [entry for entry in entries if type(entry) in (dict, list)]
     return size
 
 

@@ -1136,12 +1136,13 @@ int tandem_mark_dead_ends(const tandem_f64_2d* starts, const tandem_f64_2d* corn
                           const tandem_f64_2d* before, const tandem_f64_2d* after, double slack,
                           const tandem_bool_2d* hidden, int64_t first, int64_t last);
 
-/* Write the pairs of corners that see each other and that a shortest way may go between, those of
-   some corners with all behind them, while there is room; and how many, and where to go on. */
+/* Write the pairs of corners that see each other and that a shortest way may go between, those in a
+   quarter of all directions from corners in some places of its grid, while there is room; and how
+   many, and where to go on. */
 int tandem_write_sights(const tandem_f64_2d* corners, const tandem_f64_2d* before,
                         const tandem_f64_2d* after, const tandem_f64_2d* edges, double slack,
-                        int64_t first, int64_t last, const tandem_i32_2d* pairs, int64_t* written,
-                        int64_t* next);
+                        bool is_east, int64_t first, int64_t last, const tandem_i32_2d* pairs,
+                        int64_t* written, int64_t* next);
 
 /* Write the quickest flights that bend at least once. */
 int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between,

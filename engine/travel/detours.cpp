@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
-#include <queue>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -40,13 +40,88 @@ struct FlightLegs {
     }
 };
 
+// Arrivals, the soonest first.
+//
+// Those far ahead wait in buckets of times alike, none of which is sorted before its time has come.
+//
+// Denardo and Fox (1979), shortest-route methods: 1. Reaching, pruning, and buckets, Operations
+// Research 27:161-186.
+class Ahead {
+public:
+    struct Arrival {
+        double time;
+        Int corner;
+
+        // So that the soonest, and of those the first corner, is at the top of a heap.
+        friend bool operator<(const Arrival& one, const Arrival& other) {
+            return std::tie(other.time, other.corner) < std::tie(one.time, one.corner);
+        }
+    };
+
+    // `longest` is the longest time from one arrival to another that it leads to.
+    explicit Ahead(double longest)
+        : buckets_(num_buckets), per_second_(longest > 0 ? (num_buckets - 2) / longest : 0.0) {}
+
+    void push(double time, Int corner) {
+        const auto bucket = static_cast<Int>(time * per_second_);
+        if (bucket > now_) {
+            at(bucket).push_back({time, corner});
+            ++waiting_;
+        } else {
+            soon_.push_back({time, corner});
+            std::push_heap(soon_.begin(), soon_.end());
+        }
+    }
+
+    // Take the soonest; false if there is none, and times begin anew.
+    bool pop(Arrival& arrival) {
+        while (soon_.empty()) {
+            if (waiting_ == 0) {
+                now_ = 0;
+                return false;
+            }
+            std::swap(soon_, at(++now_));
+            waiting_ -= static_cast<Int>(soon_.size());
+            std::make_heap(soon_.begin(), soon_.end());
+        }
+        std::pop_heap(soon_.begin(), soon_.end());
+        arrival = soon_.back();
+        soon_.pop_back();
+        return true;
+    }
+
+private:
+    static constexpr Int num_buckets = 4096;
+
+    std::vector<Arrival>& at(Int bucket) {
+        return buckets_[static_cast<std::size_t>(bucket % num_buckets)];
+    }
+
+    std::vector<std::vector<Arrival>> buckets_;
+    std::vector<Arrival> soon_;  // a heap, of the bucket whose time has come
+    double per_second_;          // buckets
+    Int now_ = 0;
+    Int waiting_ = 0;  // in buckets
+};
+
+// The longest flight of some, of those that there are.
+double longest(View<const double, 1> durations) {
+    double found = 0.0;
+    for (const double duration : durations) {
+        if (duration < nowhere) found = std::max(found, duration);
+    }
+    return found;
+}
+
 // The quickest flights from a node to all corners.
 //
 // Dijkstra (1959), a note on two problems in connexion with graphs, Numer. Math. 1:269-271.
 class Reach {
 public:
     explicit Reach(const Network& network)
-        : network_(network), flown_(static_cast<std::size_t>(network.between.begin.size() - 1)) {}
+        : network_(network),
+          flown_(static_cast<std::size_t>(network.between.begin.size() - 1)),
+          ahead_(std::max(longest(network.outward.duration), longest(network.between.duration))) {}
 
     // Let those of another node be there.
     void start_from(Int node) {
@@ -55,12 +130,13 @@ public:
         for (Int entry = outward.begin[node]; entry < outward.begin[node + 1]; ++entry) {
             Flown& there = to(outward.place[entry]);
             there = {outward.distance[entry], outward.duration[entry]};
-            if (there.duration < nowhere) ahead_.emplace(there.duration, outward.place[entry]);
+            if (there.duration < nowhere) ahead_.push(there.duration, outward.place[entry]);
         }
-        while (!ahead_.empty()) {
-            const auto [reached, corner] = ahead_.top();
-            ahead_.pop();
-            if (!(reached > to(corner).duration)) go_on_from(corner, reached);
+        Ahead::Arrival arrival{};
+        while (ahead_.pop(arrival)) {
+            if (!(arrival.time > to(arrival.corner).duration)) {
+                go_on_from(arrival.corner, arrival.time);
+            }
         }
     }
 
@@ -77,8 +153,6 @@ public:
     }
 
 private:
-    using Arrival = std::pair<double, Int>;  // when, and at which corner
-
     Flown& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
 
     void go_on_from(Int corner, double reached) {
@@ -88,13 +162,13 @@ private:
             Flown& there = to(between.place[entry]);
             if (!(total < there.duration)) continue;
             there = {to(corner).distance + between.distance[entry], total};
-            ahead_.emplace(total, between.place[entry]);
+            ahead_.push(total, between.place[entry]);
         }
     }
 
     const Network& network_;
     std::vector<Flown> flown_;  // (corner,)
-    std::priority_queue<Arrival, std::vector<Arrival>, std::greater<>> ahead_;
+    Ahead ahead_;
 };
 
 // Write the quickest flights that bend at least once, those wanted of some rows. Where a flight

@@ -7,12 +7,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 #include "guard.h"
-#include "travel/sights.h"
+#include "travel/quarter.h"
 
 namespace tandem {
 namespace {
@@ -22,15 +20,6 @@ constexpr double margin = 1e-6;   // share of a cell by which what is looked at 
 constexpr Int few_edges = 12;     // with no more, every line of sight is compared with all
 constexpr Int nothing = -1;
 constexpr double narrowest = 1e-3;  // metres: cells are no smaller
-
-struct Point2 {
-    double x, y;
-};
-
-// From one point to another.
-struct Edge {
-    Point2 a, b;
-};
 
 // Whether the segment from the origin to a point meets an edge.
 bool meets(const Point2& to, const Edge& edge) {
@@ -203,71 +192,6 @@ private:
     std::vector<Int> entry_;
 };
 
-// Where shortest ways bend: a place, and from there the neighbours on the area's boundary.
-struct Corner {
-    Point2 place, before, after;
-};
-
-// Whether no shortest way that leads along a line bends at a corner.
-//
-// Such a way leaves the area on one side: if the line through the corner has the corner's two edges
-// on different sides, by more than some slack, the way may be cut short there.
-bool is_dead_end(const Point2& line, const Corner& corner, double slack) {
-    const double one = line.x * corner.before.y - line.y * corner.before.x;
-    const double other = line.x * corner.after.y - line.y * corner.after.x;
-    const double near = slack * slack * (line.x * line.x + line.y * line.y);
-    return (one * other < 0) & (one * one > near) & (other * other > near);
-}
-
-// Corners by number, each coordinate of all of them in an array of its own.
-class Corners {
-public:
-    Corners(View<const double, 2> place, View<const double, 2> before, View<const double, 2> after)
-        : x_(size_of(place)), y_(x_), before_x_(x_), before_y_(x_), after_x_(x_), after_y_(x_) {
-        for (std::size_t number = 0; number < x_.size(); ++number) {
-            const auto row = static_cast<Int>(number);
-            x_[number] = place(row, 0);
-            y_[number] = place(row, 1);
-            before_x_[number] = before(row, 0) - place(row, 0);
-            before_y_[number] = before(row, 1) - place(row, 1);
-            after_x_[number] = after(row, 0) - place(row, 0);
-            after_y_[number] = after(row, 1) - place(row, 1);
-        }
-    }
-
-    Int size() const { return static_cast<Int>(x_.size()); }
-
-    Corner operator[](Int number) const { return at(static_cast<std::size_t>(number)); }
-
-    // Mark those behind a corner between which and that one no shortest way leads straight.
-    void mark_dead_ends_from(Int number, double slack, std::vector<std::int64_t>& dead) const {
-        const Corner here = (*this)[number];
-        std::int64_t* const marks = dead.data();
-        for (std::size_t other = static_cast<std::size_t>(number) + 1; other < x_.size(); ++other) {
-            const Point2 line{x_[other] - here.place.x, y_[other] - here.place.y};
-            // Both are told, as no branch is then.
-            const int either =
-                int{is_dead_end(line, here, slack)} | int{is_dead_end(line, at(other), slack)};
-            marks[other] = either;
-        }
-    }
-
-private:
-    static std::size_t size_of(View<const double, 2> place) {
-        return static_cast<std::size_t>(place.size());
-    }
-
-    Corner at(std::size_t number) const {
-        return {{x_[number], y_[number]},
-                {before_x_[number], before_y_[number]},
-                {after_x_[number], after_y_[number]}};
-    }
-
-    std::vector<double> x_, y_;                // (corner,) where it is
-    std::vector<double> before_x_, before_y_;  // (corner,) from there to the neighbour
-    std::vector<double> after_x_, after_y_;
-};
-
 // What hid the last that was looked at in each direction: it hides most others there, too.
 class Screens {
 public:
@@ -323,30 +247,70 @@ void mark_dead_ends(View<const double, 2> starts, const Corners& corners, double
     }
 }
 
-// Write pairs of corners that see each other and between which a shortest way may go, each once,
-// those of some of the corners with all behind them, as long as all of one surely have room.
-// Returns how many there are, and the corner to go on with.
-std::pair<Int, Int> write_sights(const Corners& corners, const Grid& grid, double slack, Int first,
-                                 Int last, View<std::int32_t, 2> pairs) {
-    const Int count = corners.size();
-    std::vector<std::int64_t> dead(static_cast<std::size_t>(count));
-    Screens screens(grid);
-    Int written = 0;
-    Int one = first;
-    for (; one < last && written + count <= pairs.size(); ++one) {
-        corners.mark_dead_ends_from(one, slack, dead);
-        for (Int other = one + 1; other < count; ++other) {
-            if (dead[static_cast<std::size_t>(other)] ||
-                screens.hide(corners[one].place, corners[other].place)) {
-                continue;
-            }
-            pairs(written, 0) = static_cast<std::int32_t>(one);
-            pairs(written, 1) = static_cast<std::int32_t>(other);
-            ++written;
-        }
+// The corners and edges of which a quarter of all directions is looked at: to the north or,
+// mirrored so that it is the north, to the east.
+Quarter quarter_of(const Corners& corners, View<const double, 2> edges, bool is_east) {
+    const auto seen = [&](const Point2& point) {
+        return is_east ? Point2{point.y, point.x} : point;
+    };
+    std::vector<Corner> corner;
+    corner.reserve(static_cast<std::size_t>(corners.size()));
+    for (Int number = 0; number < corners.size(); ++number) {
+        const auto [place, before, after] = corners[number];
+        corner.push_back(
+            {seen(place), seen(is_east ? after : before), seen(is_east ? before : after)});
     }
-    return {written, one};
+    std::vector<Edge> edge;
+    edge.reserve(static_cast<std::size_t>(edges.size()));
+    for (Int row = 0; row < edges.size(); ++row) {
+        edge.push_back(
+            {seen({edges(row, 0), edges(row, 1)}), seen({edges(row, 2), edges(row, 3)})});
+    }
+    return {corner, edge};
 }
+
+// Write pairs of corners that see each other and between which a shortest way may go, each once.
+class SightsWriter {
+public:
+    SightsWriter(const Corners& corners, View<const double, 2> edges, double slack,
+                 View<std::int32_t, 2> pairs)
+        : corners_(corners), edges_(edges), grid_(edges), slack_(slack), pairs_(pairs) {}
+
+    // Those in a quarter from corners in some places, as long as all of one surely have room.
+    // Returns the place to go on with.
+    Int write(bool is_east, Int first, Int last) {
+        const Quarter quarter = quarter_of(corners_, edges_, is_east);
+        Lookout lookout(quarter, slack_);
+        Screens screens(grid_);
+        Int place = first;
+        for (; place < last && written_ + corners_.size() <= pairs_.size(); ++place) {
+            const Int one = quarter.number(place);
+            const Point2 here = corners_[one].place;
+            lookout.for_each_seen(place, [&](Int seen) {
+                const Int other = quarter.number(seen);
+                const Point2 there = corners_[other].place;
+                // What lies between the quarters, or in one place, is seen once.
+                const double east = std::abs(there.x - here.x), north = std::abs(there.y - here.y);
+                if (is_east ? east <= north : north == 0 && other <= one) return;
+                if (screens.hide(here, there)) return;
+                pairs_(written_, 0) = static_cast<std::int32_t>(one);
+                pairs_(written_, 1) = static_cast<std::int32_t>(other);
+                ++written_;
+            });
+        }
+        return place;
+    }
+
+    Int written() const { return written_; }
+
+private:
+    const Corners& corners_;
+    View<const double, 2> edges_;
+    Grid grid_;
+    double slack_;
+    View<std::int32_t, 2> pairs_;
+    Int written_ = 0;
+};
 
 }  // namespace
 }  // namespace tandem
@@ -375,11 +339,12 @@ extern "C" int tandem_mark_dead_ends(const tandem_f64_2d* starts, const tandem_f
 
 extern "C" int tandem_write_sights(const tandem_f64_2d* corners, const tandem_f64_2d* before,
                                    const tandem_f64_2d* after, const tandem_f64_2d* edges,
-                                   double slack, int64_t first, int64_t last,
+                                   double slack, bool is_east, int64_t first, int64_t last,
                                    const tandem_i32_2d* pairs, int64_t* written, int64_t* next) {
     return tandem::guarded([&] {
-        const tandem::Grid grid(*edges);
-        std::tie(*written, *next) =
-            tandem::write_sights({*corners, *before, *after}, grid, slack, first, last, *pairs);
+        const tandem::Corners all(*corners, *before, *after);
+        tandem::SightsWriter writer(all, *edges, slack, *pairs);
+        *next = writer.write(is_east, first, last);
+        *written = writer.written();
     });
 }

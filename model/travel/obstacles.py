@@ -77,7 +77,8 @@ def _shrunk(areas: BaseGeometry, by: float) -> BaseGeometry:
     Against shrunk areas, flights along an edge or past a corner are clear by a margin, so that no
     rounding of coordinates decides whether they touch or cut.
     """
-    shrunk = MultiPolygon(_polygons(areas.buffer(-by, join_style="mitre")))
+    apart = shapely.buffer(shapely.get_parts(areas), -by, join_style="mitre")
+    shrunk = MultiPolygon([polygon for part in apart for polygon in _polygons(part)])
     shapely.prepare(shrunk)
     return shrunk
 
@@ -94,24 +95,23 @@ def _inside(parts: BaseGeometry, points: FloatArray) -> BoolArray:
 
 def _corners(areas: BaseGeometry) -> Corners:
     """Return the areas' convex corners, and where boundaries touch."""
-    corners = [np.empty((0, 3, 2))]
-    for ring in _rings(shapely.orient_polygons(areas)):
-        places = shapely.get_coordinates(ring)[:-1]
-        corners.append(np.stack([places, np.roll(places, 1, axis=0), np.roll(places, -1, axis=0)],
-                                axis=1))
-    together = np.concatenate(corners)
+    rings = shapely.get_rings(shapely.orient_polygons(shapely.get_parts(areas)))
+    closed, ring = shapely.get_coordinates(rings, return_index=True)
+    # Each ring ends with its first corner again.
+    ends = np.flatnonzero(np.diff(ring, append=-1))
+    before = np.arange(len(closed)) - 1
+    before[ends[:-1] + 1], before[:1] = ends[1:] - 1, ends[:1] - 1
+    corner = np.delete(np.arange(len(closed)), ends)
+    together = np.stack([closed[corner], closed[before[corner]], closed[corner + 1]], axis=1)
     places = together[:, 0]
     to, away = places - together[:, 1], together[:, 2] - places
     # The area lies on the left of every ring, so its convex corners turn left.
     convex = to[:, 0] * away[:, 1] - to[:, 1] * away[:, 0] > 0
-    _, which, times = np.unique(places, axis=0, return_inverse=True, return_counts=True)
+    _, which, times = np.unique(places[:, 0] + 1j * places[:, 1], return_inverse=True,
+                                return_counts=True)
     touching = times[which] > 1
     # Between two areas that touch, a way may bend to either side.
     together[touching, 1:] = places[touching, None]
     chosen = together[convex | touching]
     return Corners(*(np.ascontiguousarray(chosen[:, column]) for column in range(3)))
 
-
-def _rings(areas: BaseGeometry) -> list[BaseGeometry]:
-    return [ring for polygon in _polygons(areas)
-            for ring in (polygon.exterior, *polygon.interiors)]

@@ -17,8 +17,8 @@ SLACK_M = 2 * TOUCH_M
 LOOKS_AT_ONCE = 200_000
 """Lines of sight between two pauses: some milliseconds' work."""
 
-PAIRS_AT_ONCE = 10_000_000
-"""Pairs of corners between two pauses, most of which need no look."""
+CORNERS_AT_ONCE = 5000
+"""Corners between two pauses whose ways to others are looked for."""
 
 ROOM_FOR_SIGHTS = 100_000
 """Pairs of corners that are found at once, beside those of one with all others."""
@@ -182,15 +182,15 @@ def _dead_ends(starts: FloatArray, corners: Corners, pause: Pause) -> BoolArray:
 def _sights(corners: Corners, obstacles: Obstacles, pause: Pause) -> tuple[IntArray, IntArray]:
     """Return the rows and columns of corners that see one another, row after row."""
     count = len(corners.place)
-    size = 1 + PAIRS_AT_ONCE // (1 + count)
     room = np.empty((count + ROOM_FOR_SIGHTS, 2), np.int32)
     found = [np.empty((0, 2), np.int32)]
-    first = 0
-    while first < count:
-        pause()
-        written, first = call("tandem_write_sights", *corners, obstacles.edges, SLACK_M, first,
-                              min(first + size, count), room)
-        found.append(room[:written].copy())
+    for is_east in (False, True):
+        first = 0
+        while first < count:
+            pause()
+            written, first = call("tandem_write_sights", *corners, obstacles.edges, SLACK_M,
+                                  is_east, first, min(first + CORNERS_AT_ONCE, count), room)
+            found.append(room[:written].copy())
     one, other = np.concatenate(found).astype(np.int64).T
     row, column = np.concatenate([one, other]), np.concatenate([other, one])
     order = np.lexsort((column, row))

@@ -5,6 +5,7 @@ from functools import lru_cache
 
 import numpy as np
 import shapely
+from numpy.typing import NDArray
 from shapely import GeometryCollection, MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
@@ -34,13 +35,20 @@ def within_reach(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
     """
     tree = shapely.STRtree(areas)
     hull = shapely.MultiPoint(points).convex_hull
-    found = tree.query(hull, predicate="dwithin", distance=WIDER_M)
+    found = new = tree.query(hull, predicate="dwithin", distance=WIDER_M)
     while True:
-        hull = GeometryCollection([hull, *(areas[index] for index in found)]).convex_hull
+        hull = GeometryCollection([hull, *(areas[index] for index in new)]).convex_hull
         more = tree.query(hull, predicate="dwithin", distance=2 * WIDER_M)
-        if len(more) == len(found):
+        new = np.setdiff1d(more, found)
+        if len(new) == 0:
             return np.sort(found)
         found = more
+
+
+def are_within_reach(areas: Sequence[Polygon], points: FloatArray) -> bool:
+    """Tell whether there are any areas that `within_reach` returns."""
+    hull = shapely.MultiPoint(points).convex_hull
+    return bool(shapely.dwithin(np.array(areas, dtype=object), hull, 2 * WIDER_M).any())
 
 
 def holding(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
@@ -70,10 +78,13 @@ def _dissolved(areas: tuple[bytes, ...]) -> tuple[Polygon, ...]:
     if not areas:
         return ()
     # Which corners go hangs on where an edge begins, which others far away must not change.
-    merged = shapely.union_all(read_back(areas)).normalize()
-    simpler = _wider(merged.simplify(SIMPLER_M), SIMPLER_M + EDGE_M)
+    merged = shapely.get_parts(
+        shapely.disjoint_subset_union_all(read_back(areas)).normalize())
+    simpler = _wider(shapely.simplify(merged, SIMPLER_M), SIMPLER_M + EDGE_M)
     # What is simplified may lose what is thin.
-    return tuple(_polygons(simpler if simpler.covers(merged) else _wider(merged, EDGE_M)))
+    thin = ~shapely.covers(simpler, merged)
+    simpler[thin] = _wider(merged[thin], EDGE_M)
+    return tuple(_polygons(shapely.disjoint_subset_union_all(simpler)))
 
 
 def without_holes(area: Polygon) -> list[Polygon]:
@@ -88,8 +99,8 @@ def without_holes(area: Polygon) -> list[Polygon]:
             for piece in without_holes(part)]
 
 
-def _wider(area: BaseGeometry, by: float) -> BaseGeometry:
-    return area.buffer(by, join_style="mitre", mitre_limit=LONGEST_MITRE)
+def _wider(areas: NDArray[np.object_], by: float) -> NDArray[np.object_]:
+    return shapely.buffer(areas, by, join_style="mitre", mitre_limit=LONGEST_MITRE)
 
 
 def _polygons(geometry: BaseGeometry) -> list[Polygon]:

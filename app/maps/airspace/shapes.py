@@ -47,25 +47,30 @@ def polygon_of(rings: Sequence[Corners]) -> Polygon:
         If it is none, or lies around the world.
     """
     shell, *holes = map(_unwrapped, rings)
-    middle = shell[:, 0].mean()
-    # A hole may be on the other side of 180 degrees.
-    area = Polygon(shell, [hole + np.array((360 * round((middle - hole[:, 0].mean()) / 360), 0))
-                           for hole in holes])
+    area = Polygon(shell, [_beside(hole, shell) for hole in holes])
     if not area.is_valid:
         if shapely.convex_hull(area).area > 0:
             raise ShapeError(f"The boundary crosses itself, or its holes do "
                              f"({shapely.is_valid_reason(area)}): list its corners once each, in "
                              "order around the area.")
         raise ShapeError("The area has no size: list its corners once each, in order around it.")
-    if (np.abs(np.diff(shell, axis=0)) > LONGEST_EDGE_DEG).any() or holes:
+    if holes or np.abs(shell[1:] - shell[:-1]).max() > LONGEST_EDGE_DEG:
         return shapely.segmentize(area, LONGEST_EDGE_DEG)
     return area
 
 
+def _beside(hole: FloatArray, shell: FloatArray) -> FloatArray:
+    """Return a hole that may be stated on the other side of 180 degrees."""
+    return hole + np.array((360 * round((shell[:, 0].mean() - hole[:, 0].mean()) / 360), 0))
+
+
 def _unwrapped(stated: Corners) -> FloatArray:
     """Return a ring, closed, whose longitudes don't jump where it crosses 180 degrees."""
-    ring = np.array([corner[:2] for corner in stated], np.float64)
-    if not (np.abs(ring) <= ON_GLOBE).all():
+    lengths = set(map(len, stated))
+    corners = stated if len(lengths) == 1 else [corner[:2] for corner in stated]
+    ring = np.array(corners, np.float64)[:, :2]
+    (west, south), (east, north) = ring.min(axis=0).tolist(), ring.max(axis=0).tolist()
+    if min(west + 180, south + 90, 180 - east, 90 - north) < 0:
         longitude, latitude = ring[(np.abs(ring) > ON_GLOBE).any(axis=1).argmax()].tolist()
         raise ShapeError(f"[{longitude:g}, {latitude:g}] is no longitude and latitude: correct it, "
                          "or swap the two.")
@@ -73,7 +78,7 @@ def _unwrapped(stated: Corners) -> FloatArray:
         ring = np.concatenate([ring, ring[:1]])
     if len(ring) < 4:
         raise ShapeError("A ring needs at least 3 corners that differ: add some.")
-    if np.ptp(ring[:, 0]) <= 180:
+    if east - west <= 180:
         return ring
     steps = np.diff(ring[:, 0])
     turns = np.where(steps > 180, -360.0, np.where(steps < -180, 360.0, 0.0)).cumsum()

@@ -29,7 +29,9 @@ from model.travel.matrices import (
 from model.travel.obstacles import count_nearby, edges_of
 from model.travel.ways import Ways, find_ways
 from model.travel.wind import Breeze, Wind
-from model.travel.zones import WIDER_M, dissolved, holding, within_reach, without_holes
+from model.travel.zones import (
+    WIDER_M, are_within_reach, dissolved, holding, within_reach, without_holes,
+)
 
 
 class Detours(NamedTuple):
@@ -64,6 +66,7 @@ class Ground:
         self.zones = ZonesMet(placed.request, published)
         self._airspaces: dict[Met, Airspace] = {}
         self._flights: dict[Met, Flights] = {}
+        self._has_areas: dict[Met, bool] = {}
 
     def is_that_of(self, placed: PlacedRequest) -> bool:
         """Tell whether a request has its places and areas at the same points."""
@@ -121,8 +124,14 @@ class Ground:
 
     def has_areas(self, altitude: float) -> bool:
         """Tell whether there is anything that drones at an altitude may not fly through."""
-        return (bool(self._request.airspace.no_fly)
-                or (any(self.zones.at(altitude)) and not self.airspace(altitude).is_free))
+        if self._request.airspace.no_fly:
+            return True
+        met = self.zones.at(altitude)
+        if met not in self._has_areas:
+            around, over = map(self._projected, met)
+            self._has_areas[met] = (are_within_reach(around, self.points_m)
+                                    or len(holding(over, self.points_m)) > 0)
+        return self._has_areas[met]
 
     def flights(self, altitude: float) -> Flights:
         """Return the flights of drones of any speed at an altitude."""

@@ -23,7 +23,7 @@ was checked."""
 CORNER, CROSSING = 1e-5, 3e-6
 """Seconds to merge areas, for each of their edges and for each pair of edges that may cross."""
 
-LOOK, LOOK_AT_FEW, BEND, REACH = 7e-8, 2e-8, 4e-9, 2e-7
+LOOK, LOOK_AT_FEW, BEND, REACH = 7e-8, 2e-8, 1e-9, 2e-7
 """Seconds for each line of sight from a place, to another or to a corner: the second where areas
 have few edges; for each pair of corners; and for each corner that is reached from a place."""
 

@@ -75,6 +75,8 @@ class TextInLanguage(Published):
 
 def _in_one_language(value: Any) -> Any:
     """Return a text in English if there is one, else in the first language."""
+    if isinstance(value, str):
+        return value or None
     if isinstance(value, int | float) and not isinstance(value, bool):
         return f"{value:g}"
     texts = [entry if isinstance(entry, dict) else {"text": entry} for entry in (

@@ -59,7 +59,8 @@ def test_zones_of_the_service_hold_for_all_requests(tmp_path: Path) -> None:
         task = task_of(request, roads=roads)
     assert task.problem.travel[1].arrays()[1][0, 1] > 1e12
     assert task.closures is not None
-    assert task.closures.around("behind")[0].startswith("the zone Harbour (FIN0001)")
+    around, = task.closures.around("behind")
+    assert (around["name"], around["identifier"]) == ("Harbour", "FIN0001")
 
 
 def test_a_service_does_not_start_with_zones_that_can_not_be_read(tmp_path: Path) -> None:

@@ -56,6 +56,18 @@ def test_ways_are_those_of_a_plain_search(places: list[tuple[float, float]],
     assert flown == pytest.approx(shortest(points, areas), abs=1e-3)
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_ways_past_many_areas_are_those_of_a_plain_search(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    rings: list[Ring] = [tuple(map(tuple, place + (circle(5, size) @ np.diag(stretch))))
+                         for place, size, stretch in zip(
+                             rng.uniform(-1000, 1000, (30, 2)), rng.uniform(5, 150, 30),
+                             rng.uniform(0.1, 2, (30, 2)), strict=True)]
+    points = rng.uniform(-1200, 1200, (6, 2))
+    flown = flight_legs(points, Airspace(tuple(rings)), SPEED).distance
+    assert flown == pytest.approx(shortest(points, rings), abs=1e-3)
+
+
 @pytest.mark.parametrize("corners", [30, 500])
 def test_round_areas_are_flown_along_their_boundary(corners: int) -> None:
     areas = Airspace((circle(corners), circle(corners, 500.0)))
