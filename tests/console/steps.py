@@ -1,9 +1,10 @@
 """What people do in the console, again and again."""
 
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, TimeoutError, expect
 
 ROOT = Path(__file__).resolve().parents[2]
 EXAMPLES = ROOT / "app" / "schemas" / "examples"
@@ -20,23 +21,36 @@ def stop_button(page: Page) -> Locator:
     return page.locator("header.head button.stop")
 
 
+SETTLED = """async (text) => {
+  for (let frames = 2; frames; frames -= 1) await new Promise(requestAnimationFrame);
+  const told = document.querySelector('.result-line')?.textContent.replaceAll(/\\s+/g, ' ');
+  return document.getElementById('total-cost')?.checkVisibility() && told.includes(text)
+    && document.querySelector('header.head button.stop').disabled;
+}"""
+"""Tells whether a plan is shown, the header tells a text of it, and nothing is being planned."""
+
+
 def idle(page: Page) -> None:
     """Wait until there is a plan and nothing is being planned."""
-    expect(page.locator("#total-cost")).to_be_visible()
-    expect(stop_button(page)).to_be_disabled()
+    planned(page, "")
 
 
 def planned(page: Page, text: str) -> None:
-    """Wait until the header tells `text` of a plan and nothing is being planned."""
+    """Wait until the header tells `text` of a plan and nothing is being planned.
+
+    The page is looked at in each frame: what is expected is looked at ever more seldom.
+    """
+    with suppress(TimeoutError):
+        page.wait_for_function(SETTLED, arg=text)
     expect(page.locator(".result-line")).to_contain_text(text)
-    idle(page)
+    expect(page.locator("#total-cost")).to_be_visible()
+    expect(stop_button(page)).to_be_disabled()
 
 
 def open_example(page: Page, name: str) -> None:
     """Open an example and wait for its plan."""
     page.get_by_label("Open an example").select_option(name)
-    expect(page.locator(".result-line")).to_contain_text("served")
-    idle(page)
+    planned(page, "served")
 
 
 def open_file(page: Page, name: str, content: str | bytes) -> None:

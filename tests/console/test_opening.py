@@ -17,6 +17,7 @@ MAX_PAGE_BYTES = 1_000_000
 MAX_FIRST_PLAN_SECONDS = 1.0
 
 
+@pytest.mark.by_clock
 def test_first_view_is_a_city_and_says_what_its_drones_do(
         browser: Browser, service: str) -> None:
     for width in (1440, 1024, 390):

@@ -2,13 +2,13 @@
 
 import json
 import random
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from itertools import pairwise
-from typing import Any
 
 import pytest
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Browser, Page, expect
 
+from tests.console.conftest import opening
 from tests.console.steps import idle, open_example, open_file, place_of, planned, state
 from tests.console.test_hands import bar_of, hands, told, tours
 from tests.console.test_speed import COUNT, large_problem
@@ -25,15 +25,6 @@ POSITION = """() => {
   const pane = place(document.querySelector('.leaflet-map-pane'));
   return [pane.left, pane.top];
 }"""
-
-
-def crowded(page: Page) -> Page:
-    """Return a console with two thousand customers planned."""
-    idle(page)
-    problem = large_problem() | {"options": {"time_limit": 0}}
-    open_file(page, "large.json", json.dumps(problem))
-    planned(page, f"{COUNT} of {COUNT} served")
-    return page
 
 
 def by_mouse(page: Page) -> Stroke:
@@ -82,28 +73,39 @@ def random_drags(page: Page, selector: str, stroke: Stroke) -> int:
     return moved
 
 
-def plan_shown(page: Page) -> Any:
+def plan_shown(page: Page) -> str:
     """Return which plan is shown, its routes, and what was done by hand."""
-    plans = state(page, "state.plans")
-    return (state(page, "state.shown"), [entry["plan"]["routes"] for entry in plans],
-            state(page, "state.steps"), state(page, "state.request.customers"))
+    return str(page.evaluate("""async () => {
+      const { shown, plans, steps, request } = (await import(`${modules}/store.js`)).store.get();
+      const routes = plans.map(({ plan }) => plan.routes);
+      return JSON.stringify([shown, routes, steps, request.customers]);
+    }"""))
 
 
-@pytest.mark.parametrize(("sizes", "has_touch"), [
-    ([(1440, 900), (1024, 768)], False), ([(390, 844)], True)])
+@pytest.fixture(scope="module")
+def crowd(browser: Browser, service: str) -> Iterator[Page]:
+    """Return a console with two thousand customers planned."""
+    with opening(browser) as opener:
+        page = opener(service, has_touch=True)
+        idle(page)
+        problem = large_problem() | {"options": {"time_limit": 0}}
+        open_file(page, "large.json", json.dumps(problem))
+        planned(page, f"{COUNT} of {COUNT} served")
+        yield page
+
+
+@pytest.mark.parametrize(("width", "height", "way"), [
+    (1440, 900, by_mouse), (1024, 768, by_mouse), (390, 844, by_finger)])
 def test_panning_among_two_thousand_customers_changes_nothing(
-        open_page: Callable[..., Page], service: str, sizes: list[tuple[int, int]],
-        has_touch: bool) -> None:
-    page = crowded(open_page(service, has_touch=has_touch))
-    before = plan_shown(page)
-    stroke = by_finger(page) if has_touch else by_mouse(page)
-    for width, height in sizes:
-        page.set_viewport_size({"width": width, "height": height})
-        assert random_drags(page, ".map", stroke) > DRAGS / 2
-        page.get_by_role("button", name="Zoom into the timeline").click()
-        random_drags(page, ".rows canvas", stroke)
-        assert plan_shown(page) == before
-        assert state(page, "state.judging") is None
+        crowd: Page, width: int, height: int, way: Callable[[Page], Stroke]) -> None:
+    before = plan_shown(crowd)
+    stroke = way(crowd)
+    crowd.set_viewport_size({"width": width, "height": height})
+    assert random_drags(crowd, ".map", stroke) > DRAGS / 2
+    crowd.get_by_role("button", name="Zoom into the timeline").click()
+    random_drags(crowd, ".rows canvas", stroke)
+    assert plan_shown(crowd) == before
+    assert state(crowd, "state.judging") is None
 
 
 def handle_of(page: Page, key: str) -> tuple[float, float]:

@@ -56,18 +56,18 @@ def test_a_limit_that_fits_the_size_is_chosen_and_told(open_page: Callable[..., 
                                                        service: str, width: int) -> None:
     page = open_page(service, viewport={"width": width, "height": 844})
     idle(page)
-    open_file(page, "many.json", json.dumps(crowd(2500)))
+    open_file(page, "many.json", json.dumps(crowd(1800)))
     told = page.locator("#chosen-limit")
-    expect(told).to_have_text("for up to 9 s, which fits 2,500 customers")
+    expect(told).to_have_text("for up to 6 s, which fits 1,800 customers")
     expect(page.locator("#total-cost")).to_be_visible()
     stop_button(page).click()
     idle(page)
     expect(told).to_have_count(0)
     open_tab(page, "solve")
     field = page.locator("#field-options-time_limit")
-    expect(field).to_have_attribute("placeholder", "9")
+    expect(field).to_have_attribute("placeholder", "6")
     expect(page.locator("#field-options-time_limit-help")).to_contain_text(
-        "Empty: 9, which fits 2,500 customers")
+        "Empty: 6, which fits 1,800 customers")
     set_option(page, "time_limit", "1.5")
     with page.expect_request("**/jobs") as asked:
         page.get_by_role("button", name="Plan", exact=True).click()
