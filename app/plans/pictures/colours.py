@@ -13,6 +13,9 @@ VEHICLES = ("#0072B2", "#E69F00", "#009E73", VERMILLION, "#CC79A7")
 
 BLACK, INK, PALE, GREY = "#000000", "#222222", "#DDDDDD", "#999999"
 
+ZONES = {"PROHIBITED": VERMILLION, "REQ_AUTHORISATION": "#E69F00", "CONDITIONAL": "#56B4E9"}
+"""By what a zone asks for."""
+
 MARKERS = ("o", "s", "^", "v", "P")
 """Vehicles beyond the fifth have the colours again, with another marker."""
 

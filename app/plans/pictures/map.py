@@ -11,6 +11,7 @@ from matplotlib.path import Path
 from app.plans.pictures.colours import BLACK, GREY, INK, VERMILLION, trip_colour, vehicle_marker
 from app.plans.pictures.lines import driven_lines, flown_lines
 from app.plans.pictures.scene import Layout, Place, Point, Scene, all_trips, counted, label
+from app.plans.pictures.zones import draw_zones, zone_handles, zones_on
 
 MAX_LABELLED = 150
 """With more customers than this their ids would cover each other."""
@@ -29,6 +30,9 @@ TIP = 0.06
 def draw_map(axes: Axes, scene: Scene, layout: Layout) -> None:
     """Draw onto empty axes. In place."""
     many = len(scene.request.customers) > MAX_LABELLED
+    corners = extent(layout)
+    zones = zones_on(scene, layout, corners)
+    draw_zones(axes, zones, corners)
     _draw_no_fly(axes, layout)
     _draw_trips(axes, scene, layout, thin=many)
     _draw_sorties(axes, scene, layout, thin=many)
@@ -39,8 +43,10 @@ def draw_map(axes: Axes, scene: Scene, layout: Layout) -> None:
             _write(axes, layout.points["customer", customer.id], customer.id, 6.5)
     for depot in scene.request.depots:
         _write(axes, layout.points["depot", depot.id], depot.id, 9.0, weight="bold")
-    _set_scale(axes, layout)
-    _explain(axes, scene, layout)
+    for site in scene.request.launch_sites:
+        _write(axes, layout.points["launch_site", site.id], site.id, 6.5)
+    _set_scale(axes, corners)
+    _explain(axes, scene, layout, zone_handles(zones))
 
 
 def extent(layout: Layout) -> tuple[Point, Point]:
@@ -54,8 +60,8 @@ def extent(layout: Layout) -> tuple[Point, Point]:
     return (float(low[0]), float(low[1])), (float(high[0]), float(high[1]))
 
 
-def _set_scale(axes: Axes, layout: Layout) -> None:
-    (left, bottom), (right, top) = extent(layout)
+def _set_scale(axes: Axes, corners: tuple[Point, Point]) -> None:
+    (left, bottom), (right, top) = corners
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)
     axes.set_aspect("equal", adjustable="box", anchor="NW")
@@ -161,10 +167,13 @@ def _write(axes: Axes, point: Point, name: str, size: float, weight: str = "norm
                   fontweight=weight, color=INK, zorder=7, annotation_clip=True)
 
 
-def _explain(axes: Axes, scene: Scene, layout: Layout) -> None:
-    """Add the legend beside the map. In place."""
+def _explain(axes: Axes, scene: Scene, layout: Layout, zones: Sequence[Patch]) -> None:
+    """Add the legend beside the map, zones' entries among it. In place."""
     handles: list[Line2D | Patch] = [
         Line2D([], [], color=BLACK, marker="s", markersize=8, linestyle="none", label="depot")]
+    if scene.request.launch_sites:
+        handles.append(Line2D([], [], color=BLACK, marker="s", markersize=5, linestyle="none",
+                              label="launch site"))
     if any(trip.sorties for _, _, _, trip in all_trips(scene.plan.routes)):
         handles.append(Line2D([], [], color=INK, linestyle=DASHES, linewidth=1.3, marker="o",
                               markersize=5, markerfacecolor="white",
@@ -172,6 +181,7 @@ def _explain(axes: Axes, scene: Scene, layout: Layout) -> None:
     if layout.no_fly:
         handles.append(Patch(facecolor="#F6F6F6", edgecolor=GREY, hatch="////",
                              label="no-fly area: drones fly around it"))
+    handles += zones
     if scene.plan.unassigned:
         handles.append(Line2D([], [], color=VERMILLION, marker="X", markersize=8,
                               markeredgecolor=BLACK, linestyle="none", label="unassigned"))

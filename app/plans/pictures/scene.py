@@ -1,6 +1,6 @@
 """What a picture shows: a request and a plan for it, with its cost and where everything is."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 from pydantic_core import from_json
 
+from app.maps.airspace.zone import Zone
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.replies import cost_reply, summary_reply
 from app.plans.task import task_of
@@ -53,6 +54,7 @@ class Scene:
     cost: Mapping[str, float]
     summary: Mapping[str, Any]
     num_violations: int = 0
+    published: Sequence[Zone] = ()  # zones beside those of the request
 
     @classmethod
     def judged(cls, request: PlanRequest, plan: PlanInput,
@@ -74,7 +76,7 @@ class Scene:
         evaluation = task.check(solution)
         return cls(request, plan, cost_reply(evaluation.cost),
                    summary_reply(task.problem, solution, evaluation),
-                   len(evaluation.violations))
+                   len(evaluation.violations), roads.zones)
 
     @classmethod
     def replied(cls, request: PlanRequest, reply: bytes) -> "Scene":

@@ -25,6 +25,7 @@ from app.plans.pictures.lines import driven_lines, flown_lines
 from app.plans.pictures.page import draw_page
 from app.plans.pictures.scene import clock, label
 from app.schemas.errors import InvalidRequestError
+from tests.app.maps.airspace.published import circle, ed269, zone
 from tests.app.plans.pictures.conftest import scene_of
 
 pytestmark = pytest.mark.slow
@@ -60,6 +61,29 @@ def test_map_shows_trips_sorties_areas_and_who_is_left_out(rich: Request,
     assert named(groups, "unassigned") == ["unassigned-0"]
     assert "truck-1, trip 2: 1 customer" in texts
     assert {"km east", "km north", "unassigned", "depot"} <= set(texts)
+
+
+def test_zones_that_drones_meet_are_drawn_by_what_they_ask_for(
+        example: Callable[[str], Request]) -> None:
+    request = example("zones")
+    places = [place["location"] for place in (*request["depots"], *request["customers"])]
+    west, south = np.min(places, axis=0).tolist()
+    far = [west - 5, south]
+    request["airspace"] = {"zones": [ed269(
+        zone(circle(300, [west, south]), name="Harbour", identifier="H"),
+        zone(circle(300, [west, south]), name="Castle", identifier="C",
+             restriction="REQ_AUTHORISATION"),
+        zone(circle(300, [west, south], upperLimit=30), name="Mast", identifier="M"),
+        zone(circle(300, [west, south], lowerLimit=500, upperLimit=900), name="Above"),
+        zone(circle(300, [west, south]), name="Open", restriction="NO_RESTRICTION"),
+        zone(circle(300, far), name="Elsewhere"))]}
+    request["launch_sites"] = [{"id": "car park", "location": places[0]}]
+    texts, groups = shown(draw_svg(scene_of(request)))
+    assert named(groups, "zone") == ["zone-0", "zone-1", "zone-2"]
+    assert {"Harbour (H)", "Castle (C)", "Mast (M)", "zone: flying is prohibited",
+            "zone: flying takes an authorisation", "car park", "launch site",
+            "zone below the drones: nobody lands in it"} <= set(texts)
+    assert not {"Above", "Open", "Elsewhere", "zone: flying takes conditions"} & set(texts)
 
 
 def test_title_tells_cost_and_counts(rich: Request, two_trips: Request) -> None:
