@@ -8,6 +8,7 @@ from typing import Any
 from app.plans.energy import energy_models, energy_wh, left_by_sorties, left_by_trips
 from app.requests.conversion.units import money, whole
 from model.judge.check import Evaluation
+from model.judge.hubs import taken_at_hubs
 from model.judge.explain import Reason, explain
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
@@ -63,8 +64,22 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
                         "check": elapsed.check, "total": 0.0},
         },
     }
-    models = energy_models(problem)
-    return reply | {"energy_models": models} if models else reply
+    more = {"energy_models": energy_models(problem), "hubs": hubs_reply(problem, solution)}
+    return reply | {name: entries for name, entries in more.items() if entries}
+
+
+def hubs_reply(problem: Problem, solution: Solution) -> list[Data]:
+    """Return what is left at depots that have only so much for who flies."""
+    taken = taken_at_hubs(problem, solution.routes)
+    return [{"depot": depot.id,
+             "batteries_left": _left(depot.batteries, taken.batteries[node]),
+             "chargers_left": _left(depot.chargers, taken.chargers[node])}
+            for node, depot in enumerate(problem.depots)
+            if depot.batteries is not None or depot.chargers is not None]
+
+
+def _left(stock: int | None, taken: int) -> int | None:
+    return None if stock is None else stock - taken
 
 
 def vehicle_name(problem: Problem, route: Route) -> str:

@@ -131,8 +131,7 @@ def flight_errors(draft: Draft) -> Errors:
                            "Who flies by itself lands at a depot: leave end out.")
         if kind.turnaround is not None and kind.turnaround.batteries is not None:
             yield error_at("NOT_WHERE_IT_FLIES", (*path, "turnaround", "batteries"),
-                           "Batteries of vehicles that fly are taken to be enough: leave "
-                           "batteries out.")
+                           "Batteries of vehicles that fly are their depot's: state them there.")
         if kind.turnaround is not None and _too_long(kind, kind.turnaround):
             yield error_at("OUT_OF_RANGE", (*path, "turnaround", "swap_duration"),
                            "Beside reload_duration, that is more than can be counted: lower it.")

@@ -158,6 +158,7 @@ class PlanInput(_Plan):
     summary: Details = None
     solver: Details = None
     energy_models: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    hubs: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     replan: Details = None
     plan_start: PlanStart | None = Field(

@@ -12,8 +12,8 @@ from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
-    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Input, Instant,
-    Location, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
+    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Count, Input,
+    Instant, Location, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.limits import (
@@ -44,6 +44,12 @@ class DepotInput(Input):
     location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
     launch: bool = Field(True, description=LAUNCH_TEXT)
+    batteries: Count | None = Field(
+        None, description="Charged batteries here for vehicles that fly, those in them included. "
+        "Each trip that begins here takes one, unless its vehicle is charged. Null: enough.")
+    chargers: Count | None = Field(
+        None, description="Places to charge here, for vehicles that fly and have `charge_w`. Each "
+        "is one vehicle's all day; who has none makes one trip. Null: enough.")
 
 
 class MatrixInput(Input):

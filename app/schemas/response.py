@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.schemas.hub import HubReply
 from app.schemas.named_models import EnergyModelReply, PublishedRuleReply
 from app.schemas.replanned import ReplanReply
 from app.schemas.times import InstantReply, WordsReply
@@ -365,6 +366,10 @@ class PlanReply(_Reply):
     )
     energy_models: list[EnergyModelReply] | None = Field(
         None, description="Presets of drones' energy. Left out if none was named."
+    )
+    hubs: list[HubReply] | None = Field(
+        None, description="What is left at depots that state `batteries` or `chargers`. Left out "
+        "if none does."
     )
     rules: list[PublishedRuleReply] | None = Field(
         None, description="Published rules that drones name. Left out if none was named."

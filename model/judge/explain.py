@@ -13,6 +13,7 @@ from math import ceil
 
 from model.judge.check import check
 from model.judge.diagnoses import DIAGNOSES, missed_window
+from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
 from model.judge.through import BY_LEGS, Passage, names_of, passage_to
 from model.judge.trial import Attempt, attempts, small_problem, try_truck
@@ -128,6 +129,9 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
     elif hosts:
         way = f"{vehicle_type.id} could serve it after {hosts[0].id}"
     used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    lacking = _lacking_at_hub(problem, solution, index, used)
+    if lacking is not None:
+        return replace(lacking, message=f"{way}, but {lacking.message}")
     left_out = problem.cost_of_leaving_out(attempt.customer)
     is_dear = not hosts and cost >= left_out
     price = f"{ceil(cost * 100) / 100:.2f}"
@@ -145,6 +149,19 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
                   else None)
         return Reason(index, "COST", f"{at_price}.", remedy)
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
+
+
+def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int) -> Reason | None:
+    """Say what the depot of a type lacks for another of its vehicles; None if nothing."""
+    kind = problem.vehicle_types[index]
+    hub, is_left = problem.depots[kind.depot].id, used < kind.count
+    if lacks_battery(problem, kind, solution):
+        return Reason(index, "BATTERIES", f"no charged battery of {hub} is left.",
+                      f"fits with one more battery at {hub}" if is_left else None)
+    if is_left and lacks_charger(problem, kind, 0, solution):
+        return Reason(index, "CHARGERS", f"no place to charge at {hub} is left.",
+                      f"fits with one more charger at {hub}")
+    return None
 
 
 def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason:

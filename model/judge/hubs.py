@@ -5,7 +5,7 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from model.judge.rules import Violation
-from model.problem import Problem
+from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
 
 
@@ -31,6 +31,20 @@ def taken_at_hubs(problem: Problem, routes: Iterable[Route]) -> Taken:
         if is_charged(problem, route):
             taken.chargers[kind.depot] += 1
     return taken
+
+
+def lacks_battery(problem: Problem, kind: VehicleType, solution: Solution) -> bool:
+    """Tell whether a plan has taken all batteries at the depot of a type that takes some."""
+    stock = problem.depots[kind.depot].batteries
+    return kind.takes_batteries and stock is not None and (
+        taken_at_hubs(problem, solution.routes).batteries[kind.depot] >= stock)
+
+
+def lacks_charger(problem: Problem, kind: VehicleType, trips: int, solution: Solution) -> bool:
+    """Tell whether a vehicle of so many trips makes no more for want of a place to charge."""
+    stock = problem.depots[kind.depot].chargers
+    return trips == kind.trips_uncharged and stock is not None and (
+        taken_at_hubs(problem, solution.routes).chargers[kind.depot] >= stock)
 
 
 def hub_violations(problem: Problem, solution: Solution) -> Iterator[Violation]:

@@ -1,4 +1,5 @@
-"""Whether a vehicle that is used up could serve one who is left out on one trip more.
+"""Whether a vehicle that is used up, or has no place to charge, could serve one who is left out on
+one trip more.
 
 The other trips stay as they are; `judge_route` judges the route that has one more.
 """
@@ -9,6 +10,7 @@ from dataclasses import replace
 
 from model.judge.ends import with_ends
 from model.judge.explain import Reason
+from model.judge.hubs import lacks_charger
 from model.judge.past import Past, Vehicle
 from model.judge.places import Place, route_with
 from model.judge.retiming import TimedRoute, read_route, time_route
@@ -25,7 +27,8 @@ MOST_TRIPS = 1000
 
 def with_another_trip(problem: Problem, solution: Solution, node: int, reasons: Sequence[Reason],
                       past: Past, until: float) -> tuple[Reason, ...]:
-    """Return reasons why a customer is left out, with the remedy of one more trip where it holds.
+    """Return reasons why a customer is left out, with the remedy of one more trip where it holds,
+    or of one more charger.
 
     It is tried for types whose vehicles are all in use; none after `until`, on
     `time.perf_counter`.
@@ -38,20 +41,28 @@ def with_another_trip(problem: Problem, solution: Solution, node: int, reasons: 
 def _with_remedy(problem: Problem, solution: Solution, node: int, reason: Reason,
                  past: Past) -> Reason:
     kind = problem.vehicle_types[reason.vehicle_type]
-    used_up = [(index, route) for index, route in enumerate(solution.routes)
-               if route.vehicle_type == reason.vehicle_type
-               and len(route.trips) == kind.max_trips < MOST_TRIPS
-               and Vehicle(route.vehicle_type, route.vehicle) not in past.unavailable]
-    used_up.sort(key=lambda found: found[1].trips[-1].stops[-1].arrival)
+    routes = [(index, route) for index, route in enumerate(solution.routes)
+              if route.vehicle_type == reason.vehicle_type
+              and Vehicle(route.vehicle_type, route.vehicle) not in past.unavailable]
+    routes.sort(key=lambda found: found[1].trips[-1].stops[-1].arrival)
     more = replace(problem, vehicle_types=tuple([
         replace(each, max_trips=kind.max_trips + 1) if each is kind else each
         for each in problem.vehicle_types]))
-    if not any(_would_do(more, index, route, node, past) for index, route in used_up[:MAX_TRIED]):
-        return reason
-    words = f"fits if {kind.type_id} could make another trip"
-    if reason.remedy is None:
-        return replace(reason, remedy=words)
-    return replace(reason, other_remedy=words)
+    hub = problem.depots[kind.depot].id
+    grounded = [found for found in routes
+                if lacks_charger(problem, kind, len(found[1].trips), solution)]
+    used_up = [found for found in routes
+               if len(found[1].trips) == kind.max_trips < MOST_TRIPS and found not in grounded]
+    may_go_on = [found for found in grounded if len(found[1].trips) < kind.max_trips]
+    for words, changed, tried in (
+            (f"fits if {kind.type_id} could make another trip", more, used_up),
+            (f"fits with one more charger at {hub}", problem, may_go_on)):
+        if any(_would_do(changed, index, route, node, past)
+               for index, route in tried[:MAX_TRIED]):
+            if reason.remedy is None:
+                return replace(reason, remedy=words)
+            return replace(reason, other_remedy=words)
+    return reason
 
 
 def _would_do(problem: Problem, index: int, route: Route, node: int, past: Past) -> bool:

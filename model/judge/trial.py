@@ -52,7 +52,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
     """Return a problem of one type of vehicle, where it begins and ends, and some customers.
 
     The first depot is where it begins; where it ends is the last but for launch `sites`. It has no
-    other `drones`.
+    other `drones`, and depots have enough for who flies.
     """
     vehicle_type, table = problem.vehicle_types[kind], problem.may_serve
     depots = list(dict.fromkeys((vehicle_type.begins_at, vehicle_type.ends_at)))
@@ -66,7 +66,8 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
     elif vehicle_type.max_range is not None:
         travels.append(problem.travel[vehicle_type.straight])
     return Problem(
-        depots=tuple([problem.depots[depot] for depot in depots]),
+        depots=tuple([replace(problem.depots[depot], batteries=None, chargers=None)
+                      for depot in depots]),
         customers=tuple([problem.customer_at(node) for node in nodes]),
         vehicle_types=(replace(vehicle_type, depot=0, start=0, end=ends, travel=0,
                                straight=len(travels) - 1, drones=drones, more_drones=(),

@@ -7,6 +7,7 @@ from functools import partial
 from itertools import count
 
 from model.judge.ends import with_ends
+from model.judge.hubs import hub_violations
 from model.judge.past import Past, Vehicle
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
@@ -84,7 +85,27 @@ def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
 def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
     """Return a plan of what is left without the customers for whom rules are broken."""
     routes = [_mended(left, decision) for decision in decisions]
-    return complete(left.problem, tuple(route for route in routes if route is not None))
+    made = [route for route in routes if route is not None]
+    return complete(left.problem, tuple(_within_stock(left.problem, made)))
+
+
+def _within_stock(problem: Problem, routes: list[Route]) -> list[Route]:
+    """Return routes without the last trips, for which depots have too little."""
+    if not problem.limits_hubs:
+        return routes
+    found: list[Route] = []
+    for route in routes:
+        trips = route.trips
+        while trips and not _has_stock(problem, [*found, replace(route, trips=trips)]):
+            trips = trips[:-1]
+        if trips:
+            found.append(replace(route, trips=trips))
+    return found
+
+
+def _has_stock(problem: Problem, routes: Sequence[Route]) -> bool:
+    """Tell whether depots have what routes take."""
+    return next(hub_violations(problem, Solution(tuple(routes))), None) is None
 
 
 def _mended(left: Remainder, decision: RouteDecision) -> Route | None:

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from model.judge.freshness import first_departure
+from model.judge.hubs import taken_at_hubs
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
 from model.replanning.amend import customers_of
@@ -84,6 +85,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     carriers = {node: own for own in workers for node in own.aboard}
     starts = [_start(problem, node, types[kind].id) for kind, node in places.items()]
     depots, may_stop = _sites(problem, kept, kinds, owners)
+    depots = _hubs_left(problem, kept, depots)
     left = replace(
         problem, depots=(*depots, *starts),
         may_stop=None if may_stop is None else np.hstack(
@@ -151,6 +153,22 @@ def _sites(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
             may_stop[:, site] &= [kind in owners and owners[kind].vehicle == ids[name]
                                   for kind in range(len(kinds))]
     return tuple(depots), may_stop
+
+
+def _hubs_left(problem: Problem, kept: Mapping[Vehicle, Kept],
+               depots: tuple[Depot, ...]) -> tuple[Depot, ...]:
+    """Return depots without what trips that were begun have taken."""
+    if not problem.limits_hubs:
+        return depots
+    taken = taken_at_hubs(problem, [each.route for each in kept.values()])
+    return tuple([
+        replace(depot, batteries=_left(depot.batteries, taken.batteries[node]),
+                chargers=_left(depot.chargers, taken.chargers[node]))
+        for node, depot in enumerate(depots)])
+
+
+def _left(stock: int | None, taken: int) -> int | None:
+    return None if stock is None else max(0, stock - taken)
 
 
 def _start(problem: Problem, node: int, vehicle: str) -> Depot:

@@ -214,6 +214,11 @@ class Replanning:
         """Return what vehicles do in any case, of a plan that went on from the one given."""
         return {**kept_routes(self.problem, plan, self.past), **self._through}
 
+    def _trips_kept(self, vehicle: Vehicle) -> int:
+        """Return how many trips a vehicle has begun."""
+        kept = self._kept.get(vehicle)
+        return 0 if kept is None else len(kept.route.trips)
+
     def _reason(self, solution: Solution, kind: int, node: int, until: float) -> Reason:
         """Return why vehicles of a type don't serve a customer who is free to be served by any."""
         name = self.problem.vehicle_types[kind].id
@@ -222,8 +227,9 @@ class Replanning:
         if left is None or not types:
             return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")
         vehicles = [Vehicle(route.vehicle_type, route.vehicle) for route in solution.routes]
-        routes = [Route(own, vehicle.number, ()) for vehicle in vehicles
-                  if vehicle.type == kind and (own := left.later(vehicle)) is not None
+        routes = [Route(own, vehicle.number, route.trips[self._trips_kept(vehicle):])
+                  for vehicle, route in zip(vehicles, solution.routes, strict=True)
+                  if (own := left.later(vehicle)) is not None
                   and (own >= left.num_plain or vehicle not in self._kept)]
         reason = explain_type(left.problem, Solution(tuple(routes)), types[0],
                               left.nodes.index(node), until)

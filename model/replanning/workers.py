@@ -13,6 +13,7 @@ from typing import Literal
 
 from model.judge.flown_trips import charged_between
 from model.judge.freshness import first_departure
+from model.judge.hubs import is_charged
 from model.judge.loads import highest, trip_loads
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
@@ -85,6 +86,8 @@ def _others(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> list[
 def _with_drones_left(worker: Worker, past: Past) -> Worker:
     """Return a vehicle without the drones that are grounded, its others numbered anew."""
     kind, grounded = worker.kind, past.grounded_on(worker.vehicle)
+    if kind.flies:
+        return worker
     left = [drone for drone in range(kind.num_drones) if drone not in grounded]
     counts = Counter(map(kind.drone_index, left))
     types = [replace(drones, count=counts[index])
@@ -175,8 +178,13 @@ def _batteries_left(problem: Problem, route: Kept) -> list[int | None]:
 
 
 def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: int) -> bool:
-    """Tell whether a vehicle can deliver some of what it carries."""
+    """Tell whether a vehicle can deliver some of what it carries, otherwise than it was to.
+
+    Who flies does what it was to, as far as it can.
+    """
     kind = problem.vehicle_types[route.vehicle.type]
+    if kind.flies:
+        return False
     limit, served = kind.max_trip_distance, customers_of(problem, route.decision.trips[-1])
     is_blocked = (kind.pickups == "last" and _has(problem, served, "pickup")
                   and _has(problem, aboard, "demand"))
@@ -217,7 +225,8 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -
             or place not in kind.reload_places):
         return None
     own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place,
-                  charge_left=charged_between(problem, kind, route.route.trips, ready))
+                  charge_left=charged_between(problem, kind, route.route.trips, ready),
+                  has_charger=is_charged(problem, route.route))
     return Worker(route.vehicle, replace(own, works_since=home) if kind.cost_per_hour else own)
 
 

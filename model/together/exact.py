@@ -29,8 +29,10 @@ Routes = Mapping[int, TimedRoute]
 def best_by_trucks(problem: Problem, should_stop: Callable[[], bool]) -> Solution | None:
     """Return the cheapest plan without flights.
 
-    None if there is no time for it, or orders are too many.
+    None if there is no time for it, orders are too many, or depots have only so much for who flies.
     """
+    if problem.limits_hubs:
+        return None
     customers = np.arange(problem.num_depots, problem.num_nodes)
     left, routes = MOST_WAYS, []
     try:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from model.judge.ends import with_ends
+from model.judge.hubs import hub_violations
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.timing import RouteDecision, TripDecision
@@ -178,6 +179,9 @@ class Filling:
             gain += self._cost(part.vehicle) - (0.0 if timed is None else timed.judged.cost.total)
         gain += self._value(self._left_out) - self._value(free)
         if gain < -1e-9 or (gain < 1e-9 and rng is None) or not gone:
+            return
+        made = [timed.route for timed in {**self._routes, **found}.values() if timed is not None]
+        if next(hub_violations(self._problem, Solution(tuple(made))), None) is not None:
             return
         for vehicle, timed in found.items():
             if timed is None:

@@ -30,8 +30,8 @@ BATCH = 200
 # A plan that is gone on from is read by what decides; lines and words aren't needed twice.
 _SHOWN = {"geometry": True, "info": True, "load": True, "lateness": True}
 LEFT_OUT: dict[str, Any] = {
-    **dict.fromkeys(("cost", "summary", "solver", "energy_models", "rules", "replan", "legs",
-                     "warnings"), True),
+    **dict.fromkeys(("cost", "summary", "solver", "energy_models", "hubs", "rules", "replan",
+                     "legs", "warnings"), True),
     "routes": {"__all__": {"trips": {"__all__": {
         "stops": {"__all__": {**_SHOWN, "waiting": True}},
         "sorties": {"__all__": {"recovery_geometry": True, "customers": {"__all__": _SHOWN}}},

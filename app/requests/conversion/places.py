@@ -113,6 +113,12 @@ class PlacedRequest:
         return stated + [True] * (len(self.depots) - len(stated))
 
     @property
+    def stocks(self) -> list[tuple[int | None, int | None]]:
+        """The batteries, and places to charge, of who flies from each depot; None: enough."""
+        stated = [(depot.batteries, depot.chargers) for depot in self.request.depots]
+        return [*stated, *[(None, None)] * (len(self.depots) - len(stated))]
+
+    @property
     def names(self) -> list[tuple[str, str]]:
         """The kind and the id of each place, in their order."""
         depots = [(depot.kind, depot.id) for depot in self.depots if depot != NOWHERE]

@@ -47,9 +47,10 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
                                                   decimals)
     return Problem(
-        depots=tuple([replace(depot, site=site, launch=launch)
-                      for depot, site, launch in zip(depots, sites, placed.launches, strict=False)
-                      ]),
+        depots=tuple([
+            replace(depot, site=site, launch=launch, batteries=batteries, chargers=chargers)
+            for depot, site, launch, (batteries, chargers)
+            in zip(depots, sites, placed.launches, placed.stocks, strict=False)]),
         customers=customers,
         vehicle_types=vehicle_types,
         travel=travels.built(),

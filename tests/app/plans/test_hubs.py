@@ -207,3 +207,62 @@ def test_hubs_drones_keep_a_rule_by_its_name(client: httpx.Client, smallest: Req
     assert (rule["planned"]["max_range"], rule["planned"]["altitude"]) == (1000, 150)
     plan = planned(client, by_air(smallest, preset="eu-pdra-g01", max_range=7000))
     assert "$.fleet[0].max_range" in {each["path"] for each in plan["warnings"]}
+
+
+def ones(request: Request) -> Request:
+    """Return a request whose customers each have ordered as much as a vehicle carries."""
+    for customer in request["customers"]:
+        customer["demand"] = request["fleet"][0]["capacity"]
+    return request
+
+
+def test_trips_take_batteries_of_their_hub(
+        client: httpx.Client, searching: httpx.Client, smallest: Request) -> None:
+    request = by_air(ones(smallest))
+    enough = planned(searching, request)
+    assert "hubs" not in enough
+    number = len(trips_of(enough))
+    assert number > 1
+    request["depots"][0]["batteries"] = number
+    plan = planned(searching, request)
+    assert plan["status"] == "complete"
+    assert plan["hubs"] == [{"depot": request["depots"][0]["id"], "batteries_left": 0,
+                             "chargers_left": None}]
+    request["depots"][0]["batteries"] = number - 1
+    short = planned(searching, request)
+    assert len(trips_of(short)) == number - 1
+    assert is_feasible(searching, request, short)
+    broken = client.post("/check", json={"problem": request, "plan": plan}).json()["violations"]
+    assert [each["code"] for each in broken] == ["BATTERIES"]
+    assert {reason["code"] for left_out in short["unassigned"]
+            for reason in left_out["reasons"]} == {"BATTERIES"}
+
+
+def test_who_lacks_a_place_to_charge_flies_once(
+        searching: httpx.Client, smallest: Request) -> None:
+    request = by_air(ones(smallest), count=1, energy=ENERGY, turnaround={"charge_w": 5000})
+    enough = planned(searching, request)
+    assert len(trips_of(enough)) > 1
+    hub = request["depots"][0]
+    hub["chargers"] = 0
+    short = planned(searching, request)
+    assert len(trips_of(short)) == 1
+    assert short["hubs"] == [{"depot": hub["id"], "batteries_left": None, "chargers_left": 0}]
+    remedies = {reason[name] for left_out in short["unassigned"]
+                for reason in left_out["reasons"] for name in ("remedy", "other_remedy")
+                if reason.get(name)}
+    assert f"fits with one more charger at {hub['id']}" in remedies
+    hub["chargers"] = 1
+    assert planned(searching, request)["cost"] == enough["cost"]
+
+
+def test_a_day_goes_on_with_the_batteries_that_are_left(
+        searching: httpx.Client, smallest: Request) -> None:
+    request = by_air(ones(smallest))
+    plan = planned(searching, request)
+    number = len(trips_of(plan))
+    now = min(trip["stops"][0]["departure"] for trip in trips_of(plan))
+    request["depots"][0]["batteries"] = number - 1
+    went_on = planned(searching, request | {"replan": {"plan": plan, "freeze_before": now}})
+    assert len(trips_of(went_on)) <= number - 1
+    assert went_on["hubs"][0]["batteries_left"] == number - 1 - len(trips_of(went_on))

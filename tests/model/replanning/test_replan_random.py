@@ -13,7 +13,7 @@ from model.planner import Planner, PlanOptions
 from model.problem import Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
-from tests.model.fliers import with_fliers
+from tests.model.fliers import from_few_hubs, with_fliers
 from tests.model.street import served
 from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
@@ -259,6 +259,12 @@ def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> N
 def test_tiny_plans_of_vehicles_that_fly_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((13, seed))
     replan_and_check(planner, with_fliers(rng, draw_tiny(rng)), rng)
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_tiny_plans_from_hubs_that_have_little_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((15, seed))
+    replan_and_check(planner, from_few_hubs(rng, draw_tiny(rng)), rng)
 
 
 @pytest.mark.parametrize("change", [with_open_ends, with_reloads, with_open_reloads])

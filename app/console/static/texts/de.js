@@ -939,6 +939,7 @@ export default {
     allowed: 'Erlaubt',
     altitude: 'Höhe',
     batteries: 'Akkus',
+    chargers: 'Ladeplätze',
     battery_wh: 'Akku',
     capacity: 'Ladekapazität',
     charge_w: 'Ladeleistung',
@@ -1178,6 +1179,10 @@ export default {
       location_index:
         'Zeile dieses Orts in den Wegetabellen, ab 0; nötig, wenn das Problem solche mitbringt.',
       launch: 'Ob Drohnen hier starten und landen dürfen.',
+      batteries:
+        'Geladene Akkus für Fahrzeuge, die von hier fliegen: Jede Tour braucht einen. Leer: genug.',
+      chargers:
+        'Ladeplätze für Fahrzeuge, die von hier fliegen: Jeder gehört den ganzen Tag einem. Leer: genug.',
     },
     PlaceInput: {
       location: 'Wo es ist: Länge und Breite oder eine Adresse; auf einer Ebene x und y.',
@@ -1569,6 +1574,7 @@ export default {
     ENDURANCE: 'Der Flug wäre zu lang.',
     ENERGY: 'Der Akku reicht nicht.',
     BATTERIES: 'Es sind zu wenige Akkus.',
+    CHARGERS: 'Es sind zu wenige Ladeplätze.',
     FLEET_EXHAUSTED: 'Alle Fahrzeuge sind ausgelastet.',
     COUNT: 'Es sind zu wenige Fahrzeuge.',
     SERVED_BY: 'Er muss anders bedient werden: mit Fahrzeug oder Drohne.',
@@ -1965,6 +1971,8 @@ export default {
   remedy: {
     mayServe: 'passt, wenn {{name}} ihn bedienen darf',
     vehicle: 'passt mit einem Fahrzeug mehr',
+    hubBattery: 'passt mit einem Akku mehr in {{name}}',
+    hubCharger: 'passt mit einem Ladeplatz mehr in {{name}}',
     launch: 'passt, wenn Drohnen bei {{name}} starten dürfen',
     trip: 'passt, wenn {{name}} noch einmal fahren könnte',
     price: 'würde bedient, wenn Auslassen mehr als {{number}} kostete',

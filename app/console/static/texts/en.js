@@ -925,6 +925,7 @@ export default {
     allowed: 'Allowed',
     altitude: 'Altitude',
     batteries: 'Batteries',
+    chargers: 'Chargers',
     battery_wh: 'Battery wh',
     capacity: 'Capacity',
     charge_w: 'Charge w',
@@ -1164,6 +1165,10 @@ export default {
         'Row of this place in the tables of legs, from 0; needed where the problem ' +
         'brings such tables.',
       launch: 'Whether drones may take off here and be recovered.',
+      batteries:
+        'Charged batteries here for vehicles that fly: each trip takes one. Empty: enough.',
+      chargers:
+        'Places to charge here for vehicles that fly: each is one vehicle’s all day. Empty: enough.',
     },
     PlaceInput: {
       location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',
@@ -1525,6 +1530,7 @@ export default {
     ENDURANCE: 'The flight would be too long.',
     ENERGY: 'The battery is too small.',
     BATTERIES: 'There are too few batteries.',
+    CHARGERS: 'There are too few places to charge.',
     FLEET_EXHAUSTED: 'All vehicles have enough to do.',
     COUNT: 'There are too few vehicles.',
     SERVED_BY: 'It must be served otherwise: by truck or by drone.',
@@ -1914,6 +1920,8 @@ export default {
   remedy: {
     mayServe: 'fits if {{name}} may serve it',
     vehicle: 'fits with one more vehicle',
+    hubBattery: 'fits with one more battery at {{name}}',
+    hubCharger: 'fits with one more charger at {{name}}',
     launch: 'fits if drones may take off at {{name}}',
     trip: 'fits if {{name}} could make another trip',
     price: 'served if unassigned_cost were above {{number}}',

@@ -16,6 +16,14 @@ const CHANGES = [
   [/^fits if .+ may serve it$/, allowType, 'VEHICLE'],
   [/^fits with one more vehicle$/, (request, { type }) => add(request, [...type, 'count'], 1)],
   [
+    /^fits with one more battery at (.+)$/,
+    (request, _, id) => add(request, [...depotAt(request, id), 'batteries'], 1),
+  ],
+  [
+    /^fits with one more charger at (.+)$/,
+    (request, _, id) => add(request, [...depotAt(request, id), 'chargers'], 1),
+  ],
+  [
     /^fits if .+ could make another trip$/,
     (request, { type }) =>
       setIn(request, [...type, 'max_trips'], (getIn(request, [...type, 'max_trips']) ?? 1) + 1),
@@ -136,6 +144,10 @@ const CHANGES = [
 
 function numberOf(text) {
   return Number(text.replaceAll(',', ''));
+}
+
+function depotAt(request, id) {
+  return ['depots', request.depots.findIndex((depot) => depot.id === id)];
 }
 
 /** Let all vehicles of a type serve a customer. */

@@ -13,6 +13,8 @@ const SAID = [
   ['drone', 'fits if a drone may serve it'],
   ['mayServe', `fits if ${NAME} may serve it`],
   ['vehicle', 'fits with one more vehicle'],
+  ['hubBattery', `fits with one more battery at ${NAME}`],
+  ['hubCharger', `fits with one more charger at ${NAME}`],
   ['trip', `fits if ${NAME} could make another trip`],
   ['price', `served if unassigned_cost were above ${NUMBER}`],
   ['itsPrice', `served if its unassigned_cost were above ${NUMBER}`],

@@ -39,6 +39,7 @@ const OF_DRONES = new Set([
   'ENDURANCE',
   'ENERGY',
   'BATTERIES',
+  'CHARGERS',
   'WIND',
   'MAX_RANGE',
   'LAUNCH',
