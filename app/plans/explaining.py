@@ -168,7 +168,7 @@ class _Explainer:
         if question.drones:
             drones, in_time = self._of_drones(question)
             complete = complete and in_time
-        reply["idle_drones"] = None
+        reply["wind"], reply["idle_drones"] = self._task.storms.all, None
         if question.idle_drones:
             reply["idle_drones"] = [
                 idle_reply(self._problem, self._solution, each)

@@ -16,6 +16,7 @@ from app.plans.geometry import Geometry
 from app.plans.permits import Permits
 from app.plans.replan_replies import on_the_wire, replan_reply
 from app.plans.replies import Data, plan_reply, route_reply
+from app.plans.storms import Storms
 from app.plans.telling import IN_SECONDS, Telling
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.leg_origins import LegOrigin
@@ -72,6 +73,7 @@ class Task:
     places: Located | None = None
     permits: Permits = field(default_factory=Permits)
     closures: Closures | None = None
+    storms: Storms = field(default_factory=Storms)
     rules: list[Data] = field(default_factory=list)  # that drones name
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
@@ -158,8 +160,9 @@ class Task:
         return {**self.telling.stated, **reply}
 
     def name_hindrances(self, customer: str, reasons: Iterable[Data]) -> None:
-        """Have reasons why a customer is left out name vehicles and zones. In place."""
+        """Have reasons why a customer is left out name vehicles, winds and zones. In place."""
         self.permits.name(customer, reasons)
+        self.storms.name(customer, reasons)
         if self.closures is not None:
             self.closures.name(customer, reasons)
 
@@ -209,18 +212,18 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
     replan, permits, closures = request.replan, Permits.of(request), Closures(placed, ground)
-    rules = rules_named(request)
+    rules, storms = rules_named(request), Storms.of(request)
     if replan is None:
         estimates = travels.estimates()
         far = None if estimates is None else FarPlans(problem, estimates)
-        return Task(problem, None, *beside, far, places, permits, closures, rules)
+        return Task(problem, None, *beside, far, places, permits, closures, storms, rules)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
-                    closures=closures, rules=rules)
+                    closures=closures, storms=storms, rules=rules)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",

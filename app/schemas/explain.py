@@ -6,7 +6,8 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.check import PlannedProblem
 from app.schemas.limits import MAX_TIME_LIMIT
-from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply, ZoneReply
+from app.schemas.hindrances import StormReply, ZoneReply
+from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
 from app.schemas.times import InstantReply, WordsReply
 
 OTHERS_STAY = "All other customers stay with their vehicles, in their order."
@@ -179,6 +180,8 @@ class ExplainReply(_Reply):
         description="If he is left out: why, by vehicle type, as `POST /plan` tells it.")
     zones: list[ZoneReply] = Field(
         [], description="Published zones in which he is, where no drone lands.")
+    wind: list[StormReply] = Field(
+        [], description="When drones may not fly, by `max_wind_kmh`.")
     drones: DronesReply | None = Field(description="What drones save. Null: it was not asked.")
     idle_drones: list[IdleDronesReply] | None = Field(
         None, description="Why drones fly nothing, by vehicle in use. Null: it was not asked.")

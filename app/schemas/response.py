@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.hub import HubReply
 from app.schemas.named_models import EnergyModelReply, PublishedRuleReply
 from app.schemas.replanned import ReplanReply
@@ -164,30 +165,6 @@ class RouteReply(_Reply):
     trips: list[TripReply] = Field(description="Trips in order.")
 
 
-class HeightReply(_Reply):
-    """A height, as it was published."""
-
-    value: float = Field(description="The number.")
-    unit: Literal["M", "FT"] = Field(description="Metres or feet.")
-    reference: Literal["AGL", "AMSL", "WGS84"] = Field(
-        description="Above the ground, the sea or the ellipsoid.")
-
-
-class ZoneReply(_Reply):
-    """A volume of a published zone, which keeps drones from a customer."""
-
-    holds: Literal["customer", "depot", "way"] = Field(
-        description="What lies in it: the customer, the depot, or all ways between them.")
-    name: str | None = Field(description="Its name. Null: none is published.")
-    identifier: str | None = Field(description="What its authority calls it. Null: nothing.")
-    restriction: Literal["PROHIBITED", "REQ_AUTHORISATION", "CONDITIONAL"] = Field(
-        description="What it asks for.")
-    lower: HeightReply | None = Field(description="From which height. Null: none is stated.")
-    upper: HeightReply | None = Field(description="To which height. Null: none, or all.")
-    authority: str | None = Field(description="Who decides, and where to ask. Null: not stated.")
-    message: str = Field(description="All of it in words.")
-
-
 class ReasonReply(_Reply):
     """Why vehicles of one type don't serve a customer."""
 
@@ -200,6 +177,8 @@ class ReasonReply(_Reply):
         None, description="Another change that would suffice; left out where none is known.")
     zone: ZoneReply | None = Field(
         None, description="Of `AIRSPACE`: the zone; left out for other reasons.")
+    wind: list[StormReply] | None = Field(
+        None, description="When it blows too much; left out for reasons that it doesn't matter to.")
 
 
 class UnassignedReply(_Reply):

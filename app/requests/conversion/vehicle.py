@@ -100,7 +100,8 @@ def _drones(kind: VehicleTypeInput, stated: DronesInput, travels: Travels, decim
         endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
         endurance_includes_waiting=stated.endurance_includes_waiting,
         max_range=optional_thousandths(stated.max_range),
-        storms=travels.winds.storms(kind, stated),
+        storms=tuple([(storm.begin, storm.end)
+                      for storm in travels.winds.storms(kind, stated)]),
         straight=0 if stated.max_range is None else travels.straight(),
         launch_duration=thousandths(stated.launch_duration),
         recovery_duration=thousandths(stated.recovery_duration),

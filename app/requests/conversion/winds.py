@@ -27,6 +27,14 @@ class Hour(NamedTuple):
     strongest_kmh: float
 
 
+class Storm(NamedTuple):
+    """Some time in which drones may not fly."""
+
+    begin: int  # ms since plan start
+    end: int
+    strongest_kmh: float
+
+
 class Winds:
     """The wind of a valid request."""
 
@@ -50,20 +58,20 @@ class Winds:
         flown = [hour for hour in hours if not _is_storm(hour, drones)]
         return tuple(sorted({hour.breeze for hour in flown or hours}))
 
-    def storms(self, kind: VehicleTypeInput, drones: Flyer) -> tuple[tuple[int, int], ...]:
-        """Return from and until when it blows too much for drones, on the shift of their truck."""
-        storms: list[tuple[int, int]] = []
+    def storms(self, kind: VehicleTypeInput, drones: Flyer) -> tuple[Storm, ...]:
+        """Return when it blows too much for drones, on the shift of their truck."""
+        storms: list[Storm] = []
         for hour in self._of_shift(kind):
             if not _is_storm(hour, drones):
                 continue
-            if storms and storms[-1][1] == hour.begin:
-                storms[-1] = storms[-1][0], hour.end
-            else:
-                storms.append((hour.begin, hour.end))
+            storm = Storm(hour.begin, hour.end, hour.strongest_kmh)
+            if storms and storms[-1].end == hour.begin:
+                storm = _together(storms.pop(), storm)
+            storms.append(storm)
         while len(storms) > MAX_STORMS:
-            calms = [later[0] - earlier[1] for earlier, later in pairwise(storms)]
+            calms = [later.begin - earlier.end for earlier, later in pairwise(storms)]
             shortest = calms.index(min(calms))
-            storms[shortest:shortest + 2] = [(storms[shortest][0], storms[shortest + 1][1])]
+            storms[shortest:shortest + 2] = [_together(*storms[shortest:shortest + 2])]
         return tuple(storms)
 
     def _of_shift(self, kind: VehicleTypeInput) -> Iterator[Hour]:
@@ -78,15 +86,19 @@ class Winds:
                 yield hour
 
 
-def longest_calm(storms: Sequence[tuple[int, int]], begin: int, end: int) -> tuple[int, int]:
+def _together(earlier: Storm, later: Storm) -> Storm:
+    return Storm(earlier.begin, later.end, max(earlier.strongest_kmh, later.strongest_kmh))
+
+
+def longest_calm(storms: Sequence[Storm], begin: int, end: int) -> tuple[int, int]:
     """Return from when until when it doesn't storm for longest between two instants.
 
     No time at all as the first begins, if it always does.
     """
     calms, since = [(begin, begin)], begin
     for storm in storms:
-        calms.append((since, min(storm[0], end)))
-        since = max(since, storm[1])
+        calms.append((since, min(storm.begin, end)))
+        since = max(since, storm.end)
     calms.append((since, end))
     return max(calms, key=lambda calm: calm[1] - calm[0])
 
