@@ -174,6 +174,35 @@ def test_what_is_wrong_with_zones_is_told(client: httpx.Client, changes: dict[st
     assert (code, path) in {(error["code"], error["path"]) for error in reply.json()["errors"]}
 
 
+BELT = [[longitude, latitude] for latitude, longitudes in (
+    (60.0, (-180, -90, 0, 90, 180)), (60.1, (180, 90, 0, -90, -180))) for longitude in longitudes]
+WORLD = [[longitude, 60.0] for longitude in (0, 120, -120)]
+
+
+@pytest.mark.parametrize(("stated", "words"), [
+    (ed269(zone(wall(lowerVerticalReference="FL"))), "must be one of 'AGL', 'AMSL' or 'WGS84'"),
+    (ed318(WALL_AREA | {"layer": layer(0, 90, reference="QNH")}), "must be one of 'AGL', 'AMSL'"),
+    (geojson({"type": "Polygon", "coordinates": [BOWTIE]}), "list its corners once each, in order"),
+    (geojson({"type": "Polygon", "coordinates": [BELT]}), "reaches around the world: split it"),
+    (geojson({"type": "Polygon", "coordinates": [WORLD]}), "reaches around the world: split it"),
+    (ed269(zone(circle(2e6))), "reaches around the world: a radius is in metres"),
+    (geojson({"type": "Polygon", "coordinates": [[[200, 60], [201, 60], [201, 61]]]}),
+     "is no longitude and latitude: correct it, or swap the two"),
+])
+def test_zones_that_make_no_sense_are_refused_in_words(
+        client: httpx.Client, stated: dict[str, Any], words: str) -> None:
+    reply = client.post("/plan", json=asked(stated))
+    assert reply.status_code == 422
+    for error in reply.json()["errors"]:
+        assert words in error["message"]
+
+
+def test_a_hundred_megabytes_of_zones_are_refused(client: httpx.Client) -> None:
+    part = json.dumps(zone(wall())).encode() * 2**10
+    reply = client.post("/plan", content=iter([part] * (1 + 100 * 2**20 // len(part))))
+    assert (reply.status_code, reply.json()["title"]) == (413, "The body is too large")
+
+
 def test_long_bodies_of_every_format_are_read() -> None:
     areas = {"type": "GeometryCollection",
              "geometries": [WALL_AREA, {"type": "MultiPolygon", "coordinates": [[WALL]]}]}
