@@ -1,14 +1,18 @@
 """Serves as `tandem serve` does, but what may be searched for a second is searched for a moment.
 
 Nearly all tests ask for such plans, few look at how good they are, and a search goes on when
-whoever asked is gone.
+whoever asked is gone. No example is searched for longer than a second here.
 """
 
+import json
 from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 from unittest.mock import patch
 
 from app.cli.commands import main
+from app.schemas import openapi
 from model.planner import Planner, PlanOptions, PlanResult
 from model.problem import Problem
 
@@ -25,6 +29,19 @@ def plan_hurriedly(planner: Planner, problem: Problem, options: PlanOptions, *gi
     return plan_in_time(planner, problem, options, *given, **named)
 
 
+def hurry_examples(given: Path, folder: Path) -> None:
+    """Write the examples to a folder, none of which is searched for longer than a second."""
+    for path in given.glob("*.json"):
+        request = json.loads(path.read_text("utf-8"))
+        options = request.get("options") or {}
+        if options.get("time_limit", 0) > SECOND:
+            options["time_limit"] = SECOND
+        (folder / path.name).write_text(json.dumps(request), "utf-8")
+
+
 if __name__ == "__main__":
-    with patch.object(Planner, "plan", plan_hurriedly):
-        main()
+    with TemporaryDirectory() as examples:
+        hurry_examples(openapi.EXAMPLES_DIR, Path(examples))
+        with (patch.object(openapi, "EXAMPLES_DIR", Path(examples)),
+              patch.object(Planner, "plan", plan_hurriedly)):
+            main()
