@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.schemas.request import PlanRequest
-from tests.console.steps import EXAMPLES, ROOT, STATIC, idle, open_file, open_tab
+from tests.console.steps import EXAMPLES, ROOT, STATIC, idle, open_file, open_tab, planned
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -132,6 +132,44 @@ def test_german_pages_have_nothing_english(open_page: Callable[..., Page], servi
     for tool in page.locator(".draw-tools button").all():
         tool.click()
         seen += page.evaluate(LEFT_OVERS)
+    assert sorted(set(seen)) == []
+
+
+def closed() -> dict[str, Any]:
+    """Return a problem of a hub whose drone may not land at its only customer, in strong gusts."""
+    zone = {"identifier": "EDR1", "country": "DEU", "name": "Hafen", "type": "COMMON",
+            "restriction": "REQ_AUTHORISATION", "zoneAuthority": [{"name": "Amt"}],
+            "geometry": [{"uomDimensions": "M", "lowerLimit": 0, "lowerVerticalReference": "AGL",
+                          "upperLimit": 500, "upperVerticalReference": "AMSL",
+                          "horizontalProjection": {"type": "Circle", "center": [13.42, 52.5],
+                                                   "radius": 500}}]}
+    return {"coordinate_system": "geographic",
+            "depots": [{"id": "Depot", "location": [13.4, 52.5]}],
+            "customers": [{"id": "Anna", "location": [13.42, 52.5], "demand": [1]}],
+            "fleet": [{"id": "Quad", "flies": True, "count": 2, "capacity": [2],
+                       "max_wind_kmh": 30}],
+            "airspace": {"zones": [{"format": "ed269", "data": {"features": [zone]}}],
+                         "wind": [{"from": 0, "speed_kmh": 20, "gust_kmh": 25},
+                                  {"from": 36000, "speed_kmh": 20, "gust_kmh": 40}]},
+            "options": {"search_iterations": 50}}
+
+
+def test_zones_and_wind_have_nothing_english_on_german_pages(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, locale="de-DE")
+    idle(page)
+    open_file(page, "Hafen.json", json.dumps(closed()))
+    planned(page, "0 von 1 bedient")
+    open_tab(page, "unassigned")
+    expect(page.locator(".panel")).to_contain_text(
+        "Der Ort liegt in der Zone Hafen (EDR1): Fliegen braucht eine Genehmigung, vom Boden bis "
+        "500 m \u00fcber dem Meer. Zust\u00e4ndig: Amt.")
+    page.get_by_role("button", name="Anna").first.click()
+    expect(page.locator(".leaflet-tooltip")).to_contain_text("Nicht mit Quad")
+    seen = page.evaluate(LEFT_OVERS)
+    open_tab(page, "fleet")
+    expect(page.get_by_role("table", name="Wind je Stunde")).to_contain_text("Quad")
+    seen += page.evaluate(LEFT_OVERS)
     assert sorted(set(seen)) == []
 
 

@@ -2059,6 +2059,7 @@ export default {
     servedBy: 'Bedient von',
   },
   map: {
+    before: '{{name}}, vorher',
     title: 'Karte',
     fit: 'Alles zeigen',
     one: 'Eine Karte',

@@ -2007,6 +2007,7 @@ export default {
     servedBy: 'Served by',
   },
   map: {
+    before: '{{name}}, before',
     title: 'Map',
     fit: 'Fit',
     one: 'One map',

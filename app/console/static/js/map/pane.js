@@ -54,7 +54,7 @@ export function MapPane() {
       split &&
       beside &&
       html`<div class="map-frame">
-      <p class="map-title">${beside.name}, before</p>
+      <p class="map-title">${t('map.before', { name: beside.name })}</p>
       <${Map} key=${groundOf(beside.request)} request=${beside.request} entry=${beside}
         onView=${setSecond} /></div>`
     }

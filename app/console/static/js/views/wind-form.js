@@ -8,6 +8,7 @@ import {
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Cell, Fields } from './form.js';
+import { Said } from './said.js';
 import { t } from '../texts.js';
 
 const WIND = ['airspace', 'wind'];
@@ -29,7 +30,8 @@ export function WindForm({ request }) {
       ? html`<${Fields} schema=${schemas.WindInput} keys=${WIND} request=${request}
         onChange=${edit} />`
       : html`<${Hours} request=${request} isOpen=${kind === 'hourly'} />`}
-    ${errors.map(({ message }) => html`<p class="error" key=${message}>${message}</p>`)}
+    ${errors.map((error) => html`<div class="error" key=${error.path}><${Said} ...${error} />
+      </div>`)}
     <p class="help">${kind === 'forecast' ? t('wind.fromForecast') : t('wind.drop')}</p>
   </fieldset>`;
 }
