@@ -44,7 +44,7 @@ def opened(settings: Settings) -> Iterator[Engine]:
 class FirstFitPlanner:
     """Serves each customer, in order, in the first place where no rule breaks."""
 
-    policies = (DEFAULT_POLICY,)
+    policies: tuple[str, ...] = (DEFAULT_POLICY,)
 
     def plan(self, problem: Problem, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
