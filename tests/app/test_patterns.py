@@ -37,8 +37,8 @@ PIECES = (" ", "\t", "\n", "\u00a0", "1", "0", "1 ", "a", "A", "\u00e9", "8 ", "
           "+", "=", "<", "a ", 'a="1" ', "<c>", "1E", "~")
 ENDS = ("", "x", "\nx", "!", "1", "\u00e9", ")")
 
-SIZE, LONGER = 1500, 6000
-QUICK = 0.001
+SIZE, LONGER = 500, 2000
+QUICK = 0.0001
 """Seconds that a text of `SIZE` letters may always take: trying all splits takes more."""
 
 MOST_PER_CELL = 0.1
@@ -95,6 +95,8 @@ def slow_texts(work: Callable[[str], object]) -> list[str]:
         text = text_of(SIZE, *parts)
         if seconds_of(partial(work, text)) > QUICK:
             longer = text_of(LONGER, *parts)
+            if seconds_of(partial(work, longer)) <= GROWTH * QUICK:
+                continue
             short, long = seconds_of(partial(work, text), 3), seconds_of(partial(work, longer), 3)
             if short > QUICK and long > GROWTH * short:
                 slow.append(text[:60])
