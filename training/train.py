@@ -10,6 +10,8 @@ import os
 import signal
 import threading
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
@@ -67,8 +69,16 @@ def train(leg: Leg) -> dict[str, float]:
     ValueError
         If the folder to begin with has no weights of this policy.
     """
+    with processes() as (rank, world):
+        ratios = _train(leg, rank, world)
+        if world > 1:
+            # A process that leaves while another still listens to it may be aborted.
+            dist.barrier()
+    return ratios
+
+
+def _train(leg: Leg, rank: int, world: int) -> dict[str, float]:
     config, folder, max_steps = leg.config, leg.folder, leg.max_steps
-    rank, world = start_processes()
     device = torch.device(leg.device)
     folder.mkdir(parents=True, exist_ok=True)
     torch.manual_seed(config.seed)
@@ -102,19 +112,24 @@ def train(leg: Leg) -> dict[str, float]:
         log.write("validation.csv", {"step": run.step, "seconds": run.seconds(), **ratios})
         log.close()
     bar.close()
-    if world > 1:
-        # A process that leaves while another still listens to it may be aborted.
-        dist.barrier()
-        dist.destroy_process_group()
     return ratios
 
 
-def start_processes() -> tuple[int, int]:
-    """Join the other processes if a launcher started several; return rank and number."""
+@contextmanager
+def processes() -> Iterator[tuple[int, int]]:
+    """Join the other processes if a launcher started several; yield rank and number.
+
+    However training ends, PyTorch's threads end before the interpreter does: one that lets go of a
+    tensor later aborts the process.
+    """
     if "WORLD_SIZE" not in os.environ:
-        return 0, 1
+        yield 0, 1
+        return
     dist.init_process_group("nccl" if torch.cuda.is_available() else "gloo")
-    return dist.get_rank(), dist.get_world_size()
+    try:
+        yield dist.get_rank(), dist.get_world_size()
+    finally:
+        dist.destroy_process_group()
 
 
 def agree_to_stop(wish: bool, world: int) -> bool:

@@ -10,12 +10,13 @@ from pathlib import Path
 
 import pytest
 import torch
-from tests.conftest import eventually
+import torch.distributed as dist
 
+from tests.conftest import eventually, free_port
 from training.config import TrainConfig
 from training.heuristics import nearest_neighbour
 from training.policies import POLICIES, widened
-from training.train import Leg, train, validation_batches
+from training.train import Leg, processes, train, validation_batches
 
 pytestmark = pytest.mark.slow
 
@@ -87,8 +88,23 @@ def test_several_processes_train_one_policy(tmp_path: Path) -> None:
                "--num-problems", "4", "--num-rollouts", "3", "--minutes", "5"]
     result = subprocess.run(command, capture_output=True, text=True, timeout=300, check=False,
                             env={**os.environ, "OMP_NUM_THREADS": "1"})
-    assert result.returncode == 0, result.stderr[-2000:]
+    assert result.returncode == 0, result.stderr
     assert torch.load(tmp_path / "checkpoint.pt", weights_only=False)["step"] == 2
+
+
+def test_processes_part_whatever_ends_training(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name, value in (("RANK", 0), ("WORLD_SIZE", 1), ("MASTER_ADDR", "127.0.0.1"),
+                        ("MASTER_PORT", free_port())):
+        monkeypatch.setenv(name, str(value))
+
+    def fail() -> None:
+        with processes() as (rank, world):
+            assert (rank, world) == (0, 1)
+            raise KeyError
+
+    with pytest.raises(KeyError):
+        fail()
+    assert not dist.is_initialized()
 
 
 def test_terminated_run_saves_what_it_has(tmp_path: Path) -> None:
