@@ -98,17 +98,17 @@ class Problem:
             require(energy is None or energy.dimension < self.num_dimensions,
                      f"{name} drone energy", energy)
 
-    @property
+    @cached_property
     def num_depots(self) -> int:
         """Depots; the first customer's node."""
         return len(self.depots)
 
-    @property
+    @cached_property
     def num_customers(self) -> int:
         """Customers."""
         return len(self.customers)
 
-    @property
+    @cached_property
     def num_nodes(self) -> int:
         """Depots and customers."""
         return len(self.depots) + len(self.customers)
@@ -208,5 +208,7 @@ class Problem:
         ValueError
             If `node` is a depot or no node.
         """
-        require(self.num_depots <= node < self.num_nodes, "customer node", node)
-        return self.customers[node - self.num_depots]
+        first = self.num_depots
+        if not first <= node < self.num_nodes:
+            require(False, "customer node", node)
+        return self.customers[node - first]

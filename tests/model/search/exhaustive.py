@@ -17,7 +17,8 @@ from operator import add, le
 from model.judge.check import check
 from model.judge.hubs import taken_at_hubs
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, IntArray, Problem, VehicleType
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Problem, VehicleType
+from model.problem.travel import Matrix
 from model.solution import Route, Solution
 from tests.model.mask_oracle import costs_nothing
 
@@ -106,19 +107,19 @@ def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[Taken, f
 def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, ...]) -> float:
     """Return a cost that the trips can't undercut; infinite if a flight exceeds endurance."""
     truck = problem.travel[kind.travel]
-    kilometres = sum(_sum(truck.distance[:], trip.nodes) for trip in trips) / MM_PER_KM
+    kilometres = sum(_sum(truck.distance, trip.nodes) for trip in trips) / MM_PER_KM
     cost = kind.fixed_cost + kilometres * kind.cost_per_km
     busy = Counter({"truck": sum(_least_duration(problem, kind, trip) for trip in trips)})
     flights = [(trip, sortie) for trip in trips for sortie in trip.sorties]
     for trip, sortie in flights:
         drones = kind.drone_type(sortie.drone)
         path = (trip.nodes[sortie.launch_stop], *sortie.nodes, trip.nodes[sortie.recovery_stop])
-        flight = _sum(problem.travel[drones.travel].duration[:], path)
+        flight = _sum(problem.travel[drones.travel].duration, path)
         flight += sum(drones.service_at(problem.customer_at(node)) for node in sortie.nodes)
         if flight > drones.endurance:
             return math.inf
         busy[f"drone {sortie.drone}"] += flight
-        flown = _sum(problem.travel[drones.travel].distance[:], path)
+        flown = _sum(problem.travel[drones.travel].distance, path)
         cost += flown / MM_PER_KM * drones.cost_per_km
     return cost + max(busy.values()) / MS_PER_HOUR * kind.cost_per_hour
 
@@ -127,10 +128,10 @@ def _least_duration(problem: Problem, kind: VehicleType, trip: TripDecision) -> 
     """Return what driving and serving take on a trip, which lasts no shorter."""
     served = sum(kind.service_at(problem.customer_at(node)) for node in trip.nodes[1:-1]
                  if node >= problem.num_depots)
-    return _sum(problem.travel[kind.travel].duration[:], trip.nodes) + served
+    return _sum(problem.travel[kind.travel].duration, trip.nodes) + served
 
 
-def _sum(legs: IntArray, path: Nodes) -> int:
+def _sum(legs: Matrix, path: Nodes) -> int:
     return sum([legs.item(origin, to) for origin, to in pairwise(path)])
 
 
