@@ -204,8 +204,8 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     samples = options.num_samples if options.decoding == "sample" else None
     number = problem.num_customers
     kind, *others = problem.vehicle_types
-    if any(each.flies for each in problem.vehicle_types):
-        # Policies know nothing of what trips take in the air.
+    if problem.shipments or any(each.flies for each in problem.vehicle_types):
+        # Policies know nothing of who belongs together, nor of what trips take in the air.
         return False
     share = DECODING_SHARE
     if number <= MIXED_UP_TO and (others or kind.drones is not None):
@@ -276,7 +276,7 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     begun = None if first is None else first.solution
     turns = options.search_iterations
     terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
-    joint = None if turns == 0 else find_joint(problem, terms.ended)
+    joint = None if turns == 0 or problem.shipments else find_joint(problem, terms.ended)
     if joint is None:
         return _search(problem, instance, begun, options, deadline, listener)
 

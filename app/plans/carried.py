@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from app.schemas.request import PlanRequest
+from app.schemas.shipment import ENDS, end_name
 
 Info = Mapping[str, Mapping[str, str]]
 """What is said of customers, by their ids."""
@@ -19,8 +20,10 @@ def carry(info: Info, reply: dict[str, Any]) -> None:
     if not info:
         return
     for halt in _halts(reply):
-        if halt.get("kind", "customer") == "customer" and halt["id"] in info:
-            halt["info"] = dict(info[halt["id"]])
+        kind = halt.get("kind", "customer")
+        name = end_name(halt["id"], kind) if kind in ENDS else halt["id"]
+        if kind in ("customer", *ENDS) and name in info:
+            halt["info"] = dict(info[name])
 
 
 def _halts(reply: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -139,9 +139,14 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
     is_depot = stop.node < len(problem.depots)
     place = (problem.depots[stop.node] if is_depot
              else problem.customers[stop.node - len(problem.depots)])
+    kind: str = problem.depots[stop.node].kind if is_depot else "customer"
+    name = place.id
+    if stop.node in problem.shipment_at:
+        shipment = problem.shipment_at[stop.node]
+        kind, name = "pickup" if stop.node == shipment.pickup else "delivery", shipment.id
     return {
-        "kind": problem.depots[stop.node].kind if is_depot else "customer",
-        "id": place.id,
+        "kind": kind,
+        "id": name,
         "arrival": stop.arrival / 1000,
         "service_start": stop.service_start / 1000,
         "departure": stop.departure / 1000,
@@ -205,10 +210,15 @@ def _unassigned(problem: Problem, solution: Solution,
     told: list[Data] = []
     room, unexplained = MOST_REASONS, 0
     for node in solution.unassigned:
+        shipment = problem.shipment_at.get(node)
+        if shipment is not None and node == shipment.delivery:
+            continue
         reasons = one_per_type(problem, why(node)) if room > 0 else []
         room -= len(reasons)
         unexplained += not reasons
-        told.append({"id": problem.customer_at(node).id,
+        named = ({"id": problem.customer_at(node).id} if shipment is None
+                 else {"kind": "shipment", "id": shipment.id})
+        told.append({**named,
                      "reasons": [reason_reply(problem, reason) for reason in reasons]})
     return {"unassigned": told} | ({"unexplained": unexplained} if unexplained else {})
 

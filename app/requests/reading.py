@@ -7,7 +7,8 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, from_json, to_json
 
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
-from app.requests.draft import Draft
+from app.requests.draft import Draft, error_at
+from app.requests.ends import stated_path
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.customer import CustomerInput
@@ -68,7 +69,13 @@ def request_errors(request: PlanRequest, policies: Collection[str] | None,
     """Return every error of a request that fits the schema."""
     draft = _whole_draft(request)
     errors = [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
-    return errors or list(leg_errors(request, bounds))
+    if request.shipments and request.replan and request.replan.freeze_before is not None:
+        errors.append(error_at("SHIPMENTS_UNDER_WAY", ("replan", "freeze_before"),
+                               "Plans with shipments can't be gone on from amid the day yet: "
+                               "leave freeze_before out."))
+    errors = errors or list(leg_errors(request, bounds))
+    return [error.model_copy(update={"path": stated_path(request, error.path)})
+            for error in errors] if request.shipments else errors
 
 
 def read_json(body: bytes) -> Any:

@@ -4,17 +4,27 @@ What follows from the rest, such as loads and costs, may be there and is not rea
 anew.
 """
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from app.schemas.fields import Location
 from app.schemas.limits import MAX_VEHICLES
+from app.schemas.shipment import ENDS, end_name
 from app.schemas.times import READ_ANY_INSTANT, PlanStart, TimeZone
 from model.problem import UNLIMITED
 
 MAX_INSTANT = UNLIMITED / 1000
 """Farthest instant from the plan's start in seconds; no vehicle returns later."""
+
+StopKind = Literal[
+    "depot", "customer", "start", "end", "launch_site", "pickup", "delivery"]
+STOP_KIND_TEXT = (
+    "What the place is: `start` and `end` are those of a vehicle type, `pickup` and `delivery` "
+    "those of a shipment. At a `launch_site` the truck stops for its drones alone.")
+STOP_ID_TEXT = (
+    "Id of the depot, the customer, the vehicle type, the shipment or the launch site; of the "
+    "customer or depot where a truck comes back to.")
 
 NOT_READ = "Not read: it is computed anew."
 
@@ -56,14 +66,8 @@ class VisitInput(_Plan):
 class StopInput(_Plan):
     """A place where the truck halts. Times in seconds since plan start."""
 
-    kind: Literal["depot", "customer", "start", "end", "launch_site"] = Field(
-        description="What the place is: `start` and `end` are those of a vehicle type. At a "
-        "`launch_site` the truck stops for its drones alone."
-    )
-    id: str = Field(
-        description="Id of the depot, the customer, the vehicle type or the launch site; of the "
-        "customer or depot where a truck comes back to."
-    )
+    kind: StopKind = Field(description=STOP_KIND_TEXT)
+    id: str = Field(description=STOP_ID_TEXT)
     arrival: Instant = Field(
         description="Arrival; at the trip's first stop, when loading is done."
     )
@@ -76,6 +80,13 @@ class StopInput(_Plan):
     energy_left_wh: Number = None
     geometry: Line = None
     info: Details = None
+
+    @model_validator(mode="after")
+    def _name_end(self) -> Self:
+        """Name a shipment's end as the customer that it is."""
+        if self.kind in ENDS:
+            self.__dict__ |= {"kind": "customer", "id": end_name(self.id, self.kind)}
+        return self
 
     @property
     def ready(self) -> float:
@@ -131,7 +142,9 @@ class RouteInput(_Plan):
 class LeftOutInput(_Plan):
     """A customer whom no vehicle serves."""
 
-    id: str = Field(description="Id of the customer.")
+    kind: Literal["customer", "shipment"] = Field(
+        "customer", description="What it is; left out of replies for customers.")
+    id: str = Field(description="Id of the customer or the shipment.")
     reasons: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
 
 
@@ -173,3 +186,13 @@ class PlanInput(_Plan):
     addresses: list[FoundInput] | None = Field(
         None, description="Where the request's addresses are, for pictures and drivers."
     )
+
+    @model_validator(mode="after")
+    def _name_ends(self) -> Self:
+        """Name both ends of shipments left out as the customers that they are."""
+        if any(left_out.kind == "shipment" for left_out in self.unassigned):
+            self.__dict__["unassigned"] = tuple(
+                each for left_out in self.unassigned for each in (
+                    [left_out] if left_out.kind == "customer"
+                    else [LeftOutInput(id=end_name(left_out.id, kind)) for kind in ENDS]))
+        return self

@@ -4,9 +4,9 @@ Numbers must be JSON numbers, unknown fields are refused. What one field alone c
 an unknown depot, is checked in `app.requests.validation`.
 """
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Discriminator, Field, Tag
+from pydantic import Discriminator, Field, Tag, model_validator
 
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
@@ -20,6 +20,7 @@ from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
 )
 from app.schemas.plan import PlanInput
+from app.schemas.shipment import ShipmentInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
 from app.schemas.airspace import Zones
@@ -31,6 +32,7 @@ MAX_NO_FLY = 10_000
 MAX_POLYGON_POINTS = 100_000
 MAX_ZONE_FILES = 100
 MAX_CLEARED = 10_000
+MAX_SHIPMENTS = MAX_CUSTOMERS // 2
 
 Height = Annotated[float, Field(ge=-500, le=9000)]
 
@@ -309,6 +311,11 @@ class PlanRequest(Input):
     fleet: Annotated[list[VehicleTypeInput], Field(max_length=MAX_VEHICLE_TYPES)] = Field(
         description="Vehicle types, at least one."
     )
+    shipments: Annotated[list[ShipmentInput], Field(max_length=MAX_SHIPMENTS)] = Field(
+        [],
+        description="Parcels that a truck fetches at one place and brings to another on the same "
+        "trip. In plans their ends are stops of kinds `pickup` and `delivery`.",
+    )
     launch_sites: Annotated[list[LaunchSiteInput], Field(max_length=MAX_LAUNCH_SITES)] = Field(
         [],
         description="Places where trucks may stop for their drones alone, as often as it pays. In "
@@ -343,6 +350,14 @@ class PlanRequest(Input):
         None, description="A plan to go on from. Null: plan from nothing."
     )
     options: OptionsInput = Field(OptionsInput(), description="How to plan.")
+
+    @model_validator(mode="after")
+    def _count_ends(self) -> Self:
+        """Let the ends of shipments be customers, behind those stated."""
+        if self.shipments:
+            self.__dict__["customers"] = [
+                *self.customers, *(end for each in self.shipments for end in each.ends())]
+        return self
 
     @property
     def day(self) -> Day | None:

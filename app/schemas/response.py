@@ -11,6 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.hub import HubReply
 from app.schemas.named_models import EnergyModelReply, PublishedRuleReply
+from app.schemas.plan import STOP_ID_TEXT, STOP_KIND_TEXT, StopKind
 from app.schemas.replanned import ReplanReply
 from app.schemas.times import InstantReply, WordsReply
 
@@ -41,14 +42,8 @@ class CostReply(_Reply):
 class StopReply(_Reply):
     """A place where the truck halts."""
 
-    kind: Literal["depot", "customer", "start", "end", "launch_site"] = Field(
-        description="What the place is: `start` and `end` are those of a vehicle type. At a "
-        "`launch_site` the truck stops for its drones alone."
-    )
-    id: str = Field(
-        description="Id of the depot, the customer, the vehicle type or the launch site; of the "
-        "customer or depot where a truck comes back to."
-    )
+    kind: StopKind = Field(description=STOP_KIND_TEXT)
+    id: str = Field(description=STOP_ID_TEXT)
     arrival: InstantReply = Field(
         description="Arrival; at the trip's first stop, when loading is done.")
     service_start: InstantReply = Field(description="Start of service; at depots the arrival.")
@@ -182,9 +177,11 @@ class ReasonReply(_Reply):
 
 
 class UnassignedReply(_Reply):
-    """A customer that no vehicle serves."""
+    """A customer, or a shipment, that no vehicle serves."""
 
-    id: str = Field(description="Id of the customer.")
+    kind: Literal["customer", "shipment"] = Field(
+        "customer", description="What it is; left out for customers.")
+    id: str = Field(description="Id of the customer or the shipment.")
     reasons: list[ReasonReply] = Field(
         description="Reasons by vehicle type; none where `unexplained` counts the customer.")
 
@@ -200,7 +197,8 @@ class LoadRateReply(_Reply):
 class SummaryReply(_Reply):
     """The plan in numbers."""
 
-    customers: int = Field(description="Customers of the request.")
+    customers: int = Field(
+        description="Customers of the request; each end of a shipment counts as one.")
     served: int = Field(description="Customers served.")
     must_unserved: int = Field(
         description="Customers left out who must be served, as no `unassigned_cost` holds for them."

@@ -66,6 +66,13 @@ typedef struct tandem_hub {
     int64_t chargers;
 } tandem_hub;
 
+/* An end of a shipment: the node of the other end, -1 where there is none, and whether the parcel
+   is delivered here. Nobody has a row where there are no shipments. */
+typedef struct tandem_pair {
+    int64_t partner;
+    int64_t is_delivery;
+} tandem_pair;
+
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
    beside its customers' is taken from its capacity; what it has worked when it may begin (`begun`)
    is taken from its working duration, and costs as if it were fixed. The end of the shift and the
@@ -802,6 +809,14 @@ typedef struct tandem_outlook_2d {
     tandem_outlook* data;
     int64_t shape[2];
 } tandem_outlook_2d;
+typedef struct tandem_pair_1d {
+    tandem_pair* data;
+    int64_t shape[1];
+} tandem_pair_1d;
+typedef struct tandem_pair_2d {
+    tandem_pair* data;
+    int64_t shape[2];
+} tandem_pair_2d;
 typedef struct tandem_piece_1d {
     tandem_piece* data;
     int64_t shape[1];
@@ -914,6 +929,9 @@ typedef struct tandem_instance {
     tandem_setup_2d setup;         /* (problem, node), or (problem, 0) */
     tandem_i64_2d max_time_aboard; /* (problem, node) ms, FAR without limit, or (problem, 0) if
                                       nobody has one */
+    tandem_pair_2d pair;           /* (problem, node), or (problem, 0) */
+    tandem_i64_3d max_between;     /* (problem, type, node) ms from a pickup to its delivery, FAR
+                                      without limit, or (problem, 0, 0) if none has one */
     tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
                                       (problem, 0) where any may */
     tandem_hub_2d hub;             /* (problem, depot), or (problem, 0) where all have enough */
@@ -1020,6 +1038,8 @@ typedef struct tandem_problem_data {
     tandem_goods_1d goods; /* (node,) none where all go together */
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
+    tandem_pair_1d pair;           /* (node,) none where there are no shipments */
+    tandem_i64_2d max_between; /* (type, node) ms from a pickup to its delivery, none likewise */
     tandem_bool_1d
         no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */
     tandem_hub_1d hub; /* (depot,) none where all have enough */
@@ -1284,7 +1304,7 @@ int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* se
 /* Search: beginning. */
 
 /* Take all routes apart. */
-int tandem_disband(const tandem_searcher* searcher);
+int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */
@@ -1330,8 +1350,8 @@ int tandem_take_part(const tandem_problem_data* data, const tandem_searcher* who
                      const tandem_searcher* part, const tandem_i64_1d* owner, int64_t number,
                      const tandem_i64_1d* missing, const tandem_i64_1d* spare);
 /* Copy a part's routes behind the slots filled, and who is missing; tell how many are filled. */
-int tandem_add_routes(const tandem_searcher* whole, const tandem_searcher* part, int64_t filled,
-                      int64_t* slots);
+int tandem_add_routes(const tandem_problem_data* data, const tandem_searcher* whole,
+                      const tandem_searcher* part, int64_t filled, int64_t* slots);
 /* Likewise its best routes. */
 int tandem_add_best(const tandem_searcher* whole, const tandem_searcher* part, int64_t filled,
                     int64_t* slots);

@@ -12,6 +12,7 @@ using Setup = tandem_setup;
 using Price = tandem_price;
 using Goods = tandem_goods;
 using Hub = tandem_hub;
+using Pair = tandem_pair;
 using VehicleType = tandem_vehicle_type;
 using Rate = tandem_rate;
 using Cost = tandem_cost;
@@ -60,6 +61,9 @@ struct Instance {
     View<const Setup, 2> setup;                   // (problem, node), or (problem, 0)
     View<const std::int64_t, 2> max_time_aboard;  // (problem, node) ms, FAR without limit, or
                                                   // (problem, 0) if nobody has one
+    View<const Pair, 2> pair;                     // (problem, node), or (problem, 0)
+    View<const std::int64_t, 3> max_between;      // (problem, type, node) ms from a pickup to its
+                                                  // delivery, or (problem, 0, 0) if none is limited
     View<const bool, 2> no_launch;  // (problem, node) no drone takes off or is recovered there, or
                                     // (problem, 0) where any may
     View<const Hub, 2> hub;         // (problem, depot), or (problem, 0) where all have enough
@@ -88,6 +92,8 @@ inline Instance instance_of(const tandem_instance& from) {
             from.goods,
             from.setup,
             from.max_time_aboard,
+            from.pair,
+            from.max_between,
             from.no_launch,
             from.hub,
             from.type,

@@ -54,6 +54,7 @@ Scratch::Scratch(Int longest, Int num_nodes, Int most_moved, Int most_offers)
       changed(longest),
       key(num_nodes),
       moved(most_moved),
+      fits(most_moved),
       offer(most_offers),
       least(most_offers) {}
 

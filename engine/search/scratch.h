@@ -80,6 +80,7 @@ struct Scratch {
     SplitScratch changed;  // of a line of which some places were changed
     Row<double> key;       // (node,) order of insertion
     Row<Int> moved;        // slots that a ruin touches, or where stops move to
+    Row<bool> fits;        // (position,) whether a vehicle may leave with more aboard
     Row<Move> offer;       // insertions that may be best
     Row<double> least;     // what each costs at least
     Int offers = 0;        // how many are listed

@@ -50,7 +50,7 @@ void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
     for (Int k = 0; k < data.num_types; ++k) now.used[k] = data.type[k].count - spare[k];
     list_active(part);
     count.changed = all_slots;
-    for (const Int node : missing) now.where[node].slot = nowhere;
+    for (const Int node : missing) leave_out(data, now, node);
     count.missing = missing.size();
     std::copy(missing.begin(), missing.end(), part.missing.begin());
     count.customers = 0;
@@ -61,7 +61,7 @@ void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
     keep_best(part);
 }
 
-Int add_routes(Searcher& whole, const Searcher& part, Int filled) {
+Int add_routes(const ProblemData& data, Searcher& whole, const Searcher& part, Int filled) {
     const Fleet& now = whole.now;
     SearchCounts& count = *whole.count;
     for (const Int slot : part.active.first(part.count->active)) {
@@ -71,7 +71,7 @@ Int add_routes(Searcher& whole, const Searcher& part, Int filled) {
         ++filled;
     }
     for (const Int node : part.missing.first(part.count->missing)) {
-        now.where[node].slot = nowhere;
+        leave_out(data, now, node);
         whole.missing[count.missing++] = node;
     }
     list_active(whole);
@@ -105,11 +105,11 @@ extern "C" int tandem_take_part(const tandem_problem_data* data, const tandem_se
     });
 }
 
-extern "C" int tandem_add_routes(const tandem_searcher* whole, const tandem_searcher* part,
-                                 int64_t filled, int64_t* slots) {
+extern "C" int tandem_add_routes(const tandem_problem_data* data, const tandem_searcher* whole,
+                                 const tandem_searcher* part, int64_t filled, int64_t* slots) {
     return guarded([&] {
         Searcher all = searcher_of(*whole);
-        *slots = add_routes(all, searcher_of(*part), filled);
+        *slots = add_routes(data_of(*data), all, searcher_of(*part), filled);
     });
 }
 

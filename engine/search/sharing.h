@@ -13,7 +13,7 @@ void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
 
 // Copies a part's routes behind the `filled` first slots, and who is missing; returns how many
 // slots are filled then.
-Int add_routes(Searcher& whole, const Searcher& part, Int filled);
+Int add_routes(const ProblemData& data, Searcher& whole, const Searcher& part, Int filled);
 
 // Copies a part's best routes behind the `filled` first slots, and who is missing. As `add_routes`.
 Int add_best(Searcher& whole, const Searcher& part, Int filled);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "randomness.h"
+#include "rules/pair.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 
@@ -40,9 +41,10 @@ void try_near(const ProblemData& data, Searcher& searcher, Int seed, Int first, 
     const View<const std::int32_t, 1> near = data.near[seed];
     Int chosen = 0;
     for (Int rank = -1; rank < near.size(); ++rank) {
-        const Int node = rank < 0 ? seed : near[rank];
+        Int node = rank < 0 ? seed : near[rank];
         if (node < 0 || chosen == total - first) break;
-        if (searcher.now.where[node].slot == nowhere && !data.must_serve[node] &&
+        node = unit_of(data.pair, node);
+        if (searcher.now.where[node].slot == nowhere && !marked[node] && !data.must_serve[node] &&
             (rank < 0 || uniform(searcher.rng) < tried_near_share)) {
             marked[node] = true;
             ++chosen;

@@ -8,6 +8,7 @@
 #include "rules/clock.h"
 #include "rules/flight.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "simulation/aboard.h"
@@ -139,7 +140,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Room room = room_of(open);
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
-    const bool trying = holds_count(setting) || order_is_open(setting, vehicle);
+    const bool laden = carries_parcels(open);
+    const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden;
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {
@@ -151,7 +153,11 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     };
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
-        const bool is_held = trying || (!is_idle && began < release_of(setting.node[node]));
+        if (is_delivery(setting.pair, node) &&
+            !(laden && state.served(r, setting.pair[node].partner)))
+            continue;
+        const bool is_held = trying || is_pickup(setting.pair, node) ||
+                             (!is_idle && began < release_of(setting.node[node]));
         if (room.stop && instance.can_drive(b, k, node) &&
             legs(here, node) + legs(node, home) <= reach) {
             const Verdict verdict =
@@ -212,6 +218,7 @@ Int legal_actions(const Instance& instance, State& state, Int r, Int scratch, Vi
     if (vehicle.type != no_vehicle) {
         found = legal_services(rollout, actions, outlooks);
         if (vehicle.idle == 0) {
+            if (carries_parcels(open_vehicle_of(instance, b, state, r))) return found;
             return legal_returns(rollout, actions, outlooks, found);
         }
         if (state.log.count[r].trips == 0 ||

@@ -1,8 +1,11 @@
 #include "simulation/trial.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "simulation/hubs.h"
 #include "simulation/transition.h"
@@ -10,6 +13,8 @@
 
 namespace tandem {
 namespace {
+
+constexpr std::size_t most_permuted = 3;  // parcels aboard whose deliveries are tried in all orders
 
 template <class T>
 void copy_rows(View<const T, 1> from, View<T, 1> to, Int count) {
@@ -37,25 +42,127 @@ bool works_within(OpenVehicle& open) {
     return may_work(setting.type, vehicle.free - first_departure(setting, log, start));
 }
 
+// Who is served, in order, before the vehicle goes home.
+using Order = std::vector<Int>;
+
+// The deliveries of what is aboard, in the order of their pickups.
+Order parcels_aboard(const Setting& setting, const VehicleLog& log) {
+    Order aboard;
+    for (Int index = log.trip[log.count.trips - 1].first_stop; index < log.count.stops; ++index) {
+        const Int node = log.stop[index].node;
+        if (is_pickup(setting.pair, node)) aboard.push_back(setting.pair[node].partner);
+        if (is_delivery(setting.pair, node)) std::erase(aboard, node);
+    }
+    return aboard;
+}
+
+// Let who is nearest come next, from a node on. In place.
+void sort_by_nearness(View<const Int, 2> legs, Int from, Order& order) {
+    for (auto next = order.begin(); next != order.end(); ++next) {
+        std::iter_swap(next, std::min_element(next, order.end(), [&](Int one, Int other) {
+                           return std::pair(legs(from, one), one) <
+                                  std::pair(legs(from, other), other);
+                       }));
+        from = *next;
+    }
+}
+
+// Calls `visit` with orders in which what is aboard may be delivered until one is legal: all of few
+// parcels; of more, the nearest first, the one due soonest, and the last that came aboard. What is
+// left of an order once its first is delivered is tried then as well, so that who has a way on
+// always keeps one.
+template <class Visit>
+bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Order aboard,
+               const Visit& visit) {
+    if (aboard.size() <= most_permuted) {
+        std::sort(aboard.begin(), aboard.end());
+        do {
+            if (visit(aboard)) return true;
+        } while (std::next_permutation(aboard.begin(), aboard.end()));
+        return false;
+    }
+    std::reverse(aboard.begin(), aboard.end());
+    if (visit(aboard)) return true;
+    std::sort(aboard.begin(), aboard.end(), [&](Int one, Int other) {
+        return std::pair(setting.node[one].closing(), one) <
+               std::pair(setting.node[other].closing(), other);
+    });
+    if (visit(aboard)) return true;
+    sort_by_nearness(legs, here, aboard);
+    return visit(aboard);
+}
+
+// How many customers the truck has served on its trip.
+Int served_on_trip(const VehicleLog& log) {
+    return log.count.stops - log.trip[log.count.trips - 1].first_stop - 1;
+}
+
+// Tell whether a trip may be so long, and stop so often, that serves some more before it is home.
+bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, Int distance,
+                     const Order& order) {
+    const VehicleType& type = open.setting.type;
+    Int here = open.vehicle.node;
+    for (const Int node : order) {
+        distance += legs(here, node);
+        here = node;
+    }
+    return distance + legs(here, type.ends_at) <= longest_trip(type) &&
+           allows_stops(type, served_on_trip(open.log) + static_cast<Int>(order.size()));
+}
+
+// Serve some and go home, from where the trip has come so far; false if that isn't legal.
+bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Int distance, const Order& order) {
+    auto& [setting, vehicle, log, drones] = open;
+    if (!order.empty() && !is_within_reach(open, legs, distance, order)) return false;
+    for (const Int node : order) {
+        if (!drive(open, node)) return false;
+    }
+    return drive(open, setting.type.ends_at) && may_end(setting.type, vehicle.free) &&
+           works_within(open);
+}
+
+// Do an action on a scratch row, after the end of the trip before if that is at a node.
+bool attempt(const Rollout& rollout, OpenVehicle& open, Int reload, Service service) {
+    copy_vehicle(rollout.state, rollout.r, rollout.scratch);
+    if (reload != no_reload && !drive(open, reload)) return false;
+    return service.by_drone ? launch(open, service.node) : drive(open, service.node);
+}
+
 }  // namespace
+
+bool carries_parcels(const OpenVehicle& open) {
+    const auto& [setting, vehicle, log, drones] = open;
+    return some_paired(setting.pair) && vehicle.idle == 0 && log.count.trips > 0 &&
+           !parcels_aboard(setting, log).empty();
+}
 
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook) {
     const auto& [instance, state, r, scratch] = rollout;
     const auto [node, by_drone] = service;
     copy_vehicle(state, r, scratch);
-    OpenVehicle open = open_vehicle_of(instance, state.problem[r], state, scratch);
+    const Int b = state.problem[r];
+    OpenVehicle open = open_vehicle_of(instance, b, state, scratch);
     const auto& [setting, vehicle, log, drones] = open;
-    if (reload != no_reload && !drive(open, reload)) return false;
-    if (!(by_drone ? launch(open, node) : drive(open, node))) return false;
+    const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
+    const Int start = reload == no_reload ? vehicle.node : reload;
+    Int distance = reload == no_reload ? vehicle.distance : 0;
+    if (!by_drone) distance += legs(start, node);
+    if (!attempt(rollout, open, reload, service)) return false;
     const Int here = log.count.stops - 1;
-    if (!drive(open, setting.type.ends_at)) return false;
+    const Order aboard = some_paired(setting.pair) ? parcels_aboard(setting, log) : Order();
+    bool is_first = true;
+    const bool legal = any_order(setting, legs, vehicle.node, aboard, [&](const Order& order) {
+        if (!std::exchange(is_first, false)) attempt(rollout, open, reload, service);
+        return serve_and_end(open, legs, distance, order);
+    });
+    if (!legal) return false;
     if (by_drone) {
         const LoggedSortie& sortie = log.sortie[log.count.sorties - 1];
         outlook = {sortie.arrival, sortie.start, vehicle.free};
     } else {
         outlook = {log.stop[here].arrival, log.stop[here].start, vehicle.free};
     }
-    return may_end(setting.type, vehicle.free) && works_within(open);
+    return true;
 }
 
 bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
@@ -74,7 +181,7 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     const Size& size = instance.size[b];
     const View<const Goods, 1> goods = instance.goods[b];
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
-        if (state.served(r, node)) continue;
+        if (state.served(r, node) || is_delivery(instance.pair[b], node)) continue;
         if (some_apart(goods) && !go_together(goods[node], 0, vehicle.barred_on_vehicle)) continue;
         if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
             legal_by_trial(rollout, place, {node, false}, outlook)) {

@@ -1,7 +1,7 @@
 // Actions done on a scratch row, and the return home, to tell whether they are legal.
 #pragma once
 
-#include "simulation/state.h"
+#include "simulation/transition.h"
 
 namespace tandem {
 
@@ -23,9 +23,13 @@ constexpr Int no_reload = -1;
 
 // Tell whether an action on a customer is legal by doing it and the return home on a scratch row.
 //
-// Exact for every customer that the load, the kind and the number of trips allow. If `reload` is a
-// node, the trip ends there before.
+// Exact for every customer that the load, the kind and the number of trips allow, while no more
+// than three shipments are aboard, which are delivered on the way home. Of more, some orders are
+// tried. If `reload` is a node, the trip ends there before.
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook);
+
+// Tell whether shipments are aboard that have to be delivered before the trip ends.
+bool carries_parcels(const OpenVehicle& open);
 
 // Tell whether the trip may end at a place that is not where the route may: if another follows.
 //

@@ -105,6 +105,9 @@ template <bool writes>
 class Replay {
 public:
     Replay(const Setting& setting, const VehicleLog& log) : setting_(setting), log_(log) {
+        if (some_limited(setting.max_between)) {
+            served_.resize(static_cast<std::size_t>(log.count.stops));
+        }
         if (bounds_trips(setting.type)) {
             arrivals_.resize(static_cast<std::size_t>(log.count.stops));
         }
@@ -172,6 +175,7 @@ private:
             if (!is_allowed(place, arrival, stop.arrival)) return false;
             if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
             leave_ = place.end_of_service(arrival);
+            if (!served_.empty() && !note_served(index, service_start)) return false;
         }
         free_ = busy_ = arrival;
         for (; op_ < log_.count.ops && log_.op[op_].stop == index; ++op_) {
@@ -183,6 +187,20 @@ private:
             stop.arrival = arrival;
             stop.start = service_start;
             stop.leave = leave_;
+        }
+        return true;
+    }
+
+    // Note when somebody is served; false if a shipment that is delivered was under way too long.
+    bool note_served(Int index, Int start) {
+        const Int node = log_.stop[index].node;
+        served_[static_cast<std::size_t>(index)] = start + setting_.node[node].service_duration();
+        if (writes || !is_delivery(setting_.pair, node)) return true;
+        const Int pickup = setting_.pair[node].partner;
+        for (Int before = index - 1; before >= first_; --before) {
+            if (log_.stop[before].node != pickup) continue;
+            const Int left = served_[static_cast<std::size_t>(before)];
+            return excess_between(setting_.max_between, pickup, left, start) <= 0;
         }
         return true;
     }
@@ -301,6 +319,7 @@ private:
     Int departure_ = far;
     // Of who flies by itself: when each stop is reached, and how the battery is after a trip.
     std::vector<Int> arrivals_;
+    std::vector<Int> served_;  // (stop,) where shipments may be under way for so long
     std::optional<Charge> charge_;
     // At the stop: when the crew is free, and when it is from what takes time.
     Int free_ = 0;
@@ -341,6 +360,23 @@ Int excess_of_parcels(const Setting& setting, const VehicleLog& log) {
     return most;
 }
 
+// By how much a shipment is too long under way on the last trip; at most 0 if none is.
+Int excess_of_pairs(const Setting& setting, const VehicleLog& log) {
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    Int most = -far;
+    for (Int index = first; index < log.count.stops; ++index) {
+        const LoggedStop& stop = log.stop[index];
+        if (!is_delivery(setting.pair, stop.node)) continue;
+        const Int pickup = setting.pair[stop.node].partner;
+        for (const LoggedStop& before : log.stop.first(index)) {
+            if (before.node != pickup) continue;
+            const Int left = before.start + setting.node[pickup].service_duration();
+            most = std::max(most, excess_between(setting.max_between, pickup, left, stop.start));
+        }
+    }
+    return most;
+}
+
 // By how much later the last trip has to begin at least to last in the air.
 Int excess_in_air(const Setting& setting, const VehicleLog& log) {
     const VehicleType& type = setting.type;
@@ -364,6 +400,7 @@ Int excess_in_air(const Setting& setting, const VehicleLog& log) {
 Int most_excess(const Setting& setting, const VehicleLog& log) {
     Int most = -far;
     if (some_limited(setting.max_time_aboard)) most = excess_of_parcels(setting, log);
+    if (some_limited(setting.max_between)) most = std::max(most, excess_of_pairs(setting, log));
     if (bounds_trips(setting.type)) most = std::max(most, excess_in_air(setting, log));
     return most;
 }

@@ -7,6 +7,7 @@
 
 #include "rules/clock.h"
 #include "rules/flown_trip.h"
+#include "rules/pair.h"
 #include "rules/window.h"
 #include "simulation/state.h"
 
@@ -26,6 +27,8 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .amount = instance.amount[b],
         .goods = instance.goods[b],
         .max_time_aboard = instance.max_time_aboard[b],
+        .pair = instance.pair[b],
+        .max_between = limits_of(instance.max_between[b], k),
         .no_launch = instance.no_launch[b],
         .type = type,
         .drive = durations[type.travel],
@@ -68,7 +71,8 @@ bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int 
 
 // Whether trips may have to be held back.
 inline bool holds_count(const Setting& setting) {
-    return some_limited(setting.max_time_aboard) || bounds_trips(setting.type);
+    return some_limited(setting.max_time_aboard) || some_limited(setting.max_between) ||
+           bounds_trips(setting.type);
 }
 
 // By how much later the last trip has to begin, so that no parcel is too long aboard, and nobody

@@ -44,6 +44,9 @@ def weight_rows(problem: Problem, dimension: int, length: int) -> IntArray:
     rows = np.zeros((problem.num_customers, length), np.int64)
     rows[:, :2] = [(customer.demand[dimension], customer.taken_in[dimension])
                    for customer in problem.customers]
+    for each in problem.shipments:
+        rows[each.pickup - problem.num_depots, 1] = each.amount[dimension]
+        rows[each.delivery - problem.num_depots, 1] = -each.amount[dimension]
     return rows
 
 
@@ -55,4 +58,7 @@ def most_asked_for(problem: Problem) -> IntArray:
     shape = len(asked), problem.num_customers, problem.num_dimensions
     amounts = np.array(asked, np.int64).reshape(shape)
     most: IntArray = amounts.max(axis=0)
+    for each in problem.shipments:
+        for node in (each.pickup, each.delivery):
+            most[node - problem.num_depots] = each.amount
     return most

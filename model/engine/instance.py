@@ -9,11 +9,15 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from model.engine.amount_rows import padded, write_amounts
 from model.engine.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
 from model.engine.battery_rows import battery_row, full_row, powers_row
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
+from model.engine.pair_rows import (
+    empty_limits, empty_pairs, write_aboard, write_limits, write_pairs,
+)
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
 from model.engine.variants import (
@@ -60,6 +64,8 @@ class Instance(NamedTuple):
     goods: Records  # (problem, node), or (problem, 0)
     setup: Records  # (problem, node), or (problem, 0)
     max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
+    pair: Records  # (problem, node), or (problem, 0)
+    max_between: IntArray  # (problem, type, node) ms, FAR without limit; (problem, 0, 0) where none
     no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
     hub: Records  # (problem, depot), or (problem, 0) where all have enough
     type: Records  # (problem, row); trucks first, as many as `size` says
@@ -124,6 +130,8 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
         setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0),
                        dtype_of("tandem_setup")),
         max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
+        pair=empty_pairs(problems, nodes),
+        max_between=empty_limits(problems, types, nodes, FAR),
         no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
         hub=np.zeros((rows, depots if any(problem.limits_hubs for problem in problems) else 0),
                      dtype_of("tandem_hub")),
@@ -153,7 +161,8 @@ def _num_changes(vehicle_type: VehicleType) -> int:
 def _num_tiers(problems: Sequence[Problem]) -> int:
     """Return how many tiers loads have to be looked at in from stop to stop."""
     tiers = max(-(-problem.num_dimensions // DIMENSIONS_PER_TIER) for problem in problems)
-    changes = any(any(customer.pickup) for problem in problems for customer in problem.customers)
+    changes = any(problem.shipments or any(any(customer.pickup) for customer in problem.customers)
+                  for problem in problems)
     costs = any(kind.cost_per_load_km for problem in problems for kind in problem.vehicle_types)
     return tiers if tiers > 1 or changes or costs else 0
 
@@ -197,6 +206,8 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
         instance.no_launch[row, :problem.num_nodes] = [
             not problem.may_launch_at(node) for node in range(problem.num_nodes)]
     _pack_compatibility(instance, row, problem, kinds)
+    if problem.shipments:
+        _pack_pairs(instance, row, problem, kinds)
 
 
 def _pack_customers(instance: Instance, row: int, problem: Problem,
@@ -211,13 +222,14 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
         served[variant, :, 0]["service_duration"] = duration
         if weighs is not None:
             served[variant, :, 0]["demand"] = weight_rows(problem, weighs, DIMENSIONS_PER_TIER)
-    _pack_amounts(instance.amount[row, depots:nodes], problem.customers)
+    write_amounts(instance.amount[row, depots:nodes], problem.customers, DIMENSIONS_PER_TIER)
     instance.price[row, depots:nodes] = [
         (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour, customer.late_cost)
         for customer in problem.customers]
     costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])
-    instance.unassigned_cost[row] = costs.min()
-    instance.unassigned_more[row, depots:nodes] = costs - costs.min()
+    deliveries = [each.delivery - depots for each in problem.shipments]
+    instance.unassigned_cost[row] = np.delete(costs, deliveries).min()
+    instance.unassigned_more[row, depots:nodes] = costs - instance.unassigned_cost[row]
     if problem.limits_time_aboard:
         instance.max_time_aboard[row, depots:nodes] = [
             FAR if customer.max_time_aboard is None else customer.max_time_aboard
@@ -228,18 +240,14 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
         instance.setup[row, :nodes] = setup_rows(problem)
 
 
-def _pack_amounts(rows: IntArray, customers: Sequence[Customer]) -> None:
-    """Write what is delivered and picked up, (customer, tier, amount). In place."""
-    tiers = rows.shape[1]
-    if not tiers:
-        return
-    size = DIMENSIONS_PER_TIER
-    shape = len(customers), tiers, size
-    for first, amounts in ((0, [customer.demand for customer in customers]),
-                           (size, [customer.pickup for customer in customers])):
-        table = np.array([_padded(amount, tiers * size) for amount in amounts], np.int64)
-        rows[:, :, first:first + size] = table.reshape(shape)
-        rows[:, :, 2 * size + first // size] = table.sum(axis=1)[:, None]
+def _pack_pairs(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind]) -> None:
+    """Write who belongs together; nobody serves one end alone, drones neither. In place."""
+    ends = write_pairs(problem, instance.pair[row])
+    write_aboard(problem, instance.amount[row], DIMENSIONS_PER_TIER)
+    if problem.limits_time_between:
+        write_limits(problem, [kind for kind, _, _ in kinds], instance.max_between[row])
+    instance.can_drive[row][:, ends] &= instance.can_drive[row][:, ends].all(axis=2)[..., None]
+    instance.can_fly[row][:, ends] = False
 
 
 def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
@@ -252,12 +260,7 @@ def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:
 def _customer_row(customer: Customer) -> tuple[Any, ...]:
     limit = customer.latest if customer.late_cost_per_hour is None else FAR
     return (customer.earliest, limit, customer.service_duration, customer.release_time,
-            customer.latest, _padded(customer.demand, DIMENSIONS_PER_TIER))
-
-
-def _padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
-    """Return so many dimensions of an amount, zero in those that the problem doesn't have."""
-    return (*amount[:length], *(0,) * (length - len(amount)))
+            customer.latest, padded(customer.demand, DIMENSIONS_PER_TIER))
 
 
 def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: int,
@@ -278,7 +281,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
         drone_variant, *battery_row(energy), int(kind.flies), int(kind.takes_batteries),
         kind.trips_uncharged, _pickup_order(kind), load[0],
-        _padded(free, room), _padded(() if drones is None else drones.capacity, room),
+        padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
         *_storm_rows(drones))
 
@@ -351,8 +354,8 @@ def _in_range(problem: Problem, kind: VehicleType, limit: int) -> BoolArray:
 def _storm_rows(drones: DroneType | None) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
     """Return how often it storms, from when, and until when."""
     storms = () if drones is None else drones.storms
-    return (len(storms), _padded([begin for begin, _ in storms], MAX_STORMS),
-            _padded([end for _, end in storms], MAX_STORMS))
+    return (len(storms), padded([begin for begin, _ in storms], MAX_STORMS),
+            padded([end for _, end in storms], MAX_STORMS))
 
 
 def _worked(kind: VehicleType) -> int:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from model.judge.launches import launch_begins
+from model.judge.pairs import change_aboard
 from model.problem import DroneType, Energy, Problem, VehicleType
 from model.solution import Sortie, Stop, Trip, Visit
 
@@ -63,9 +64,9 @@ def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> li
     """Return what is aboard on each leg of a sortie to some customers, the way home last."""
     customers = [problem.customer_at(node) for node in nodes]
     weights = [sum([customer.demand[energy.dimension] for customer in customers])]
-    for customer in customers:
-        weights.append(weights[-1] - customer.demand[energy.dimension]
-                       + customer.taken_in[energy.dimension])
+    for node, customer in zip(nodes, customers, strict=True):
+        change = change_aboard(problem, node) or customer.taken_in
+        weights.append(weights[-1] - customer.demand[energy.dimension] + change[energy.dimension])
     return weights
 
 

@@ -16,8 +16,10 @@ from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
 from model.judge.through import BY_LEGS, Passage, names_of, passage_to
-from model.judge.trial import Attempt, attempts, small_problem, try_truck
-from model.problem import MAX_MONEY, Problem
+from model.judge.trial import (
+    Attempt, attempts, small_problem, try_shipment, try_truck,
+)
+from model.problem import MAX_MONEY, Problem, Shipment
 from model.solution import Solution
 
 
@@ -50,6 +52,8 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
     vehicle_type = problem.vehicle_types[index]
     if time.perf_counter() >= until:
         return _unknown(index, vehicle_type.id)
+    if node in problem.shipment_at:
+        return _shipment_left_out(problem, solution, index, problem.shipment_at[node])
     served_by = problem.customer_at(node).served_by
     if vehicle_type.flies and served_by == "truck":
         message = f"Only a truck may serve it and {vehicle_type.id} flies."
@@ -69,6 +73,26 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
         if passage is not None and _is_better(passage, first):
             return _by_way_of_others(problem, solution, passage, node)
     return _failed(problem, index, node, first)
+
+
+def _shipment_left_out(problem: Problem, solution: Solution, index: int,
+                       shipment: Shipment) -> Reason:
+    """Say why no vehicle of a type brings a shipment, by a trip for it alone."""
+    vehicle_type, attempt = problem.vehicle_types[index], try_shipment(problem, index, shipment)
+    if attempt.evaluation.violations:
+        violation = attempt.evaluation.violations[0]
+        return Reason(index, violation.code, f"Alone on {vehicle_type.id}: {violation.message}.")
+    cost = ceil(attempt.evaluation.cost.total * 100) / 100
+    left_out = problem.cost_of_leaving_out(problem.customer_at(shipment.pickup))
+    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    way = f"{vehicle_type.id} could bring it alone"
+    if cost >= left_out:
+        return Reason(index, "COST", f"{way} at a cost of {cost:.2f}; leaving it out costs "
+                      f"{left_out:.2f}.")
+    if used >= vehicle_type.count:
+        why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
+        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.")
+    return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 
 def _is_better(passage: Passage, alone: Attempt) -> bool:

@@ -1,5 +1,6 @@
 """How long parcels are aboard before their customers are served."""
 
+from model.judge.pairs import times_between
 from model.problem import Problem, VehicleType
 from model.solution import Stop, Trip, Visit
 
@@ -22,4 +23,5 @@ def most_excess(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return by how much a parcel is too long aboard at most; 0 if none is."""
     halts: list[Stop | Visit] = [
         *trip.customer_stops, *(visit for sortie in trip.sorties for visit in sortie.visits)]
-    return max([0, *(excess_aboard(problem, kind, trip, halt) for halt in halts)])
+    return max([0, *(excess_aboard(problem, kind, trip, halt) for halt in halts),
+                *(excess for _, excess in times_between(problem, kind, trip))])

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
+from model.judge.pairs import change_aboard
 from model.problem import Customer, Problem, VehicleType
 from model.solution import Sortie, Trip
 
@@ -39,7 +40,19 @@ def trip_loads(problem: Problem, kind: VehicleType, trip: Trip) -> list[Amount]:
                 taken = _plus(taken, customer.pickup)
         if any(taken):
             loads[index] = _plus(loads[index], taken)
+    if problem.shipments:
+        _add_shipments(problem, trip, loads)
     return loads
+
+
+def _add_shipments(problem: Problem, trip: Trip, loads: list[Amount]) -> None:
+    """Add what is aboard of shipments on leaving each stop. In place."""
+    aboard = (0,) * problem.num_dimensions
+    for index, stop in enumerate(trip.stops, 1):
+        change = change_aboard(problem, stop.node)
+        if change is not None:
+            aboard = _plus(aboard, change)
+        loads[index] = _plus(loads[index], aboard)
 
 
 def _leaving(problem: Problem, trip: Trip) -> list[list[Customer]]:

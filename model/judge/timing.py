@@ -268,7 +268,8 @@ def schedule_trip(
     aboard too long, or who flies by itself from waiting too long in the air.
     """
     trip = _schedule_trip(problem, vehicle_type, decision, ready)
-    if decision.start is not None or not (problem.limits_time_aboard or vehicle_type.flies):
+    if decision.start is not None or not (
+            problem.limits_time_aboard or problem.limits_time_between or vehicle_type.flies):
         return trip
     excess = excess_of(problem, vehicle_type, trip)
     while excess > 0:

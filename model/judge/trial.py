@@ -11,7 +11,7 @@ from model.judge.check import Evaluation, check
 from model.judge.clock import leg_start
 from model.judge.launches import launch_duration
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import Customer, DroneType, Problem, Travel, VehicleType
+from model.problem import Customer, DroneType, Problem, Shipment, Travel, VehicleType
 from model.solution import Solution
 
 MAX_LAUNCH_PLACES = 4
@@ -78,6 +78,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
         unassigned_cost=problem.unassigned_cost,
         amount_decimals=problem.amount_decimals,
         incompatible_goods=problem.incompatible_goods,
+        shipments=problem.shipments_among([*depots, *nodes]),
         may_serve=None if table is None else table[[kind]][:, np.array(nodes) - problem.num_depots],
     )
 
@@ -85,6 +86,13 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
 def _judge(problem: Problem, decision: TripDecision) -> Attempt:
     solution = Solution((schedule(problem, RouteDecision(0, 0, (decision,))),))
     return Attempt(problem, solution, check(problem, solution))
+
+
+def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
+    """Return a trip by a type that serves a shipment alone."""
+    small = small_problem(problem, kind, [shipment.pickup, shipment.delivery])
+    pickup, delivery = range(small.num_depots, small.num_nodes)
+    return _judge(small, TripDecision((0, pickup, delivery, small.vehicle_types[0].ends_at)))
 
 
 def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:

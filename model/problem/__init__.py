@@ -9,6 +9,7 @@ from model.problem.quantities import (
     FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
     UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, Int32Array, IntArray, UIntArray,
 )
+from model.problem.shipment import Shipment
 from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel
 
@@ -18,6 +19,6 @@ __all__ = [
     "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Customer", "Depot",
     "DepotKind",
     "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Overtime",
-    "Pickups", "Points", "Problem", "ServedBy", "SpeedProfile", "StraightLegs", "Travel",
-    "UIntArray", "VehicleType",
+    "Pickups", "Points", "Problem", "ServedBy", "Shipment", "SpeedProfile", "StraightLegs",
+    "Travel", "UIntArray", "VehicleType",
 ]

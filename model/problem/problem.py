@@ -1,6 +1,7 @@
 """What is to be planned: depots, customers, a fleet and its travel matrices."""
 
 from bisect import bisect_left
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -11,6 +12,7 @@ from model.problem.fleet import VehicleType
 from model.problem.quantities import (
     MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
 )
+from model.problem.shipment import Shipment
 from model.problem.travel import Travel
 
 
@@ -33,6 +35,7 @@ class Problem:
     may_stop: BoolArray | None = None  # (vehicle type, depot) at launch sites; None: any at any
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
+    shipments: tuple[Shipment, ...] = ()  # whose ends are customers that ask for nothing else
     num_dimensions: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -64,6 +67,7 @@ class Problem:
         for customer in self.customers:
             require(len(customer.demand) == dimensions, f"customer {customer.id} demand",
                      customer.demand)
+        self._require_pairs()
         for vehicle_type in self.vehicle_types:
             self._require_consistent(vehicle_type)
         for used in {kind.travel for kind in self.vehicle_types if not kind.flies}:
@@ -71,6 +75,19 @@ class Problem:
         points = [each.straight.points.at for each in self.travel if each.straight is not None]
         require(all(np.array_equal(each, points[0], equal_nan=True) for each in points), "travel",
                  "places differ")
+
+    def _require_pairs(self) -> None:
+        ends = [node for each in self.shipments for node in (each.pickup, each.delivery)]
+        require(len(set(ends)) == len(ends), "shipments' ends", ends)
+        for node in ends:
+            end = self.customer_at(node)
+            require(not any(end.demand) and not any(end.pickup), f"customer {end.id} demand",
+                     end.demand)
+        for each in self.shipments:
+            require(len(each.amount) == self.num_dimensions, f"shipment {each.id} amount",
+                     each.amount)
+            goods = [self.customer_at(node).goods for node in (each.pickup, each.delivery)]
+            require(goods[0] == goods[1], f"shipment {each.id} goods", goods)
 
     def _require_consistent(self, vehicle_type: VehicleType) -> None:
         name = f"vehicle type {vehicle_type.id}"
@@ -180,6 +197,31 @@ class Problem:
         """Return the depot or customer at a node."""
         first = self.num_depots
         return self.depots[node] if node < first else self.customers[node - first]
+
+    @cached_property
+    def shipment_at(self) -> dict[int, Shipment]:
+        """The shipment of each node that is an end of one."""
+        return {node: each for each in self.shipments for node in (each.pickup, each.delivery)}
+
+    def shipments_among(self, nodes: Sequence[int]) -> tuple[Shipment, ...]:
+        """Return the shipments both ends of which are among some nodes, by their numbers there."""
+        if not self.shipments:
+            return ()
+        number = {node: index for index, node in enumerate(nodes)}
+        return tuple([each.renumbered(number) for each in self.shipments
+                      if each.pickup in number and each.delivery in number])
+
+    @cached_property
+    def limits_time_between(self) -> bool:
+        """Tell whether any shipment may be under way for so long and no longer."""
+        return any(each.is_limited for each in self.shipments)
+
+    def asked_at(self, node: int) -> tuple[int, ...]:
+        """Return the most that a customer alone asks to be aboard, by dimension."""
+        each, customer = self.shipment_at.get(node), self.customer_at(node)
+        if each is not None:
+            return each.amount
+        return tuple(map(max, customer.demand, customer.taken_in))
 
     def setup_between(self, origin: int, to: int) -> int:
         """Return how long whoever comes from one node to serve at another sets up there."""

@@ -92,6 +92,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
             [may_stop, np.ones((len(kinds), len(starts)), np.bool_)]),
         customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
+        shipments=problem.shipments_among(source),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
         travel=tuple(each.among(np.array(source)) for each in problem.travel),
         may_serve=_table(problem, past, kinds, owners, nodes)

@@ -30,7 +30,8 @@ def evaluate(instance: Instance) -> Records:
     # What may last too long, or take too much of a battery, as far as it isn't drones' alone.
     bound = flies & ((types["endurance"] < UNLIMITED) | (types["points"] > 0))
     waits = bool((place["window_earliest"] > 0).any())
-    limited = (instance.max_time_aboard.shape[1] > 0) | (bound & waits)
+    limited = (bool(instance.max_time_aboard.shape[1] or instance.max_between.shape[2])
+               | (bound & waits))
     held_back = early | ((retimed | limited) & timed)
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
@@ -40,7 +41,8 @@ def evaluate(instance: Instance) -> Records:
     by_detour = ~(timed if release else timed & ~free) & ~priced & ~bound
     apart = instance.goods.shape[1] > 0
     farther = types["max_trip_distance"] < UNLIMITED
-    by_distance = (by_detour & ~(timed | release | apart | farther)
+    paired = instance.pair.shape[1] > 0
+    by_distance = (by_detour & ~(timed | release | apart | farther | paired)
                    & (types["max_trips"] == 1) & (types["drones"] == 0) & ~flies)
     evaluation = np.zeros(len(types), dtype_of("tandem_evaluation"))
     for name, told in (("timed", timed), ("priced", priced), ("held_back", held_back),

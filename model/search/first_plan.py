@@ -14,7 +14,7 @@ from model.solution import Route, Solution, Stop, Trip
 
 def first_plan(problem: Problem, data: ProblemData,
                numbering: Numbering | None = None) -> Solution:
-    """Return routes by savings where no vehicle flies drones.
+    """Return routes by savings where no vehicle flies drones, and there are no shipments.
 
     Where vehicles hold and cost the same, but begin and end at several places, and where all fly by
     themselves, customers are served from the nearest. Where they don't, but begin and end at one,
@@ -24,7 +24,7 @@ def first_plan(problem: Problem, data: ProblemData,
     `numbering`, else the problem's. Routes have no times yet.
     """
     everyone = tuple(range(data.num_depots, data.num_nodes))
-    if data.type["drones"][:data.num_types].any():
+    if data.type["drones"][:data.num_types].any() or len(data.pair):
         return Solution((), everyone)
     all_fly = all(kind.flies for kind in problem.vehicle_types)
     if not are_alike(data) and not all_fly:

@@ -262,7 +262,8 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
 
     def best(searcher: Searcher = whole) -> Solution:
         routes = renumbered_routes(read_routes(data, searcher), node.__getitem__)
-        return Solution(tuple(routes), tuple(sorted(node[each] for each in left_out(searcher))))
+        missing = sorted(node[each] for each in left_out(data, searcher))
+        return Solution(tuple(routes), tuple(missing))
 
     def after_round(turns: int) -> None:
         limits.reading = task.reading(*_size(whole))

@@ -83,7 +83,7 @@ class Crew:
         whole.count.missing = filled = 0
         whole.value.cost = sum(float(part.value.cost) for part in chosen)
         for part in chosen:
-            filled = call("tandem_add_routes", whole, part, filled)
+            filled = call("tandem_add_routes", self._data, whole, part, filled)
         keep_best_of(whole, best)
 
 

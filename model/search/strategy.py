@@ -61,10 +61,11 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         Customers on any sortie; 1 where there are none.
     """
     linked = bool(evaluation["by_distance"].all())
+    whole = not problem.shipments  # else parts of trips have ends of shipments alone
     scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem, most_visits)
     return Strategy(
-        loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star,
-        resplit=moves.resplit and moves.flights and any(
+        loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star and whole,
+        resplit=moves.resplit and moves.flights and whole and any(
             kind.num_drones == 1 for kind in problem.vehicle_types),
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,

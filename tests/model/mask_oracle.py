@@ -6,6 +6,7 @@ A second reading of the decision process: it keeps the decisions of one vehicle,
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from itertools import permutations
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
@@ -315,10 +316,30 @@ def _end(route: Route) -> int:
     return route.trips[-1].stops[-1].departure
 
 
+def _aboard(problem: Problem, vehicle: Vehicle) -> list[int]:
+    """Return the deliveries of the shipments aboard."""
+    if vehicle.is_idle or not vehicle.trips:
+        return []
+    seen = set(vehicle.trips[-1].nodes)
+    return [each.delivery for each in problem.shipments
+            if each.pickup in seen and each.delivery not in seen]
+
+
 def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) -> bool:
-    """Tell whether the vehicle can go straight home and the plan be legal."""
+    """Tell whether the vehicle can deliver what is aboard, go home and the plan be legal."""
     if vehicle is None:
         return False
+    for order in permutations(_aboard(problem, vehicle)):
+        later: Vehicle | None = vehicle
+        for node in order:
+            later = later and after(problem, later, DRIVE, node)
+        if later is not None and _can_go_home(problem, later, any_start):
+            return True
+    return False
+
+
+def _can_go_home(problem: Problem, vehicle: Vehicle, any_start: bool) -> bool:
+    """Tell whether the vehicle can go straight home and the plan be legal."""
     if not vehicle.is_idle:
         home = _settle(problem, vehicle, problem.vehicle_types[vehicle.kind].ends_at)
         if home is None:

@@ -13,9 +13,11 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.service import with_service_durations
 from app.requests.conversion.travels import Travels
+from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest
-from model.problem import IncompatibleGoods, Problem
+from app.schemas.shipment import ENDS, end_name
+from model.problem import Customer, IncompatibleGoods, Problem, Shipment
 
 
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
@@ -33,6 +35,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     customers = tuple([
         to_customer(customer, decimals, site)
         for customer, site in zip(request.customers, sites[len(depots):], strict=True)])
+    customers, shipments = _with_shipments(request, customers, len(depots))
     amounts = [amount for customer in customers for amount in (customer.demand, customer.taken_in)]
     vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, amounts)
                            for stated in request.fleet])
@@ -62,4 +65,24 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         must_serve=request.unassigned_cost is None,
         incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
                                  for each in request.incompatible_goods),
+        shipments=shipments,
     )
+
+
+def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],
+                    num_depots: int) -> tuple[tuple[Customer, ...], tuple[Shipment, ...]]:
+    """Return the shipments, and customers of whom their ends ask for nothing else."""
+    if not request.shipments:
+        return customers, ()
+    place = {customer.id: index for index, customer in enumerate(customers)}
+    changed, shipments = list(customers), list[Shipment]()
+    for stated in request.shipments:
+        pickup, delivery = (place[end_name(stated.id, kind)] for kind in ENDS)
+        amount = customers[pickup].demand
+        for index in (pickup, delivery):
+            changed[index] = replace(customers[index], demand=(0,) * len(amount))
+        shipments.append(Shipment(
+            stated.id, num_depots + pickup, num_depots + delivery, amount,
+            optional_thousandths(stated.max_time_between),
+            optional_thousandths(stated.max_detour)))
+    return tuple(changed), tuple(shipments)

@@ -2,6 +2,7 @@
 
 from collections.abc import Collection
 
+from app.requests.ends import stated_path
 from app.requests.warnings.fleets import fleet_warnings
 from app.requests.warnings.matrices import matrix_warnings
 from app.requests.warnings.places import crow_warnings, place_warnings
@@ -23,6 +24,7 @@ def warnings_of(request: PlanRequest,
         Profiles for which the service has roads.
     """
     survey = Survey(request, frozenset(road_profiles))
-    return (*place_warnings(survey), *time_warnings(survey), *fleet_warnings(survey),
-            *matrix_warnings(survey), *crow_warnings(survey), *wind_warnings(survey),
-            *rule_warnings(survey))
+    found = (*place_warnings(survey), *time_warnings(survey), *fleet_warnings(survey),
+             *matrix_warnings(survey), *crow_warnings(survey), *wind_warnings(survey),
+             *rule_warnings(survey))
+    return tuple([each._replace(path=stated_path(request, each.path)) for each in found])

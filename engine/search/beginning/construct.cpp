@@ -3,11 +3,12 @@
 #include <algorithm>
 
 #include "guard.h"
+#include "rules/pair.h"
 #include "search/route/state.h"
 
 namespace tandem {
 
-void disband(Searcher& searcher) {
+void disband(const ProblemData& data, Searcher& searcher) {
     const Fleet& now = searcher.now;
     SearchCounts& count = *searcher.count;
     ++count.stamp;
@@ -23,7 +24,7 @@ void disband(Searcher& searcher) {
     for (Int node = 0; node < now.where.size(); ++node) {
         if (now.where[node].slot < 0) continue;
         now.where[node].slot = nowhere;
-        searcher.missing[count.missing++] = node;
+        if (!is_delivery(data.pair, node)) searcher.missing[count.missing++] = node;
     }
     list_active(searcher);
 }
@@ -32,9 +33,9 @@ void disband(Searcher& searcher) {
 
 using namespace tandem;
 
-extern "C" int tandem_disband(const tandem_searcher* searcher) {
+extern "C" int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        disband(searching);
+        disband(data_of(*data), searching);
     });
 }

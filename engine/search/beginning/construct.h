@@ -6,6 +6,6 @@
 namespace tandem {
 
 // Takes all routes apart.
-void disband(Searcher& searcher);
+void disband(const ProblemData& data, Searcher& searcher);
 
 }  // namespace tandem

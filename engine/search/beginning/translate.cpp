@@ -6,6 +6,7 @@
 #include "guard.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/evaluate.h"
@@ -22,7 +23,8 @@ void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& a
     for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
             for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-                if (data.can(k, by_drone, node) && !data.deadline.passed() &&
+                if (data.can(k, by_drone, node) && !is_delivery(data.pair, node) &&
+                    !data.deadline.passed() &&
                     serve_alone(data, fleet, slot, k, node, by_drone == 1)) {
                     alone(k, by_drone, node) = fleet.cost[slot];
                 }
@@ -49,7 +51,9 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
         }
     }
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-        if (now.where[node].slot == nowhere) searcher.missing[count.missing++] = node;
+        if (now.where[node].slot == nowhere && !is_delivery(data.pair, node)) {
+            searcher.missing[count.missing++] = node;
+        }
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) now.route[slot].stamp = 1;
     count.stamp = 1;

@@ -8,6 +8,7 @@
 #include "rules/flown_trip.h"
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
@@ -292,6 +293,10 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
         if (done) {
             begin_route(sequence_in(fleet, slot), data.type[k], k, node, way,
                         first_drone(data.type, k, row), halt);
+            if (is_pickup(data.pair, node)) {
+                insert_stops(sequence_in(fleet, slot), 2,
+                             {{data.pair[node].partner, customer_stop}});
+            }
             done = refresh(data, fleet, slot);
         }
         if (done && fleet.cost[slot] < best) {
@@ -306,9 +311,10 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int slot = move.slot, to = fleet.route.size() - 1;
     const Int k = fleet.route[slot].type, kind = move.kind;
     const Int depot = data.type[k].depot;
-    if (data.evaluation[k].priced || (is_apart(data, k) && kind >= new_trip)) {
+    const Int partner = is_paired(data.pair, node) ? data.pair[node].partner : nowhere;
+    if (data.evaluation[k].priced || (is_apart(data, k) && kind >= new_trip) || partner >= 0) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
-        apply(depot, sequence_in(fleet, to), move, node);
+        apply(depot, sequence_in(fleet, to), move, node, partner);
         if (!refresh_cost(data, fleet, to)) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
@@ -319,7 +325,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const bool alone = kind == new_trip || kind == flight_trip;
     const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
-    apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node);
+    apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node, partner);
     give_releases(fleet, to, alone, trip, release);
     double cost = price_part(data, fleet, slot, part, to);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {

@@ -4,10 +4,12 @@
 
 #include "randomness.h"
 #include "rules/flight.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/cheapest_stop.h"
 #include "search/insertion/offers.h"
+#include "search/insertion/pairs.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
@@ -29,6 +31,10 @@ void try_route(const Insertion& insertion, Int slot) {
     const VehicleType& type = data.type[k];
     const bool drives = data.can(k, 0, node), flies = data.can(k, 1, node);
     const bool simple = is_simple(data, now, slot);
+    if (is_paired(data.pair, node)) {
+        scan_pair(insertion, slot);
+        return;
+    }
     if (simple && drives) scan_simple(insertion, slot);
     if (simple && !flies) return;
     for (Int index = 0; index < route.trips; ++index) {
@@ -150,6 +156,10 @@ void find_place(const Insertion& insertion) {
 void find_beside(const Insertion& insertion) {
     const auto [data, searcher, node, enlarge, best] = insertion;
     try_new_route(data, searcher, node, best);
+    if (is_paired(data.pair, node)) {
+        scan_pair_beside(insertion);
+        return;
+    }
     scan_beside(insertion);
     for (const Int other : data.granular[node]) {
         if (other < 0) break;
@@ -171,6 +181,10 @@ void try_trips(const Insertion& insertion, Int number) {
         if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
             !goods_may_follow(data, now, slot, node) ||
             !may_take_off(data, searcher, k, data.type[k].depot, now.route[slot].trips)) {
+            continue;
+        }
+        if (is_paired(data.pair, node)) {
+            if (data.can(k, 0, node)) try_pair_trips(insertion, slot);
             continue;
         }
         if (data.can(k, 0, node)) {

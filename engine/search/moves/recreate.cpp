@@ -6,6 +6,7 @@
 #include "randomness.h"
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/window.h"
 #include "search/insertion/evaluate.h"
 #include "search/insertion/places.h"
@@ -90,7 +91,8 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const Int former = route.type;
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
-    apply(data.type[route.type].depot, sequence_in(now, slot), move, node);
+    const Int partner = is_paired(data.pair, node) ? data.pair[node].partner : nowhere;
+    apply(data.type[route.type].depot, sequence_in(now, slot), move, node, partner);
     const bool allowed = refresh(data, now, slot) && hubs_suffice(data, searcher);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);

@@ -93,7 +93,7 @@ public:
                 locate(now, slot);
             }
         }
-        for (Int node : searcher_.missing.first(count.missing)) now.where[node].slot = nowhere;
+        for (Int node : searcher_.missing.first(count.missing)) leave_out(data_, now, node);
         list_touched(searcher_);
     }
 
@@ -110,7 +110,7 @@ private:
     void remove_strings(Int first) {
         Fleet& now = searcher_.now;
         const Int before = searcher_.count->absent;
-        Removed removed{searcher_.marked, searcher_.absent, before};
+        Removed removed{searcher_.marked, searcher_.absent, before, data_.pair};
         const auto [num_touched, seed] =
             choose(data_, searcher_, longest_string(searcher_, num_trips()), removed,
                    searcher_.scratch->moved);
@@ -122,8 +122,8 @@ private:
         }
         for (Int index = before; index < removed.count; ++index) {
             const Int node = removed.absent[index];
-            removed.marked[node] = false;
-            now.where[node].slot = nowhere;
+            removed.unmark(node);
+            leave_out(data_, now, node);
         }
         searcher_.count->absent = removed.count;
         list_touched(searcher_);

@@ -69,7 +69,7 @@ void join_sortie(Sortie& sortie, Int place, Int node) {
     ++sortie.count;
 }
 
-void apply(Int depot, const Sequence& sequence, const Move& move, Int node) {
+void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int partner) {
     const auto& [route, stops, sorties] = sequence;
     const Visit start{depot, start_stop}, end{depot, end_stop}, served{node, customer_stop};
     const Int behind = move.first + 1;
@@ -109,6 +109,13 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node) {
             insert_stops(sequence, move.last + 1, {{move.landing, halt_stop}});
             insert_stops(sequence, behind, {{move.halt, halt_stop}});
             add_sortie(route, sorties, behind, move.last + 2, move.drone, node);
+            break;
+        case both_ends:
+            insert_stops(sequence, move.last + 1, {{partner, customer_stop}});
+            insert_stops(sequence, behind, {served});
+            break;
+        case pair_trip:
+            insert_stops(sequence, behind, {start, served, {partner, customer_stop}, end});
             break;
         default:
             break;

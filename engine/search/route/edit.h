@@ -3,6 +3,7 @@
 
 #include <initializer_list>
 
+#include "rules/pair.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -35,6 +36,10 @@ constexpr Int to_halt = 10;   // on a sortie from `first` to a stop at a launch 
 
 constexpr Int by_halts = 11;  // on a sortie from a stop at a launch site behind `first` to one at
                               // another behind `last`, which comes later
+
+constexpr Int both_ends = 12;  // both ends of a shipment: the pickup behind stop `first`, the
+                               // delivery behind the pickup or the former stop `last`
+constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`
 
 // Tell whether a customer is served by way of stops more at launch sites.
 inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }
@@ -77,21 +82,30 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
 // Let a sortie serve a customer before its customer number `place`. In place.
 void join_sortie(Sortie& sortie, Int place, Int node);
 
-// Customers to be removed, in the order in which they were marked, each once.
+// Customers to be removed, in the order in which they were marked, each once. Of a shipment both
+// ends are, for which the pickup stands.
 struct Removed {
     View<bool, 1> marked;  // (node,)
     View<Int, 1> absent;   // who was absent before comes first
     Int count;             // of those in `absent`
+    View<const Pair, 1> pair;
 
     void mark(Int node) {
         if (marked[node]) return;
         marked[node] = true;
-        absent[count++] = node;
+        if (is_paired(pair, node)) marked[pair[node].partner] = true;
+        absent[count++] = unit_of(pair, node);
+    }
+
+    void unmark(Int node) const {
+        marked[node] = false;
+        if (is_paired(pair, node)) marked[pair[node].partner] = false;
     }
 };
 
-// Insert a customer, on trips from a depot. In place.
-void apply(Int depot, const Sequence& sequence, const Move& move, Int node);
+// Insert a customer, on trips from a depot; of a shipment its pickup, and its delivery `partner`.
+// In place.
+void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int partner);
 
 // Write a route that serves one customer in one of the `ways`, by a `drone`, or from a launch site.
 // In place.

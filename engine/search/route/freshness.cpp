@@ -4,6 +4,7 @@
 
 #include "rules/flown_trip.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/flown_trips.h"
@@ -35,12 +36,34 @@ Int excess_of_parcels(const ProblemData& data, const Route& route, View<const St
     return most;
 }
 
+// Return by how much a shipment is too long under way on a timed trip; at most 0 if none is.
+Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                    const Trip& trip) {
+    const View<const Int, 1> limits = data.max_between[route.type];
+    const NodeTable places = data.place.by_truck(data.type[route.type]);
+    Int most = -far;
+    for (Int p = trip.first; p <= trip.last; ++p) {
+        if (stops[p].kind != customer_stop || !is_delivery(data.pair, stops[p].node)) continue;
+        const Int pickup = data.pair[stops[p].node].partner;
+        for (Int q = p - 1; q > trip.first; --q) {
+            if (stops[q].kind != customer_stop || stops[q].node != pickup) continue;
+            const Int left = places[pickup].end_of_service(stops[q].arrival);
+            const Int start = places[stops[p].node].start_of_service(stops[p].arrival);
+            most = std::max(most, excess_between(limits, pickup, left, start));
+        }
+    }
+    return most;
+}
+
 // Return by how much later a timed trip has to begin at least; at most 0 if it needn't, `far` if
 // that doesn't help.
 Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 const Trip& trip, View<const Sortie, 1> sorties) {
     Int most = -far;
     if (time_aboard_counts(data)) most = excess_of_parcels(data, route, stops, trip, sorties);
+    if (!data.max_between.empty()) {
+        most = std::max(most, excess_of_pairs(data, route, stops, trip));
+    }
     if (bounds_trips(data.type[route.type])) {
         most = std::max(most, excess_in_air(data, route, stops, trip));
     }
@@ -62,7 +85,7 @@ Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1
 }
 
 bool holds_count(const ProblemData& data, Int k) {
-    return time_aboard_counts(data) || bounds_trips(data.type[k]);
+    return time_aboard_counts(data) || !data.max_between.empty() || bounds_trips(data.type[k]);
 }
 
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,

@@ -4,6 +4,7 @@
 
 #include "randomness.h"
 #include "rules/clock.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
@@ -96,6 +97,17 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
     return !may_work(data.type[route.type], route.end - soonest);
 }
 
+// Tell whether each trip serves whole shipments, each picked up first.
+bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                View<const Trip, 1> trips) {
+    const View<const Trip, 1> made = trips.first(route.trips);
+    return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
+        return keeps_pairs(data.pair, trip.first + 1, trip.last, [&](Int p) {
+            return stops[p].kind == customer_stop ? stops[p].node : nowhere;
+        });
+    });
+}
+
 // Write times and cost of a route with trips that end where they do. In place; false if it breaks
 // a rule.
 //
@@ -108,6 +120,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     const VehicleType& type = data.type[route.type];
     const bool held_back = data.evaluation[route.type].held_back;
     if (!load_trips(data, route, stops, trips, sorties)) return false;
+    if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     clear_holds(route, stops, trips);

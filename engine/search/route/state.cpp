@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "guard.h"
+#include "rules/pair.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 
@@ -32,6 +33,11 @@ bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at) {
                       [](const Stop& stop, const Stop& former) {
                           return stop.node == former.node && stop.kind == former.kind;
                       });
+}
+
+void leave_out(const ProblemData& data, const Fleet& fleet, Int node) {
+    fleet.where[node].slot = nowhere;
+    if (is_paired(data.pair, node)) fleet.where[data.pair[node].partner].slot = nowhere;
 }
 
 void list_active(const Searcher& searcher) {

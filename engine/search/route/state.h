@@ -13,6 +13,9 @@ void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to);
 // Tell whether a route without sorties is the same in two fleets, each in its slot.
 bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at);
 
+// Note that a customer is left out; of a shipment, both ends. In place.
+void leave_out(const ProblemData& data, const Fleet& fleet, Int node);
+
 // List the slots in use, and those that are free. In place.
 void list_active(const Searcher& searcher);
 

@@ -54,7 +54,7 @@ def begin_again(data: ProblemData, searcher: Searcher, linked: Linked | None = N
 def _construct(data: ProblemData, searcher: Searcher, linked: Linked | None) -> None:
     """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
-        call("tandem_disband", searcher)
+        call("tandem_disband", data, searcher)
         searcher.value.cost = missing_cost(data, searcher)
         insert_missing(data, searcher, order, linked)
     go_back(searcher)

@@ -70,7 +70,7 @@ def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
         trips = [[stop.node for stop in trip.stops[1:-1]]
                  for route in made if route.vehicle_type == k for trip in route.trips]
         routes += packed_routes(problem, k, trips, nodes, routes)
-    found = make_searcher(problem, data, Solution(tuple(routes), left_out(searcher)),
+    found = make_searcher(problem, data, Solution(tuple(routes), left_out(data, searcher)),
                           np.random.SeedSequence(0))
     return found if found.value.best < searcher.value.best else searcher
 

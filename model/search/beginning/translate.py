@@ -131,9 +131,13 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
     row.type, row.length, row.sorties = route.vehicle_type, len(stops), len(sorties)
 
 
-def left_out(searcher: Searcher) -> tuple[int, ...]:
-    """Return the customers that the best plan leaves out."""
-    return tuple(sorted(searcher.best_missing[: searcher.count.best_missing].tolist()))
+def left_out(data: ProblemData, searcher: Searcher) -> tuple[int, ...]:
+    """Return the customers that the best plan leaves out, both ends of a shipment."""
+    missing = searcher.best_missing[: searcher.count.best_missing].tolist()
+    if len(data.pair):
+        partners = data.pair["partner"][missing]
+        missing += partners[partners >= 0].tolist()
+    return tuple(sorted(missing))
 
 
 def read_routes(data: ProblemData, searcher: Searcher) -> Iterator[Route]:

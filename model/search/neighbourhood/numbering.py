@@ -44,4 +44,10 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
     by_node |= {name: np.take(table, node, 1)
                 for name in ("goods", "setup", "max_time_aboard", "no_launch")
                 if (table := getattr(instance, name)).shape[1]}
+    if instance.pair.shape[1]:
+        by_node["pair"] = pair = np.take(instance.pair, node, 1)
+        paired = pair["partner"] >= 0
+        pair["partner"][paired] = numbering.number[pair["partner"][paired]]
+    if instance.max_between.shape[2]:
+        by_node["max_between"] = np.take(instance.max_between, node, 2)
     return instance._replace(**by_node)

@@ -33,7 +33,11 @@ def divide(problem: Problem, plan: Solution, count: int,
         owner[members] = number
     heirs = owner[_nearest(place[list(plan.unassigned)], centre)]
     left_out: list[list[int]] = [[] for _ in range(count)]
-    for node, heir in zip(plan.unassigned, heirs, strict=True):
+    heir_of = dict(zip(plan.unassigned, heirs.tolist(), strict=True))
+    for each in problem.shipments:
+        if each.pickup in heir_of:
+            heir_of[each.delivery] = heir_of[each.pickup]
+    for node, heir in heir_of.items():
         left_out[heir].append(node)
     size = np.bincount(owner, weight, minlength=count) + [len(each) for each in left_out]
     spare = _dealt(problem, plan, size.astype(np.int64), [len(each) for each in left_out], rng)

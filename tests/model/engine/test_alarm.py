@@ -147,7 +147,7 @@ def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
     searcher = make_searcher(endless, data, Solution((), ()), np.random.SeedSequence(0))
 
     def insert() -> None:
-        call("tandem_disband", searcher)
+        call("tandem_disband", data, searcher)
         insert_missing(data, searcher, BY_FAR)
 
     # Quick machines have inserted all after a tenth of a second.

@@ -10,7 +10,7 @@ from model.solution import Solution
 
 def read_plan(data: ProblemData, searcher: Searcher) -> Solution:
     """Return the best plan found, each trip begun as late as costs nothing."""
-    return Solution(tuple(read_routes(data, searcher)), left_out(searcher))
+    return Solution(tuple(read_routes(data, searcher)), left_out(data, searcher))
 
 
 def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:

@@ -13,6 +13,7 @@ from tests.model.tiny import (
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
 )
+from tests.model.tiny_shipments import with_shipments
 
 
 def all_rules(rng: np.random.Generator) -> Problem:
@@ -125,6 +126,15 @@ def all_rules_of_duty(rng: np.random.Generator) -> Problem:
 def all_rules_both_ways(rng: np.random.Generator) -> Problem:
     problem = with_pickups(rng, all_rules(rng))
     return with_dimensions(rng, problem) if rng.random() < 0.2 else problem
+
+
+def all_rules_shipments(rng: np.random.Generator) -> Problem:
+    """Return problems with a shipment, most of them mixed with another rule."""
+    changes = (with_gaps, with_pickups, with_setups, with_duty, with_places, with_goods,
+               with_open_reloads, with_own_durations, with_energy)
+    change = changes[int(rng.integers(len(changes)))]
+    problem = all_rules(rng)
+    return with_shipments(rng, change(rng, problem) if rng.random() < 0.6 else problem)
 
 
 def all_rules_own_durations(rng: np.random.Generator) -> Problem:

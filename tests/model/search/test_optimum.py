@@ -22,10 +22,11 @@ from tests.model.search.mixed_rules import (
     all_rules_in_storms, all_rules_launch_sites, all_rules_limits_aboard, all_rules_of_duty,
     all_rules_on_batteries, all_rules_open,
     all_rules_open_reloading, all_rules_own_durations, all_rules_reloading, all_rules_revisits,
-    all_rules_setups,
+    all_rules_setups, all_rules_shipments,
     all_rules_several_windows, all_rules_swapping,
 )
 from tests.model.tiny import with_dimensions, with_places
+from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
 
@@ -290,12 +291,29 @@ def drones_both_ways(rng: np.random.Generator) -> Problem:
         replace(kind, capacity=(12_000,)) for kind in problem.vehicle_types))
 
 
+def shipments(rng: np.random.Generator) -> Problem:
+    """Two shipments beside a customer, by vehicles that each hold one or two."""
+    problem = street_problem(rng, plain_customers(rng, 5), replace(
+        TRUCK, capacity=(5000,), fixed_cost=float(rng.integers(0, 8))))
+    problem = with_shipments(rng, problem)
+    return replace(problem, shipments=tuple(
+        replace(each, amount=(int(rng.integers(1, 5)) * 1000,)) for each in problem.shipments))
+
+
+def timed_shipments(rng: np.random.Generator) -> Problem:
+    problem = shipments(rng)
+    return replace(problem, customers=with_windows(rng, problem.customers, 15, None),
+                   vehicle_types=tuple(replace(kind, cost_per_hour=30.0, max_trips=2)
+                                       for kind in problem.vehicle_types))
+
+
 KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     plain, windows, timed_windows, limited_work, two_depots, soft_windows, costly_waiting,
     two_types, two_trips, one_drone, two_drones, long_sorties, rush_hour, optional_customers,
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
     timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries,
-    small_and_large_drones, near_sorties, one_of_two_airborne, few_launch_places)
+    small_and_large_drones, near_sorties, one_of_two_airborne, few_launch_places, shipments,
+    timed_shipments)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -342,8 +360,8 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
 @pytest.mark.parametrize("draw", [
     all_rules_elsewhere, all_rules_begun, all_rules_several_windows, all_rules_on_batteries,
     all_rules_of_duty, all_rules_both_ways, all_rules_own_durations, all_rules_goods_apart,
-    all_rules_setups, all_rules_limits_aboard, all_rules_at_once, all_rules_swapping,
-    all_rules_in_range, all_rules_few_airborne, all_rules_few_launch_places,
+    all_rules_setups, all_rules_shipments, all_rules_limits_aboard, all_rules_at_once,
+    all_rules_swapping, all_rules_in_range, all_rules_few_airborne, all_rules_few_launch_places,
     all_rules_fliers, all_rules_few_at_hubs, all_rules_in_storms, all_rules_launch_sites,
     all_rules_revisits],
     ids=lambda draw: draw.__name__)

@@ -27,6 +27,7 @@ from tests.model.tiny import (
     with_table, with_turnaround,
 )
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
+from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
 
@@ -222,6 +223,28 @@ def test_what_is_aboard_at_each_stop_decides_what_is_legal(
         rng = np.random.default_rng((seed, 5))
         problem = change(rng, draw_tiny(rng))
         assert_exact(problem, rng, seed)
+
+
+def shipments_both_ways(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_shipments(rng, with_pickups_and_all_else(rng, problem))
+
+
+def shipments_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_shipments(rng, with_some(rng, problem, with_gaps, with_places, with_beginnings,
+                                         with_table, with_fliers, with_drone_types))
+
+
+@pytest.mark.parametrize("change", [with_shipments, shipments_both_ways, shipments_among_all])
+def test_shipments_are_picked_up_exactly_if_they_can_be_delivered(change: Change) -> None:
+    delivered = 0
+    for seed in range(90):
+        rng = np.random.default_rng((seed, 9))
+        problem = change(rng, draw_tiny(rng))
+        assert_exact(problem, rng, seed)
+        actions = set(roll([problem], seed).rollouts[0].actions)
+        delivered += any(encode_action(DRIVE, each.delivery) in actions
+                         for each in problem.shipments)
+    assert delivered > 15
 
 
 def assert_exact(problem: Problem, rng: np.random.Generator, seed: int) -> None:

@@ -1,0 +1,63 @@
+// Shipments: parcels fetched at one end and brought to the other on the same trip, later.
+#pragma once
+
+#include "rules/window.h"
+
+namespace tandem {
+
+// Whether there are shipments, by the rows of all nodes.
+inline bool some_paired(View<const Pair, 1> pairs) { return !pairs.empty(); }
+
+// Whether a node is an end of a shipment.
+inline bool is_paired(View<const Pair, 1> pairs, Int node) {
+    return some_paired(pairs) && pairs[node].partner >= 0;
+}
+
+// Whether a shipment is picked up at a node.
+inline bool is_pickup(View<const Pair, 1> pairs, Int node) {
+    return is_paired(pairs, node) && pairs[node].is_delivery == 0;
+}
+
+// Whether a shipment is delivered at a node.
+inline bool is_delivery(View<const Pair, 1> pairs, Int node) {
+    return is_paired(pairs, node) && pairs[node].is_delivery != 0;
+}
+
+// Who stands for a customer where both ends of a shipment are inserted or left out together: its
+// pickup.
+inline Int unit_of(View<const Pair, 1> pairs, Int node) {
+    return is_delivery(pairs, node) ? pairs[node].partner : node;
+}
+
+// How long shipments may be under way by vehicles of a type, by pickup; none where none is limited.
+inline View<const Int, 1> limits_of(const View<const Int, 2>& max_between, Int k) {
+    return max_between.empty() ? View<const Int, 1>() : max_between[k];
+}
+
+// By how much a shipment is too long under way whose pickup is over at `left`, and whose delivery
+// begins at `start`.
+inline Int excess_between(View<const Int, 1> max_between, Int pickup, Int left, Int start) {
+    return start - left - max_between[pickup];
+}
+
+// Whether the customers from `first` on, `behind` not among them, are whole shipments, each picked
+// up first; `node_at` tells who that is, -1 nobody. Those before `first` are another trip's.
+template <class NodeAt>
+bool keeps_pairs(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt& node_at) {
+    Int aboard = 0;
+    for (Int p = first; p < behind; ++p) {
+        const Int node = node_at(p);
+        if (node < 0 || !is_paired(pairs, node)) continue;
+        if (pairs[node].is_delivery == 0) {
+            ++aboard;
+            continue;
+        }
+        Int q = p - 1;
+        while (q >= first && node_at(q) != pairs[node].partner) --q;
+        if (q < first) return false;
+        --aboard;
+    }
+    return aboard == 0;
+}
+
+}  // namespace tandem

@@ -1,0 +1,253 @@
+#include "search/insertion/pairs.h"
+
+#include <algorithm>
+
+#include "rules/flown_trip.h"
+#include "rules/load.h"
+#include "rules/pair.h"
+#include "rules/shift.h"
+#include "rules/start.h"
+#include "search/insertion/newcomer.h"
+#include "search/route/goods.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+#include "search/route/vehicles.h"
+#include "search/scratch.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int ends_of_pair = 2;
+
+// Marks the stops of a trip that a vehicle may leave with a shipment's amount more aboard.
+void mark_fits(const ProblemData& data, const Fleet& fleet, Int slot, const Trip& trip, Int pickup,
+               View<bool, 1> fits) {
+    const VehicleType& type = data.type[fleet.route[slot].type];
+    std::fill(&fits[trip.first], &fits[trip.last] + 1, true);
+    for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+        const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
+        Amount load = picked_of(data.amount, pickup, tier);
+        for (Int p = trip.first; p <= trip.last; ++p) {
+            load = plus(load, amount_of(stop_loads[p].leaving));
+        }
+        for (Int p = trip.first; p < trip.last; ++p) {
+            const Amount leaving = amount_of(stop_loads[p].leaving);
+            load = plus(minus(load, leaving), amount_of(stop_loads[p].coming));
+            fits[p] = fits[p] && holds_in(type, load, tier);
+        }
+    }
+}
+
+// A shipment on its way along a trip.
+class PairScan {
+public:
+    PairScan(const Insertion& insertion, Int slot, const Trip& trip)
+        : data_(insertion.data),
+          fleet_(insertion.searcher.now),
+          best_(insertion.best),
+          slot_(slot),
+          trip_(trip),
+          route_(fleet_.route[slot]),
+          type_(data_.type[route_.type]),
+          rate_(data_.rate[route_.type]),
+          stops_(fleet_.stop[slot]),
+          pickup_(newcomer_for(data_, type_, insertion.node)),
+          delivery_(newcomer_for(data_, type_, data_.pair[insertion.node].partner)),
+          fits_(insertion.searcher.scratch->fits),
+          stops_cost_(double(ends_of_pair) * rate_.stop) {
+        mark_fits(data_, fleet_, slot, trip, insertion.node, fits_);
+    }
+
+    // Tries all places by what is known of the stops' times.
+    void walk() {
+        for (Int p = trip_.first; p < trip_.last; ++p) {
+            if (pickup_.place.too_late(stops_[p].leave)) return;
+            if (fits_[p]) walk_from(p);
+        }
+    }
+
+    // Tries all places, timing the route anew for each that may be the best.
+    void time_all() {
+        for (Int p = trip_.first; p < trip_.last; ++p) {
+            Int further = distance_from(pickup_.inward, stops_[p].node);
+            for (Int q = p; q < trip_.last && fits_[q] && !data_.deadline.passed(); ++q) {
+                if (q > p) further = driven_on(further, p, q);
+                const Int detour = further + delivered_behind(p, q);
+                if (data_.strategy.give_up_early && cost_of(detour) >= best_.cost) continue;
+                const Move move = move_to(p, q);
+                if (best_.takes(price_move(data_, fleet_, move, pickup_.node))) best_.move = move;
+            }
+        }
+    }
+
+private:
+    // When a vehicle leaves a stop, how long all takes up to there, the latest departure that costs
+    // nothing, and how much further it has driven.
+    struct Way {
+        Int leave, cum, depart, further;
+    };
+
+    double cost_of(Int detour) const { return double(detour) * rate_.distance + stops_cost_; }
+
+    Move move_to(Int p, Int q) const {
+        Move move{};
+        move.kind = both_ends;
+        move.slot = slot_;
+        move.first = p;
+        move.last = q;
+        move.type = route_.type;
+        return move;
+    }
+
+    // How much further it is to stop `q`, once a vehicle that takes the pickup behind `p` has come
+    // so much further to who is before.
+    Int driven_on(Int further, Int p, Int q) const {
+        if (q > p + 1) return further;
+        return further + distance_to(pickup_.onward, stops_[q].node) - stops_[p].leg;
+    }
+
+    // How much further it is by the delivery behind the pickup, or behind stop `q`.
+    Int delivered_behind(Int p, Int q) const {
+        const Int on = distance_to(delivery_.onward, stops_[q + 1].node) - stops_[q].leg;
+        if (q == p) return distance_to(pickup_.onward, delivery_.node) + on;
+        return distance_from(delivery_.inward, stops_[q].node) + on;
+    }
+
+    static void serve(Way& way, Windows place, Int duration) {
+        way.cum += duration;
+        const Int arrival = way.leave + duration;
+        way.depart = std::min(way.depart, place.as_late(arrival) - way.cum);
+        way.cum += place.service_duration();
+        way.leave = place.end_of_service(arrival);
+    }
+
+    void walk_from(Int p) {
+        const Stop& here = stops_[p];
+        const Leg out = leg_from(pickup_.inward, here.node);
+        if (pickup_.place.too_late(here.leave + out.duration)) return;
+        Way way{here.leave, here.cum, here.depart, out.distance};
+        serve(way, pickup_.place, out.duration);
+        const NodeTable places = data_.place.by_truck(type_);
+        for (Int q = p;; ++q) {
+            if (delivery_.place.too_late(way.leave)) return;
+            try_delivery(way, p, q);
+            if (q + 1 == trip_.last || !fits_[q + 1]) return;
+            const Stop& next = stops_[q + 1];
+            const Int gap = q == p ? leg_to(pickup_.onward, next.node).duration : stops_[q].gap;
+            if (way.leave + gap > next.latest) return;
+            way.further = driven_on(way.further, p, q + 1);
+            // By the triangle inequality no later delivery is nearer.
+            if (cost_of(way.further) >= best_.cost) return;
+            if (next.kind == customer_stop) {
+                serve(way, places[next.node], gap);
+            } else {
+                return;
+            }
+        }
+    }
+
+    void try_delivery(const Way& way, Int p, Int q) {
+        const double least = cost_of(way.further + delivered_behind(p, q));
+        if (least >= best_.cost) return;
+        const Stop& behind = stops_[q + 1];
+        const Leg out = q == p ? leg_to(pickup_.onward, delivery_.node)
+                               : leg_from(delivery_.inward, stops_[q].node);
+        if (delivery_.place.too_late(way.leave + out.duration)) return;
+        Way done = way;
+        serve(done, delivery_.place, out.duration);
+        const Int on = leg_to(delivery_.onward, behind.node).duration;
+        const Int time = done.leave + on;
+        if (time > behind.latest || time < behind.early) return;
+        const double cost = least + longer(done, on, behind);
+        if (cost < infeasible && best_.takes(cost)) best_.move = move_to(p, q);
+    }
+
+    // What it costs that the route lasts longer; `infeasible` if it may not.
+    double longer(const Way& way, Int on, const Stop& behind) const {
+        if (!data_.evaluation[route_.type].timed) return 0.0;
+        const Int cum = way.cum + on + behind.rest;
+        const Int depart = std::min(way.depart, behind.latest - way.cum - on);
+        const Int finish = std::max(way.leave + on + behind.rest, behind.end);
+        const Int working =
+            finish - counted_from(type_, std::min(depart, finish - cum)) - route_.offset;
+        if (!may_work(type_, working)) return infeasible;
+        return longer_cost(type_, rate_, route_, finish, working);
+    }
+
+    const ProblemData& data_;
+    const Fleet& fleet_;
+    Best& best_;
+    const Int slot_;
+    const Trip& trip_;
+    const Route& route_;
+    const VehicleType& type_;
+    const Rate& rate_;
+    const View<const Stop, 1> stops_;
+    const Newcomer pickup_;
+    const Newcomer delivery_;
+    const View<bool, 1> fits_;
+    const double stops_cost_;
+};
+
+// Whether all that matters of a route's times is known at its stops.
+bool is_walked(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    return !data.evaluation[route.type].priced && route.sorties == 0 &&
+           !bounds_trips(data.type[route.type]);
+}
+
+}  // namespace
+
+void scan_pair(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& fleet = searcher.now;
+    const Int k = fleet.route[slot].type;
+    if (!data.can(k, 0, node)) return;
+    const bool walked = is_walked(data, fleet, slot);
+    for (Int index = 0; index < fleet.route[slot].trips; ++index) {
+        const Trip& trip = fleet.trip(slot, index);
+        if (!allows_stops(data.type[k], stops_on(trip) + ends_of_pair) ||
+            !goods_may_join(data, fleet, slot, index, node)) {
+            continue;
+        }
+        PairScan scan(insertion, slot, trip);
+        walked ? scan.walk() : scan.time_all();
+    }
+}
+
+void scan_pair_beside(const Insertion& insertion) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& fleet = searcher.now;
+    const View<Int, 1> seen = searcher.scratch->moved;
+    Int found = 0;
+    for (const Int end : {node, data.pair[node].partner}) {
+        for (const Int other : data.granular[end]) {
+            if (other < 0) break;
+            const Int slot = fleet.where[other].slot;
+            if (slot < 0 || std::find(&seen[0], &seen[0] + found, slot) != &seen[0] + found) {
+                continue;
+            }
+            seen[found++] = slot;
+            scan_pair(insertion, slot);
+        }
+    }
+}
+
+void try_pair_trips(const Insertion& insertion, Int slot) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& fleet = searcher.now;
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const Int length = fleet.route[slot].length;
+    for (Int p = -1; p < length; ++p) {
+        if (p >= 0 && stops[p].kind != end_stop) continue;
+        Move move{};
+        move.kind = pair_trip;
+        move.slot = slot;
+        move.first = p;
+        move.type = fleet.route[slot].type;
+        if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+    }
+}
+
+}  // namespace tandem

@@ -1,0 +1,27 @@
+"""What customers ask to be aboard, as rows for the engine."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from model.problem import Customer, IntArray
+
+
+def padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
+    """Return so many dimensions of an amount, zero in those that the problem doesn't have."""
+    return (*amount[:length], *(0,) * (length - len(amount)))
+
+
+def write_amounts(rows: IntArray, customers: Sequence[Customer], size: int) -> None:
+    """Write what is delivered and picked up, (customer, tier, amount), in tiers of so many
+    dimensions. In place.
+    """
+    tiers = rows.shape[1]
+    if not tiers:
+        return
+    shape = len(customers), tiers, size
+    for first, amounts in ((0, [customer.demand for customer in customers]),
+                           (size, [customer.pickup for customer in customers])):
+        table = np.array([padded(amount, tiers * size) for amount in amounts], np.int64)
+        rows[:, :, first:first + size] = table.reshape(shape)
+        rows[:, :, 2 * size + first // size] = table.sum(axis=1)[:, None]

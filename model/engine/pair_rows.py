@@ -1,0 +1,52 @@
+"""Shipments as rows for the engine: who belongs together, what is aboard between, and how long."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from model.engine.library import dtype_of
+from model.engine.records import Records
+from model.problem import IntArray, Problem, VehicleType
+
+
+def empty_pairs(problems: Sequence[Problem], nodes: int) -> Records:
+    """Allocate rows of ends, (problem, node); (problem, 0) where there are no shipments."""
+    some = any(problem.shipments for problem in problems)
+    rows = np.zeros((len(problems), nodes if some else 0), dtype_of("tandem_pair"))
+    rows["partner"] = -1
+    return rows
+
+
+def empty_limits(problems: Sequence[Problem], types: int, nodes: int, far: int) -> IntArray:
+    """Allocate limits, (problem, type, node), all `far`; (problem, 0, 0) where there are none."""
+    some = any(problem.limits_time_between for problem in problems)
+    return np.full((len(problems), types if some else 0, nodes if some else 0), far, np.int64)
+
+
+def write_pairs(problem: Problem, rows: Records) -> IntArray:
+    """Write the other end at each end, (node,). In place; return the ends, (shipment, 2)."""
+    for each in problem.shipments:
+        rows[[each.pickup, each.delivery]] = [(each.delivery, 0), (each.pickup, 1)]
+    return np.array([(each.pickup, each.delivery) for each in problem.shipments])
+
+
+def write_aboard(problem: Problem, rows: IntArray, size: int) -> None:
+    """Write what comes aboard, (node, tier, amount), in tiers of so many dimensions. In place.
+
+    At a delivery that is less than nothing.
+    """
+    for each in problem.shipments:
+        amount = np.zeros(rows.shape[1] * size, np.int64)
+        amount[:len(each.amount)] = each.amount
+        rows[each.pickup, :, size:2 * size] = amount.reshape(-1, size)
+        rows[each.delivery, :, size:2 * size] = -amount.reshape(-1, size)
+
+
+def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray) -> None:
+    """Write how long shipments may be under way, (type, node), where that is limited. In place."""
+    for index, kind in enumerate(kinds):
+        duration = problem.travel[kind.travel].duration
+        for each in problem.shipments:
+            limit = each.longest_between(duration.item(each.pickup, each.delivery))
+            if limit is not None:
+                rows[index, each.pickup] = limit

@@ -1,0 +1,107 @@
+"""Shipments over HTTP and back."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from app.schemas.response import PlanReply
+
+Request = dict[str, Any]
+
+
+@pytest.fixture
+def paired(smallest: Request) -> Request:
+    """Return the smallest request with a shipment between its last customer and the depot."""
+    smallest["options"] = {"search_iterations": 500, "time_limit": 60}
+    smallest["shipments"] = [{
+        "id": "s1", "amount": [1], "pickup": {"location": [3, 0], "info": {"notes": "ring"}},
+        "delivery": {"location": [1, 0], "service_duration": 60}}]
+    return smallest
+
+
+def stops_of(plan: dict[str, Any]) -> list[tuple[str, str]]:
+    return [(stop["kind"], stop["id"]) for route in plan["routes"] for trip in route["trips"]
+            for stop in trip["stops"]]
+
+
+def test_a_shipment_is_fetched_before_it_is_brought(searching: httpx.Client,
+                                                    paired: Request) -> None:
+    plan = searching.post("/plan", json=paired).json()
+    PlanReply.model_validate(plan)
+    stops = stops_of(plan)
+    assert ("customer", "A") in stops
+    assert stops.index(("pickup", "s1")) < stops.index(("delivery", "s1"))
+    told = {(stop["kind"], stop["id"]): stop for route in plan["routes"]
+            for trip in route["trips"] for stop in trip["stops"]}
+    assert told["pickup", "s1"]["info"] == {"notes": "ring"}
+    assert told["pickup", "s1"]["load"][0] >= 1
+    checked = searching.post("/check", json={"problem": paired, "plan": plan}).json()
+    assert checked["feasible"], checked
+    assert checked["summary"] == plan["summary"]
+
+
+def test_a_plan_that_brings_before_it_fetches_is_refused(searching: httpx.Client,
+                                                         paired: Request) -> None:
+    plan = searching.post("/plan", json=paired).json()
+    for route in plan["routes"]:
+        for trip in route["trips"]:
+            for stop in trip["stops"]:
+                other = {"pickup": "delivery", "delivery": "pickup"}
+                stop["kind"] = other.get(stop["kind"], stop["kind"])
+    checked = searching.post("/check", json={"problem": paired, "plan": plan}).json()
+    assert "PAIR" in {violation["code"] for violation in checked["violations"]}
+
+
+def test_a_shipment_too_heavy_is_left_out_as_one(searching: httpx.Client,
+                                                 paired: Request) -> None:
+    paired["shipments"][0]["amount"] = [1e6]
+    plan = searching.post("/plan", json=paired).json()
+    PlanReply.model_validate(plan)
+    left_out, = plan["unassigned"]
+    assert (left_out["kind"], left_out["id"]) == ("shipment", "s1")
+    assert left_out["reasons"][0]["code"] == "CAPACITY"
+    checked = searching.post("/check", json={"problem": paired, "plan": plan}).json()
+    assert checked["feasible"], checked
+
+
+def test_how_long_a_shipment_is_under_way_is_limited(searching: httpx.Client,
+                                                     paired: Request) -> None:
+    paired["shipments"][0]["max_time_between"] = 0
+    plan = searching.post("/plan", json=paired).json()
+    left_out, = plan["unassigned"]
+    assert left_out["reasons"][0]["code"] == "TIME_BETWEEN"
+    paired["shipments"][0] |= {"max_time_between": None, "max_detour": 1}
+    # Whoever lies on the direct way takes time to be served.
+    paired["customers"] = [
+        {"id": "C", "location": [2, 0], "demand": [1], "service_duration": 60}]
+    stops = stops_of(searching.post("/plan", json=paired).json())
+    assert stops[stops.index(("pickup", "s1")) + 1] == ("delivery", "s1")
+
+
+def test_errors_of_ends_are_told_where_the_request_states_them(searching: httpx.Client,
+                                                               paired: Request) -> None:
+    paired["shipments"][0]["delivery"]["time_window"] = {"earliest": 20, "latest": 10}
+    paired["shipments"][0]["amount"] = [1, 1]
+    refused = searching.post("/plan", json=paired)
+    assert refused.status_code == 422
+    paths = {error["path"] for error in refused.json()["errors"]}
+    assert paths == {"$.shipments[0].delivery.time_window.latest", "$.shipments[0].amount"}
+
+
+def test_a_plan_with_shipments_is_explained_and_gone_on_from(searching: httpx.Client,
+                                                             paired: Request) -> None:
+    plan = searching.post("/plan", json=paired).json()
+    explained = searching.post("/explain", json={"problem": paired, "plan": plan,
+                                              "customer": "A"})
+    assert explained.status_code == 200, explained.text
+    again = searching.post("/plan", json=paired | {"replan": {"plan": plan}}).json()
+    assert again["cost"]["total"] == pytest.approx(plan["cost"]["total"])
+
+
+def test_a_plan_with_shipments_is_not_gone_on_from_amid_the_day(searching: httpx.Client,
+                                                                paired: Request) -> None:
+    plan = searching.post("/plan", json=paired).json()
+    refused = searching.post("/plan", json=paired | {
+        "replan": {"plan": plan, "freeze_before": 10}})
+    assert [error["code"] for error in refused.json()["errors"]] == ["SHIPMENTS_UNDER_WAY"]

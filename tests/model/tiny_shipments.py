@@ -1,0 +1,35 @@
+"""Tiny problems some of whose customers are ends of shipments."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from model.problem import Problem, Shipment
+from tests.model.tiny import MINUTE
+
+
+def _limit(rng: np.random.Generator, least: int, most: int, unit: int) -> int | None:
+    return int(rng.integers(least, most + 1)) * unit if rng.random() < 0.3 else None
+
+
+def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) -> Problem:
+    """Return a problem some of whose customers are ends of shipments, up to so many; to come last.
+    """
+    chosen = rng.permutation(problem.num_customers).tolist()
+    number = int(rng.integers(1, min(most, problem.num_customers // 2) + 1))
+    customers, shipments = list(problem.customers), list[Shipment]()
+    for index in range(number):
+        ends = chosen[2 * index], chosen[2 * index + 1]
+        for end, place in enumerate(ends):
+            customer, nothing = customers[place], (0,) * problem.num_dimensions
+            customers[place] = replace(
+                customer, demand=nothing, pickup=(), release_time=0, max_time_aboard=None,
+                goods=customers[ends[0]].goods,
+                served_by="truck" if customer.served_by == "drone" else customer.served_by,
+                unassigned_cost=0.0 if end else customer.unassigned_cost)
+        pickup, delivery = (problem.num_depots + place for place in ends)
+        amount = tuple(rng.integers(0, 4, problem.num_dimensions).tolist())
+        shipments.append(Shipment(
+            str(index), pickup, delivery, amount,
+            _limit(rng, 3, 25, MINUTE), _limit(rng, 1, 4, 1000)))
+    return replace(problem, customers=tuple(customers), shipments=tuple(shipments))
