@@ -84,6 +84,14 @@ def city(shared_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Itera
         yield address
 
 
+LOADED = """() => {
+  const tiles = [...document.querySelectorAll('.leaflet-tile-pane canvas')];
+  return tiles.length > 0 && tiles.every(({ classList }) => classList.contains(
+    'leaflet-tile-loaded'));
+}"""
+"""Tells whether all tiles of the streets are drawn."""
+
+
 def opened(open_page: Callable[..., Page], address: str, **options: Any) -> Page:
     """Return a console that shows a plan for the places."""
     page = open_page(address, allow=("willReadFrequently",), **options)
@@ -136,7 +144,7 @@ def test_streets_stay_from_light_to_dark_and_back_at_any_zoom(
     for _ in range(presses):
         page.get_by_role("button", name="Zoom in").first.click()
         expect(page.locator(".leaflet-zoom-anim")).to_have_count(0)
-    page.wait_for_load_state("networkidle")
+    page.wait_for_function(LOADED)
     for water in (0x14324A, 0xC5DCEC):
         page.keyboard.press("l")
         page.wait_for_function(f"() => ({COLOURS})().includes({water})")
@@ -180,7 +188,7 @@ def test_all_of_a_plan_on_roads_is_seen(
 
 def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None:
     page = opened(open_page, city)
-    page.wait_for_load_state("networkidle")
+    page.wait_for_function(LOADED)
     sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
                           "[entry.name, entry.encodedBodySize])")
     streets = [size for name, size in sizes if "/map/" in name]
