@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "guard.h"
 #include "rules/drone_types.h"
@@ -33,6 +34,14 @@ Int longest_line(const ProblemData& data, const Fleet& fleet) {
     return data.num_nodes + 3 + (has_halts(data) ? 2 * fleet.stop.shape(1) : 0);
 }
 
+// Returns room for parts planned at best, which are those that may have stops at launch sites.
+PartScratch part_scratch(const ProblemData& data) {
+    if (!has_halts(data)) return {0, 0};
+    const Int customers = data.num_nodes - data.num_depots;
+    return {customers <= most_planned ? customers : usually_planned,
+            std::min(most_sites, data.halts.shape(1))};
+}
+
 }  // namespace
 
 SplitScratch::SplitScratch(Int longest)
@@ -43,15 +52,25 @@ SplitScratch::SplitScratch(Int longest)
       distance(longest + at_once),
       out(longest) {}
 
-Scratch::Scratch(const ProblemData& data, const Searcher& searcher)
-    : Scratch(longest_line(data, searcher.now), data.num_nodes, most_moved(searcher.now),
-              most_offers(data, searcher.now)) {}
+PartScratch::PartScratch(Int most_customers, Int most_halts)
+    : customers(most_customers),
+      halts(most_halts),
+      flight(places() * (customers + 1) * places()),
+      way((Int{1} << customers) * places() * places()),
+      across((Int{1} << customers) * places() * places()),
+      reached((Int{1} << customers) * places()),
+      planned((most_customers + 1) * (most_halts + 2)) {}
 
-Scratch::Scratch(Int longest, Int num_nodes, Int most_moved, Int most_offers)
+Scratch::Scratch(const ProblemData& data, const Searcher& searcher)
+    : Scratch(longest_line(data, searcher.now), part_scratch(data), data.num_nodes,
+              most_moved(searcher.now), most_offers(data, searcher.now)) {}
+
+Scratch::Scratch(Int longest, PartScratch part, Int num_nodes, Int most_moved, Int most_offers)
     : line(longest),
       aside(longest),
       split(longest),
       changed(longest),
+      part(std::move(part)),
       key(num_nodes),
       moved(most_moved),
       fits(most_moved),

@@ -67,6 +67,69 @@ struct SplitScratch {
     Row<WaysOut> out;  // (place,)
 };
 
+constexpr Int most_planned = 10;              // customers of a part planned at best
+constexpr Int usually_planned = 8;            // where there are more customers than those
+constexpr Int most_sites = most_planned + 6;  // launch sites looked at for it
+
+// Who is served between two stops, and where the truck may stop for its drone alone.
+struct PartToPlan {
+    Int type;
+    Int from, to;  // nodes of the stops
+    Int customers, halts;
+    std::array<Int, most_planned> customer;
+    std::array<Int, most_sites> halt;
+    std::array<unsigned, most_sites> need;  // the customer, as a bit, served before a stop there
+};
+
+// A place of a part where truck and drone are together: the first stop, a customer, a launch site,
+// or the last stop.
+using Spot = std::int8_t;
+
+constexpr Spot no_spot = -1;
+
+// What truck and drone do between two places: the drone serves somebody, or nobody, meanwhile.
+struct PlannedOperation {
+    Spot from, to;
+    Spot flown;       // a customer, or `no_spot`
+    unsigned served;  // by both, as bits
+};
+
+// What a part is planned in at best.
+struct PartScratch {
+    // For so many customers and launch sites at most.
+    PartScratch(Int most_customers, Int most_halts);
+
+    // How a truck drives from one place to another by way of some customers.
+    struct Way {
+        Int duration, distance;
+        Spot last;  // whom it serves last, or `no_spot`
+    };
+
+    // The cheapest operation from one place to another that serves some customers.
+    struct Across {
+        double cost;
+        Spot flown;
+    };
+
+    // How truck and drone come to a place, some having been served, and what all up to there costs.
+    struct Reached {
+        double cost;
+        unsigned before;  // who had been served where the operation began
+        Spot from, flown;
+    };
+
+    // How many places there are at most.
+    Int places() const { return customers + halts + 2; }
+
+    Int customers, halts;  // at most
+    PartToPlan part{};
+    Row<Int> flight;                // (from, customer, to) how long that takes
+    Row<Way> way;                   // (from, set, to)
+    Row<Across> across;             // (from, set, to)
+    Row<Reached> reached;           // (set, place)
+    Row<PlannedOperation> planned;  // in order
+};
+
 struct Scratch {
     // Makes room for calls of a search.
     Scratch(const ProblemData& data, const Searcher& searcher);
@@ -78,15 +141,16 @@ struct Scratch {
     Row<Line> aside;  // (place,) some of them before a change
     SplitScratch split;
     SplitScratch changed;  // of a line of which some places were changed
-    Row<double> key;       // (node,) order of insertion
-    Row<Int> moved;        // slots that a ruin touches, or where stops move to
-    Row<bool> fits;        // (position,) whether a vehicle may leave with more aboard
-    Row<Move> offer;       // insertions that may be best
-    Row<double> least;     // what each costs at least
-    Int offers = 0;        // how many are listed
+    PartScratch part;
+    Row<double> key;    // (node,) order of insertion
+    Row<Int> moved;     // slots that a ruin touches, or where stops move to
+    Row<bool> fits;     // (position,) whether a vehicle may leave with more aboard
+    Row<Move> offer;    // insertions that may be best
+    Row<double> least;  // what each costs at least
+    Int offers = 0;     // how many are listed
 
 private:
-    Scratch(Int longest, Int num_nodes, Int most_moved, Int most_offers);
+    Scratch(Int longest, PartScratch part, Int num_nodes, Int most_moved, Int most_offers);
 };
 
 }  // namespace tandem

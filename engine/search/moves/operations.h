@@ -69,4 +69,33 @@ Costs crossing_cost(const Rate& rate, const Amounts& working, const Amounts& air
            flown_cost(rate, flown);
 }
 
+// What the truck does while its drone flies across: how long it takes from the arrival where both
+// part, services included, how far that is, and how many it stops at on the way.
+struct Drive {
+    Int duration, distance, stops;
+};
+
+// Return what it costs to go from one node to another while the drone serves a customer; infinite
+// if that can't be.
+inline double cost_across(const ProblemData& data, Int k, Int from, Int customer, Int to,
+                          const Drive& drive) {
+    const VehicleType& type = data.type[k];
+    const Rate& rate = data.rate[k];
+    if (waits_for_drones(type) || !in_range(data, type, from, customer) ||
+        !in_range(data, type, to, customer)) {
+        return infinite_cost;
+    }
+    const auto [flight, distance] =
+        way_by_air(data, type, data.place.by_air(type)[customer], from, customer, to);
+    const Int service = data.place.by_truck(type)[from].service_duration();
+    const Int away = drive.duration + stay_beside_launch(type, service);
+    const Int back = flight.duration();
+    const Int airborne = std::max(back, away);
+    if (!within_endurance(type, 0, back, airborne) || !flight.can_wait(airborne - back)) {
+        return infinite_cost;
+    }
+    const double alone = drive_cost(rate, drive.distance) + stops_cost(rate, drive.stops);
+    return crossing_cost(rate, handling_duration(type) + airborne, airborne, distance, alone);
+}
+
 }  // namespace tandem

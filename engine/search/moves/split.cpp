@@ -38,26 +38,10 @@ Int place_near(const ProblemData& data, View<const Line, 1> line, Int count, Int
 // if that can't be.
 double cost_across(const ProblemData& data, Int k, View<const Line, 1> line, Int i, Int j,
                    Int flown) {
-    const VehicleType& type = data.type[k];
-    const Rate& rate = data.rate[k];
     const Line &from = line[i], &spared = line[flown], &to = line[j];
-    const auto [flight, distance] = way_by_air(data, type, data.place.by_air(type)[spared.node],
-                                               from.node, spared.node, to.node);
-    const Int service = data.place.by_truck(type)[from.node].service_duration();
-    const Int drive =
-        to.drive - from.drive - spared.spared_drive + stay_beside_launch(type, service);
-    if (waits_for_drones(type) || !in_range(data, type, from.node, spared.node) ||
-        !in_range(data, type, to.node, spared.node)) {
-        return infinite_cost;
-    }
-    const Int back = flight.duration();
-    const Int airborne = std::max(back, drive);
-    if (!within_endurance(type, 0, back, airborne) || !flight.can_wait(airborne - back)) {
-        return infinite_cost;
-    }
-    const double alone = drive_cost(rate, to.distance - from.distance - spared.spared_distance) +
-                         stops_cost(rate, j - i - 1);
-    return crossing_cost(rate, handling_duration(type) + airborne, airborne, distance, alone);
+    const Drive drive{to.drive - from.drive - spared.spared_drive,
+                      to.distance - from.distance - spared.spared_distance, j - i - 1};
+    return cost_across(data, k, from.node, spared.node, to.node, drive);
 }
 
 }  // namespace

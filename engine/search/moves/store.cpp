@@ -6,11 +6,13 @@
 #include "guard.h"
 #include "randomness.h"
 #include "search/anneal.h"
+#include "search/moves/best_part.h"
 #include "search/moves/recreate.h"
 #include "search/moves/resplit.h"
 #include "search/moves/retype.h"
 #include "search/moves/ruin.h"
 #include "search/moves/two_opt_star.h"
+#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/scratch.h"
@@ -20,11 +22,13 @@ namespace {
 
 constexpr Int resplits = 30;  // trips with one drone planned anew from their order each turn
 
+constexpr double best_part_share = 0.0002;  // how often one is planned at best, instead
+
 // Routes in rows of stops, with all that `Fleet` knows of them.
 class RouteStore {
 public:
     RouteStore(const ProblemData& data, Searcher& searcher)
-        : data_(data), searcher_(searcher), resplit_(data, searcher) {}
+        : data_(data), searcher_(searcher), resplit_(data, searcher), best_part_(data, searcher) {}
 
     void ruin(Int first) {
         resplit_.forget();
@@ -58,8 +62,7 @@ public:
     bool move_part(Int part, double rise) {
         SearchCounts& count = *searcher_.count;
         count.touched = 0;
-        const bool is_moved =
-            part == 0 ? two_opt_star(data_, searcher_, rise) : resplit_.attempt(rise);
+        const bool is_moved = part == 0 ? two_opt_star(data_, searcher_, rise) : plan_anew(rise);
         if (!is_moved) return false;
         // Who is left out stays the same, and isn't listed as absent yet.
         count.absent = count.missing;
@@ -98,6 +101,15 @@ public:
     }
 
 private:
+    // Plans a part of a trip with one drone anew.
+    bool plan_anew(double rise) {
+        if (has_halts(data_) && uniform(searcher_.rng) < best_part_share) {
+            resplit_.forget();
+            return best_part_.attempt();
+        }
+        return resplit_.attempt(rise);
+    }
+
     Int num_trips() const {
         Int trips = 0;
         for (const Int slot : searcher_.active.first(searcher_.count->active)) {
@@ -132,6 +144,7 @@ private:
     const ProblemData& data_;
     Searcher& searcher_;
     Resplit resplit_;
+    BestPart best_part_;
 };
 
 }  // namespace
