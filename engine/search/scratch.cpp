@@ -22,7 +22,8 @@ Int most_offers(const ProblemData& data, const Fleet& fleet) {
     const Int sorties = fleet.sortie.shape(1);
     const Int halts = data.near_halts.shape(1) * at_one_halt * rows;
     return std::max({(at_one_stop * rows + halts) * stops + sorties * (data.max_visits + 1),
-                     data.num_nodes + fleet.route.size() * (2 + rows) * (trips + 1),
+                     data.num_nodes + fleet.route.size() *
+                                          (2 + rows * (1 + data.near_halts.shape(1))) * (trips + 1),
                      2 * (at_one_stop * rows + halts) * data.granular.shape(1)});
 }
 

@@ -322,7 +322,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
         kind == on_sortie ? fleet.sortie(slot, move.sortie).launch : std::max(move.first, Int{0});
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, there).trip);
     const Int release = release_of(data.place[0][node]);
-    const bool alone = kind == new_trip || kind == flight_trip;
+    const bool alone = kind == new_trip || kind == flight_trip || kind == halt_trip;
     const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
     apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node, partner);
@@ -330,7 +330,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     double cost = price_part(data, fleet, slot, part, to);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
         cost += data.rate[k].stop;
-    } else if (uses_halt(move)) {
+    } else if (uses_halt(move) || kind == halt_trip) {
         cost += data.halt_cost[move.halt];
         if (move.kind == by_halts) cost += data.halt_cost[move.landing];
     }

@@ -6,6 +6,7 @@
 #include "rules/leg.h"
 #include "rules/shift.h"
 #include "search/insertion/listing.h"
+#include "search/insertion/new_trips.h"
 #include "search/insertion/newcomer.h"
 #include "search/insertion/offers.h"
 #include "search/route/drone_data.h"
@@ -192,6 +193,38 @@ void offer_halts(const Insertion& insertion, Int slot, Int first, Int last) {
         for (const Int halt : data.near_halts[node]) {
             if (halt < 0) break;
             for (Int p = first; p <= last; ++p) halting.offer_behind(p, halt);
+        }
+    }
+}
+
+void offer_halt_trips(const Insertion& insertion, Int slot) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    if (!data.strategy.loops) return;
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    const Int k = route.type, depot = data.type[k].depot;
+    if (!may_begin(data, k, node)) return;
+    const TravelLegs legs = legs_of(data.leg, data.type[k].travel);
+    for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
+        const VehicleType& type = data.type[row];
+        if (!data.can(row, 1, node)) continue;
+        for (const Int halt : data.near_halts[node]) {
+            if (halt < 0) break;
+            if (!may_halt(data.halts, k, halt) || !in_range(data, type, halt, node)) continue;
+            const Leg out = leg(legs_of(data.leg, type.drone_travel), halt, node);
+            const Leg home = leg(legs_of(data.leg, type.home_travel), node, halt);
+            const Flight flight{type, data.place.by_air(type)[node], out.duration, home.duration};
+            const Int driven = leg(legs, depot, halt).distance + leg(legs, halt, depot).distance;
+            const double cost = drive_cost(data.rate[k], driven) + data.halt_cost[halt] +
+                                flown_cost(data.rate[row], out.distance + home.distance) -
+                                now.early[slot];
+            if (cost >= best.cost || !flight.can_serve()) continue;
+            for (Int p = -1; p < route.length; ++p) {
+                if (p >= 0 && now.stop(slot, p).kind != end_stop) continue;
+                Move& move = add_offer(searcher, cost, halt_trip, slot, p);
+                move.drone = first_drone(data.type, k, row);
+                move.halt = halt;
+            }
         }
     }
 }

@@ -36,6 +36,9 @@ void offer_joining(const Insertion& insertion, Int slot);
 // Lists trips that a drone flies alone to a customer.
 void offer_flight_trips(const Insertion& insertion, Int slot);
 
+// Lists trips of their own of a route's vehicle to launch sites, from where a customer is flown to.
+void offer_halt_trips(const Insertion& insertion, Int slot);
+
 // Lists a customer where a trip more begins or ends.
 void offer_trips(const Insertion& insertion, Int slot);
 

@@ -195,6 +195,7 @@ void try_trips(const Insertion& insertion, Int number) {
             }
         }
         if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
+        if (has_halts(data) && data.can(k, 1, node)) offer_halt_trips(insertion, slot);
     }
     take_cheapest(insertion);
 }

@@ -117,6 +117,10 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int 
         case pair_trip:
             insert_stops(sequence, behind, {start, served, {partner, customer_stop}, end});
             break;
+        case halt_trip:
+            insert_stops(sequence, behind, {start, {move.halt, halt_stop}, end});
+            add_sortie(route, sorties, behind + 1, behind + 1, move.drone, node);
+            break;
         default:
             break;
     }

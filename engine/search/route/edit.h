@@ -40,6 +40,8 @@ constexpr Int by_halts = 11;  // on a sortie from a stop at a launch site behind
 constexpr Int both_ends = 12;  // both ends of a shipment: the pickup behind stop `first`, the
                                // delivery behind the pickup or the former stop `last`
 constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`
+constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
+                               // site and back there
 
 // Tell whether a customer is served by way of stops more at launch sites.
 inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }

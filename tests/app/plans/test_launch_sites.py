@@ -103,6 +103,15 @@ def test_a_truck_comes_back_to_whom_it_has_served(searching: httpx.Client,
     assert plan["cost"]["total"] <= alone["cost"]["total"]
 
 
+def test_further_trips_go_to_launch_sites_too(searching: httpx.Client, far_off: Request) -> None:
+    isle = far_off["customers"][1]
+    far_off["customers"] = [isle, isle | {"id": "rock", "location": [100, 9000]}]
+    far_off["fleet"][0] |= {"capacity": [1], "max_trips": 2}
+    plan = planned(searching, far_off)
+    assert plan["unassigned"] == []
+    assert [stop["id"] for stop in site_stops(plan)] == ["car park", "car park"]
+
+
 def test_the_documented_example_stops_at_a_pier(searching: httpx.Client) -> None:
     plan = planned_and_judged(searching, documented("launch_sites"))
     assert plan["unassigned"] == []
