@@ -7,8 +7,9 @@ import numpy as np
 from model.problem import BoolArray, FloatArray, Int32Array, IntArray, Problem
 from model.search.neighbourhood.numbering import Numbering
 
-NEAR_HALTS = 5
-"""Launch sites from or to which each customer may be flown, the nearest ones."""
+NEAR_HALTS = 6
+"""Launch sites from or to which each customer may be flown, the nearest ones. Most of the search
+looks at half of them."""
 
 NOBODY = -1
 

@@ -68,6 +68,8 @@ public:
         const Int detour = there.duration + on.duration - here.gap;
         const Int longer = detour - idle_ - here.idle;
         const Int handled = handling_duration(type_);
+        const Int least_longer = std::max(Int{0}, longer - handled);
+        if (driven + usual_work_cost(data_.rate[k_], least_longer) >= best_) return;
         if (data_.strategy.loops) {
             const Flight loop{type_, place_, out.duration, home.duration};
             offer({from_halt, p, p, halt, nowhere}, loop, driven, out.distance + home.distance,
@@ -103,7 +105,7 @@ private:
     // `driven` and `longer` are what the first stop costs, and how much longer it takes.
     void offer_landings(Int p, Int halt, const Leg& out, double driven, Int longer) const {
         const TravelLegs legs = legs_of(data_.leg, data_.type[k_].travel);
-        const View<const std::int32_t, 1> near = data_.near_halts[node_];
+        const View<const std::int32_t, 1> near = nearest_halts(data_, node_);
         const Int last = std::min(searcher_.now.trip(slot_, stops_[p].trip).last - 1, p + max_span);
         for (Int rank = 0; rank < std::min(max_landings, near.size()); ++rank) {
             const Int landing = near[rank];
@@ -190,7 +192,7 @@ void offer_halts(const Insertion& insertion, Int slot, Int first, Int last) {
             continue;
         }
         const Halting halting(insertion, slot, row);
-        for (const Int halt : data.near_halts[node]) {
+        for (const Int halt : nearest_halts(data, node)) {
             if (halt < 0) break;
             for (Int p = first; p <= last; ++p) halting.offer_behind(p, halt);
         }
@@ -208,7 +210,7 @@ void offer_halt_trips(const Insertion& insertion, Int slot) {
     for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
         const VehicleType& type = data.type[row];
         if (!data.can(row, 1, node)) continue;
-        for (const Int halt : data.near_halts[node]) {
+        for (const Int halt : nearest_halts(data, node)) {
             if (halt < 0) break;
             if (!may_halt(data.halts, k, halt) || !in_range(data, type, halt, node)) continue;
             const Leg out = leg(legs_of(data.leg, type.drone_travel), halt, node);

@@ -22,6 +22,32 @@
 namespace tandem {
 namespace {
 
+// Tells whether a drone of a trip may fly to a customer, by what is carried and how often it flies.
+bool may_fly_on(const Insertion& insertion, Int slot, Int index) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    return may_launch(data.type[route.type], route, now.sortie[slot], now.trip(slot, index)) &&
+           may_fit(data, now, slot, index, route.type, node) &&
+           goods_may_join(data, now, slot, index, node);
+}
+
+// Tries a customer on flights from stops at launch sites to come on a route.
+//
+// Once the best of all else is known, most of them cost too much.
+void try_halts(const Insertion& insertion, Int slot) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& now = searcher.now;
+    const Route& route = now.route[slot];
+    for (Int index = 0; index < route.trips; ++index) {
+        const Trip& trip = now.trip(slot, index);
+        if (may_fly_on(insertion, slot, index)) {
+            offer_halts(insertion, slot, trip.first, trip.last - 1);
+        }
+    }
+    take_cheapest(insertion);
+}
+
 // Tries a customer on the trips and sorties of a route.
 void try_route(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, best] = insertion;
@@ -49,7 +75,6 @@ void try_route(const Insertion& insertion, Int slot) {
         }
         if (!flies || !may_launch(type, route, now.sortie[slot], trip)) continue;
         offer_sorties(insertion, slot, first, last - 1);
-        if (has_halts(data)) offer_halts(insertion, slot, first, last - 1);
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
         const Int soonest = held_until(data.place[0][node].opening(leave), endurance_of(type));
@@ -57,6 +82,7 @@ void try_route(const Insertion& insertion, Int slot) {
     }
     if (data.visits[k] > 1 && flies) offer_joining(insertion, slot);
     take_cheapest(insertion);
+    if (has_halts(data) && flies) try_halts(insertion, slot);
 }
 
 // Tells whether the best place kept for a customer on a route is still that, or none is.
@@ -126,9 +152,18 @@ void offer_beside(const Insertion& insertion, Int other) {
     const Int first = std::max(p - 1, trip.first);
     // Nobody is served behind the depot.
     if (drives) offer_stops(insertion, slot, first, std::min(p, trip.last - 1));
-    if (!flies) return;
-    offer_sorties(insertion, slot, first, p);
-    if (has_halts(data)) offer_halts(insertion, slot, first, std::min(p, trip.last - 1));
+    if (flies) offer_sorties(insertion, slot, first, p);
+}
+
+// Lists a customer on flights from stops at launch sites to come beside another, on its trip.
+void offer_halts_beside(const Insertion& insertion, Int other) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& now = searcher.now;
+    const Int slot = now.where[other].slot;
+    const Int p = stop_beside(now, other), index = now.stop(slot, p).trip;
+    const Trip& trip = now.trip(slot, index);
+    if (!data.can(now.route[slot].type, 1, node) || !may_fly_on(insertion, slot, index)) return;
+    offer_halts(insertion, slot, std::max(p - 1, trip.first), std::min(p, trip.last - 1));
 }
 
 }  // namespace
@@ -164,6 +199,12 @@ void find_beside(const Insertion& insertion) {
     for (const Int other : data.granular[node]) {
         if (other < 0) break;
         if (searcher.now.where[other].slot >= 0) offer_beside(insertion, other);
+    }
+    take_cheapest(insertion);
+    if (!has_halts(data)) return;
+    for (const Int other : data.granular[node]) {
+        if (other < 0) break;
+        if (searcher.now.where[other].slot >= 0) offer_halts_beside(insertion, other);
     }
     take_cheapest(insertion);
 }

@@ -172,6 +172,8 @@ bool BestPart::write(Int slot, const Part& part, const BestOperations& best) {
         write_operation(slot, best, best.operation(number));
     }
     append(now, spare, part.last, now.route[spare].length, slot);
+    // Where ways by a launch site are shorter, the truck may have come by for nothing.
+    close_ranks(sequence_in(now, slot), searcher_.marked, searcher_.scratch->moved);
     const bool done = refresh(data_, now, slot);
     locate(now, slot);
     return done;

@@ -50,7 +50,7 @@ void halt_for(const ProblemData& data, const Searcher& searcher, Int node) {
     const Stop& stop = now.stop(slot, p);
     if (stop.kind == end_stop) return;
     const bool near_stop = stop.kind == customer_stop && uniform(searcher.rng) < near_stop_share;
-    const View<const std::int32_t, 1> near = data.near_halts[near_stop ? stop.node : node];
+    const View<const std::int32_t, 1> near = nearest_halts(data, near_stop ? stop.node : node);
     const Int halt = near[below(searcher.rng, near.size())];
     if (halt < 0) return;
     const Int spare = now.route.size() - 2;
@@ -88,7 +88,7 @@ Places change_halts(const ProblemData& data, Int k, View<Line, 1> line, Int leng
     }
     if (2 * halts > count) return {1, 0};
     const Int beside = 1 + below(rng, count);
-    const View<const std::int32_t, 1> near = data.near_halts[line[beside].node];
+    const View<const std::int32_t, 1> near = nearest_halts(data, line[beside].node);
     const Int halt = near[below(rng, near.size())];
     const Int from = beside + 1 - nearby + below(rng, 2 * nearby);
     const Int place = std::clamp(from, Int{1}, count + 1);

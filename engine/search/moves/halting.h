@@ -10,7 +10,7 @@
 
 namespace tandem {
 
-constexpr double halting_share = 0.5;  // how often that is done
+constexpr double halting_share = 0.1;  // how often that is done
 
 // Put a stop at a launch site near a customer, or near where it is put, on a route that was
 // touched. In place; maybe nothing.

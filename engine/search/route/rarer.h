@@ -1,6 +1,8 @@
 // What the search looks at only where a rarer rule is stated.
 #pragma once
 
+#include <algorithm>
+
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -13,6 +15,14 @@ inline Int tiers_aboard(const Fleet& fleet) { return fleet.stop_load.shape(1); }
 
 // Tell whether trucks may stop at places for their drones alone.
 inline bool has_halts(const ProblemData& data) { return !data.halts.empty(); }
+
+// The launch sites nearest to a customer, which are looked at more often than others near; behind
+// the last one `nowhere`.
+inline View<const std::int32_t, 1> nearest_halts(const ProblemData& data, Int node) {
+    constexpr Int most = 3;
+    const View<const std::int32_t, 1> near = data.near_halts[node];
+    return near.first(std::min(most, near.size()));
+}
 
 // Tell whether some goods must not go with others.
 inline bool goods_count(const ProblemData& data) { return !data.goods.empty(); }
