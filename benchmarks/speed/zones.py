@@ -33,54 +33,24 @@ Data = dict[str, Any]
 def drawn(zones: int, customers: int, spread_km: float, seed: int = 7) -> Data:
     """Return a request with zones around its customers."""
     rng = random.Random(seed)
-    published = country(zones, spread_km, rng)
+
+    def place(within: float) -> list[float]:
+        x, y = rng.uniform(-within, within), rng.uniform(-within, within)
+        return [CENTER[0] + x / DEGREE_KM / math.cos(math.radians(CENTER[1])),
+                CENTER[1] + y / DEGREE_KM]
+
+    smaller = min(1.0, spread_km / 60)
+    features = [_zone(index, place(spread_km), smaller, rng) for index in range(zones)]
     return {
         "coordinate_system": "geographic",
         "depots": [{"id": "hub", "location": list(CENTER)}],
-        "customers": [{"id": f"c{index}", "location": _place(CUSTOMERS_KM, rng), "demand": [1]}
+        "customers": [{"id": f"c{index}", "location": place(CUSTOMERS_KM), "demand": [1]}
                       for index in range(customers)],
         "fleet": [{"id": "van", "count": 10, "capacity": [20],
                    "drones": {"count": 1, "capacity": [2]}}],
-        "airspace": {"zones": [{"format": "ed269", "data": published}]},
+        "airspace": {"zones": [{"format": "ed269", "data": {"features": features}}]},
         "options": {"time_limit": 10},
     }
-
-
-def country(zones: int, spread_km: float, rng: random.Random) -> Data:
-    """Return a file after ED-269, its zones up to so far from the middle."""
-    smaller = min(1.0, spread_km / 60)
-    return {"features": [_zone(index, _place(spread_km, rng), smaller, rng)
-                         for index in range(zones)]}
-
-
-def after_ed318(published: Data) -> Data:
-    """Return the zones of a file after ED-269 as ED-318 has them."""
-    return {"type": "FeatureCollection", "metadata": {"issued": "2026-01-01T00:00:00Z"},
-            "features": list(map(_feature, published["features"]))}
-
-
-def _feature(zone: Data) -> Data:
-    (volume,) = zone["geometry"]
-    area = volume["horizontalProjection"]
-    if area["type"] == "Circle":
-        area = {"type": "Point", "coordinates": area["center"],
-                "extent": {"subType": "Circle", "radius": area["radius"]}}
-    layer = {"lower": volume["lowerLimit"], "lowerReference": volume["lowerVerticalReference"],
-             "upper": volume["upperLimit"], "upperReference": volume["upperVerticalReference"],
-             "uom": volume["uomDimensions"].lower()}
-    (authority,) = zone["zoneAuthority"]
-    return {"type": "Feature", "geometry": area | {"layer": layer}, "properties": {
-        "identifier": zone["identifier"], "country": zone["country"],
-        "name": [{"text": zone["name"], "lang": "en-GB"}], "variant": zone["type"],
-        "type": zone["restriction"],
-        "zoneAuthority": [{"name": [{"text": authority["name"], "lang": "en-GB"}],
-                           "purpose": "AUTHORIZATION"}]}}
-
-
-def _place(within: float, rng: random.Random) -> list[float]:
-    x, y = rng.uniform(-within, within), rng.uniform(-within, within)
-    return [CENTER[0] + x / DEGREE_KM / math.cos(math.radians(CENTER[1])),
-            CENTER[1] + y / DEGREE_KM]
 
 
 def _zone(index: int, center: list[float], smaller: float, rng: random.Random) -> Data:

@@ -1,6 +1,7 @@
 """Files of zones, dropped onto the page: seen, planned around, and told of who lies in one."""
 
 import json
+import math
 import random
 import zipfile
 from typing import Any
@@ -8,13 +9,15 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page, expect
 
-from benchmarks.speed.zones import CENTER, DEGREE_KM, after_ed318, country
+from tests.app.maps.airspace.published import ed318, layer
 from tests.console.steps import open_example, open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
 
 NUM_ZONES = 400
+HUB = [25.0, 62.0]
+DEGREE_KM = 111.2
 DROP = """([name, text]) => {
   const dataTransfer = new DataTransfer();
   dataTransfer.items.add(new File([text], name));
@@ -56,43 +59,60 @@ def test_zones_of_a_file_are_seen_planned_around_and_told(page: Page) -> None:
     assert state(page, "state.request.airspace.zones") == []
 
 
-def published() -> dict[str, Any]:
-    """Return a country's zones after ED-318, one of which is round a shop near the hub."""
-    file = after_ed318(country(NUM_ZONES, 60.0, random.Random(7)))
-    properties = file["features"][-1]["properties"]
-    properties |= {"name": [{"text": "Lentoasema", "lang": "fi-FI"},
-                            {"text": "Airport", "lang": "en-GB"}],
-                   "identifier": "EFAIR", "type": "REQ_AUTHORIZATION",
-                   "zoneAuthority": [{"name": [{"text": "Fintraffic", "lang": "en-GB"}],
-                                      "email": "drones@authority.example",
-                                      "purpose": "AUTHORIZATION"}]}
-    file["features"][-1]["geometry"] = {
-        "type": "Point", "coordinates": shop("closed")["location"],
-        "extent": {"subType": "Circle", "radius": 900},
-        "layer": {"lower": 0, "lowerReference": "AGL", "upper": 1500, "upperReference": "AMSL",
-                  "uom": "ft"}}
+def beside_hub(east_km: float, north_km: float) -> list[float]:
+    """Return a place so far from the hub."""
+    return [HUB[0] + east_km / DEGREE_KM / math.cos(math.radians(HUB[1])),
+            HUB[1] + north_km / DEGREE_KM]
+
+
+def country() -> dict[str, Any]:
+    """Return a country's zones after ED-318, one of which is round a shop near the hub.
+
+    The others lie 15 to 250 km away, half of them circles.
+    """
+    rng = random.Random(7)
+    file = ed318(around(beside_hub(*SHOPS_KM["closed"]), 0.9, rng, is_round=True)
+                 | {"layer": layer(0, 1500, "ft") | {"upperReference": "AMSL"}},
+                 name=[{"text": "Lentoasema", "lang": "fi-FI"},
+                       {"text": "Airport", "lang": "en-GB"}], identifier="EFAIR",
+                 zoneAuthority=[{"name": [{"text": "Fintraffic", "lang": "en-GB"}],
+                                 "email": "drones@authority.example",
+                                 "purpose": "AUTHORIZATION"}])["data"]
+    for number in range(1, NUM_ZONES):
+        way, turn = rng.uniform(15, 250), rng.uniform(0, 2 * math.pi)
+        place = beside_hub(way * math.cos(turn), way * math.sin(turn))
+        area = around(place, rng.uniform(0.1, 3), rng, is_round=number % 2 == 0)
+        file["features"] += ed318(area | {"layer": layer(0, 120)},
+                                  identifier=f"EFD{number}")["data"]["features"]
     return file
+
+
+def around(place: list[float], radius_km: float, rng: random.Random,
+           is_round: bool) -> dict[str, Any]:
+    """Return a circle, or a polygon of up to sixty corners, around a place."""
+    if is_round:
+        return {"type": "Point", "coordinates": place,
+                "extent": {"subType": "Circle", "radius": 1000 * radius_km}}
+    turns = sorted(rng.uniform(0, 2 * math.pi) for _ in range(rng.randint(4, 60)))
+    size = radius_km / DEGREE_KM
+    ring = [[place[0] + size * math.cos(turn) / math.cos(math.radians(place[1])),
+             place[1] + size * math.sin(turn)] for turn in turns]
+    return {"type": "Polygon", "coordinates": [[*ring, ring[0]]]}
 
 
 SHOPS_KM = {"closed": (3, 4), "east": (2, 0), "west": (-2, -1), "north": (0, 2), "south": (1, -2)}
 
 
-def shop(name: str) -> dict[str, Any]:
-    """Return one of the customers, who lie so many km from the hub."""
-    x, y = SHOPS_KM[name]
-    return {"id": name, "demand": [1],
-            "location": [CENTER[0] + 2 * x / DEGREE_KM, CENTER[1] + y / DEGREE_KM]}
-
-
 def test_a_countrys_file_is_dropped_planned_around_and_told_of_and_flights_are_saved(
         page: Page) -> None:
     open_file(page, "shops.json", json.dumps({
-        "coordinate_system": "geographic", "depots": [{"id": "hub", "location": list(CENTER)}],
-        "customers": [shop(name) for name in SHOPS_KM],
+        "coordinate_system": "geographic", "depots": [{"id": "hub", "location": HUB}],
+        "customers": [{"id": name, "demand": [1], "location": beside_hub(*way)}
+                      for name, way in SHOPS_KM.items()],
         "fleet": [{"id": "quad", "flies": True, "count": 2, "capacity": [2], "max_trips": 4}],
         "options": {"search_iterations": 200}}))
     planned(page, "5 of 5 served")
-    page.evaluate(DROP, ["finland.json", json.dumps(published())])
+    page.evaluate(DROP, ["finland.json", json.dumps(country())])
     expect(page.locator(".map-legend")).to_contain_text("Published zone")
     open_tab(page, "fleet")
     expect(page.get_by_text(f"File 1: {NUM_ZONES} zones (ed318)")).to_be_visible()
