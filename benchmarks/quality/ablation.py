@@ -31,7 +31,7 @@ from training.instances import COMPARED, generate
 
 STARTS: tuple[Start, ...] = ("insertion", "policy")
 
-MOVES = ("two_opt_star", "resplit", "types")
+MOVES = ("two_opt_star", "resplit", "types", "small_moves")
 """Families of moves that the search can do without, as `Moves` names them."""
 
 MOVES_SECONDS = 0.3

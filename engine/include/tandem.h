@@ -1013,6 +1013,7 @@ typedef struct tandem_strategy {
     bool crossings;    /* and at others */
     bool two_opt_star; /* routes swap their tails */
     bool resplit;      /* trips with one drone are split anew between truck and drone */
+    bool small_moves;  /* trips with one drone are annealed by small moves, too */
     bool
         swap_vehicles; /* vehicles drive each other's routes, whose distance tells what they cost */
     bool change_vehicles; /* routes are timed anew with vehicles of other types */

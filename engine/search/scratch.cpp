@@ -72,11 +72,17 @@ Scratch::Scratch(Int longest, PartScratch part, Int num_nodes, Int most_moved, I
       split(longest),
       changed(longest),
       part(std::move(part)),
+      operations(2 * most_changing * (num_nodes + more_places)),
+      drafts(2 * (num_nodes + more_places)),
+      served(num_nodes),
+      moved_customers(num_nodes),
       key(num_nodes),
       moved(most_moved),
       fits(most_moved),
       offer(most_offers),
-      least(most_offers) {}
+      least(most_offers) {
+    std::fill(served.view().begin(), served.view().end(), Served{nobody, 0, false});
+}
 
 void Scratch::lend_to(const ProblemData& data, Searcher& searcher) {
     const Fleet& fleet = searcher.now;

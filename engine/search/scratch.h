@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 
+#include "search/moves/operation_row.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -130,6 +131,16 @@ struct PartScratch {
     Row<PlannedOperation> planned;  // in order
 };
 
+constexpr Int most_changing = 6;  // trips changed at a time by small moves
+constexpr Int more_places = 4;    // in a trip, or while it is changed, than customers
+
+// Where a customer is on the trips that small moves change.
+struct Served {
+    std::int32_t trip;   // `nobody`: on none
+    std::int32_t place;  // of the stop, or of that where the operation begins
+    bool flown;
+};
+
 struct Scratch {
     // Makes room for calls of a search.
     Scratch(const ProblemData& data, const Searcher& searcher);
@@ -142,12 +153,16 @@ struct Scratch {
     SplitScratch split;
     SplitScratch changed;  // of a line of which some places were changed
     PartScratch part;
-    Row<double> key;    // (node,) order of insertion
-    Row<Int> moved;     // slots that a ruin touches, or where stops move to
-    Row<bool> fits;     // (position,) whether a vehicle may leave with more aboard
-    Row<Move> offer;    // insertions that may be best
-    Row<double> least;  // what each costs at least
-    Int offers = 0;     // how many are listed
+    Row<OperationStop> operations;  // (2, trip, node + more) of trips
+    Row<OperationStop> drafts;      // (2, node + more)
+    Row<Served> served;             // (node,)
+    Row<Int> moved_customers;       // (node,) of those trips
+    Row<double> key;                // (node,) order of insertion
+    Row<Int> moved;                 // slots that a ruin touches, or where stops move to
+    Row<bool> fits;                 // (position,) whether a vehicle may leave with more aboard
+    Row<Move> offer;                // insertions that may be best
+    Row<double> least;              // what each costs at least
+    Int offers = 0;                 // how many are listed
 
 private:
     Scratch(Int longest, PartScratch part, Int num_nodes, Int most_moved, Int most_offers);

@@ -10,7 +10,7 @@ import numpy as np
 from model.engine.drone_types import all_kinds
 from model.engine.instance import Instance
 from model.engine.records import Records
-from model.problem import BoolArray, IntArray, Problem
+from model.problem import UNLIMITED, BoolArray, IntArray, Problem
 from model.search.route.layout import MOST_VISITS, Strategy
 
 SCAN_ALL_BELOW = 400
@@ -31,6 +31,7 @@ class Moves:
     two_opt_star: bool = True  # routes may swap their tails
     resplit: bool = True  # trips with one drone may be split anew
     types: bool = True  # vehicles may drive each other's routes
+    small_moves: bool = True  # trips with one drone may be annealed by small moves
 
     @property
     def flights(self) -> bool:
@@ -63,10 +64,12 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
     linked = bool(evaluation["by_distance"].all())
     whole = not problem.shipments  # else parts of trips have ends of shipments alone
     scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem, most_visits)
+    resplit = moves.resplit and moves.flights and whole and any(
+        kind.num_drones == 1 for kind in problem.vehicle_types)
     return Strategy(
         loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star and whole,
-        resplit=moves.resplit and moves.flights and whole and any(
-            kind.num_drones == 1 for kind in problem.vehicle_types),
+        resplit=resplit,
+        small_moves=moves.small_moves and resplit and _may_be_any_time(problem, instance),
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
         scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,
@@ -91,6 +94,15 @@ def _blink(problem: Problem, most_visits: int) -> float:
     """Return how often a better place is overlooked; sorties of several offer many more places."""
     places = most_visits * max(1, problem.num_customers) ** 2
     return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / places))
+
+
+def _may_be_any_time(problem: Problem, instance: Instance) -> bool:
+    """Tell whether customers may be served whenever that is, beside whomever."""
+    place = instance.node[0][:, problem.num_depots:, 0]
+    limited = ((place["window_earliest"] > 0) | (place["window_latest"] < UNLIMITED)
+               | (place["release"] > 0)).any()
+    return not (limited or instance.max_time_aboard.shape[1] or instance.goods.shape[1]
+                or instance.setup.shape[1])
 
 
 def _may_save(instance: Instance, evaluation: Records) -> bool:

@@ -27,6 +27,9 @@ HOT_FROM_TRUCKS, FULL_HEAT_FROM_TRUCKS = 0.7, 100
 """The same where the search began with trucks alone, and the turns for each customer from which on
 that is reached; with less, by their root."""
 
+HOT_BY_SMALL_MOVES, COLD_BY_SMALL_MOVES = 0.7, 0.02
+"""The same where such trips are annealed by thousands of small moves a turn, too."""
+
 HOT_IF_LARGE, COLD_IF_LARGE = 6.0, 0.03
 """Both by a leg where loads alone limit the routes of thousands of customers: the savings that it
 begins with are far from good where routes are long, and soon are where they are short."""
@@ -41,6 +44,7 @@ class Heat:
     types: int  # of vehicles
     drones: bool  # some type has drones
     single_drones: bool  # some type has one
+    small_moves: bool  # trips of such are annealed by small moves
     large: bool  # there are thousands of customers, and loads alone limit routes
     from_trucks: bool  # the search began with a plan for trucks alone
     hot: float | None  # first temperature by the cost of a leg, if it is stated
@@ -56,8 +60,8 @@ class Heat:
         drones = data.type["drones"][:data.num_types]
         large = is_large and are_alike(data) and only_loads_limit(data)
         return cls(cost / served, leg_cost(data, searcher), data.num_types,
-                   bool((drones > 0).any()), bool((drones == 1).any()), large, from_trucks,
-                   hot, cold)
+                   bool((drones > 0).any()), bool((drones == 1).any()), data.strategy.small_moves,
+                   large, from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
         """Return the first and the last temperature.
@@ -69,7 +73,9 @@ class Heat:
         factor
             Of the first temperature.
         """
-        if self.single_drones:
+        if self.small_moves:
+            hot, cold = HOT_BY_SMALL_MOVES * factor, COLD_BY_SMALL_MOVES
+        elif self.single_drones:
             hot, cold = HOT_WITH_DRONES * factor, COLD_WITH_DRONES
             if self.from_trucks:
                 hot = HOT_FROM_TRUCKS * factor * _haste(turns, FULL_HEAT_FROM_TRUCKS)

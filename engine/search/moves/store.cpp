@@ -11,6 +11,7 @@
 #include "search/moves/resplit.h"
 #include "search/moves/retype.h"
 #include "search/moves/ruin.h"
+#include "search/moves/small_moves.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -20,7 +21,9 @@
 namespace tandem {
 namespace {
 
-constexpr Int resplits = 30;  // trips with one drone planned anew from their order each turn
+// How many trips with one drone are planned anew from their order each turn; where trips are
+// annealed by small moves, too, it is fewer.
+constexpr Int resplits = 30, resplits_beside = 10;
 
 constexpr double best_part_share = 0.0002;  // how often one is planned at best, instead
 
@@ -28,7 +31,11 @@ constexpr double best_part_share = 0.0002;  // how often one is planned at best,
 class RouteStore {
 public:
     RouteStore(const ProblemData& data, Searcher& searcher)
-        : data_(data), searcher_(searcher), resplit_(data, searcher), best_part_(data, searcher) {}
+        : data_(data),
+          searcher_(searcher),
+          resplit_(data, searcher),
+          best_part_(data, searcher),
+          small_moves_(data, searcher) {}
 
     void ruin(Int first) {
         resplit_.forget();
@@ -56,17 +63,24 @@ public:
         if (data_.strategy.change_vehicles) cheapen_types(data_, searcher_);
     }
 
-    Int parts() const { return data_.strategy.resplit ? 1 + resplits : 1; }
+    Int parts() const {
+        if (data_.strategy.small_moves) return 2 + resplits_now();
+        return data_.strategy.resplit ? 1 + resplits : 1;
+    }
 
-    // Swaps tails of routes first, then plans a trip anew.
+    // Swaps tails of routes first, then plans trips anew, and anneals some by small moves last.
     bool move_part(Int part, double rise) {
         SearchCounts& count = *searcher_.count;
         count.touched = 0;
-        const bool is_moved = part == 0 ? two_opt_star(data_, searcher_, rise) : plan_anew(rise);
+        const bool by_small_moves = data_.strategy.small_moves && part > resplits_now();
+        const bool is_moved = part == 0        ? two_opt_star(data_, searcher_, rise)
+                              : by_small_moves ? small_moves_.attempt()
+                                               : plan_anew(rise);
         if (!is_moved) return false;
         // Who is left out stays the same, and isn't listed as absent yet.
         count.absent = count.missing;
         std::copy_n(searcher_.missing.begin(), count.missing, searcher_.absent.begin());
+        if (by_small_moves) return true;
         if (data_.strategy.swap_vehicles && uniform(searcher_.rng) < retyped_share) {
             improve_types(data_, searcher_);
         }
@@ -110,6 +124,9 @@ private:
         return resplit_.attempt(rise);
     }
 
+    // How many trips are planned anew from their order this turn.
+    Int resplits_now() const { return small_moves_.can_do() ? resplits_beside : resplits; }
+
     Int num_trips() const {
         Int trips = 0;
         for (const Int slot : searcher_.active.first(searcher_.count->active)) {
@@ -145,6 +162,7 @@ private:
     Searcher& searcher_;
     Resplit resplit_;
     BestPart best_part_;
+    SmallMoves small_moves_;
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ class Strategy(NamedTuple):
     crossings: bool  # and at others
     two_opt_star: bool  # routes swap their tails
     resplit: bool  # trips with one drone are split anew between truck and drone
+    small_moves: bool  # trips with one drone are annealed by small moves, too
     swap_vehicles: bool  # vehicles drive each other's routes, whose distance tells what they cost
     change_vehicles: bool  # routes are timed anew with vehicles of other types
     scan_all: bool  # insertion looks at all routes, else beside neighbours alone

@@ -86,9 +86,11 @@ def test_starts_are_compared_with_each_other() -> None:
 
 def test_moves_are_compared_with_all_of_them() -> None:
     trials = [made_up(name, 50, Way("insertion", MOVES_SECONDS, move), cost)
-              for name, costs in {"x": (100, 101, 100, 99), "y": (10, 10.1, 10, 9.9)}.items()
+              for name, costs in {"x": (100, 101, 100, 99, 102),
+                                  "y": (10, 10.1, 10, 9.9, 10.2)}.items()
               for move, cost in zip(("", *MOVES), costs, strict=True)]
-    assert table_of_moves(trials)[-1] == "| all | 2 | +1.00 ± 0.00 | +0.00 ± 0.00 | -1.00 ± 0.00 |"
+    assert table_of_moves(trials)[-1] == (
+        "| all | 2 | +1.00 ± 0.00 | +0.00 ± 0.00 | -1.00 ± 0.00 | +2.00 ± 0.00 |")
 
 
 def test_trials_come_back_from_the_file_as_they_were(tmp_path: Path) -> None:

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED, MS_PER_HOUR, DroneType, Energy, IncompatibleGoods, Overtime, Problem, SpeedProfile,
-    VehicleType,
+    FULL_SPEED, MS_PER_HOUR, UNLIMITED, DroneType, Energy, IncompatibleGoods, Overtime, Problem,
+    SpeedProfile, VehicleType,
 )
 from training.instances import generate
 
@@ -54,6 +54,8 @@ RULES = {
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),
     "what is aboard costs": with_vehicles(cost_per_load_km=1.0),
+    "no windows": lambda problem: replace(problem, customers=tuple(
+        replace(customer, latest=UNLIMITED) for customer in problem.customers)),
     "one drone a truck": with_vehicles(drones=replace(DRONES, count=1)),
     "batteries are swapped": with_vehicles(drones=replace(DRONES, swap_duration=HOUR)),
     "setups": with_customers(setup_duration=HOUR),

@@ -14,7 +14,7 @@ from tests.model.search.stated_rules import RULES, plain, stating
 CUSTOMERS = 30
 """Of a problem that states no number."""
 
-CHOSEN = ("swap vehicles", "change vehicles", "resplit", "scan all", "keep places",
+CHOSEN = ("swap vehicles", "change vehicles", "resplit", "small moves", "scan all", "keep places",
           "give up early")
 LINKED = "linked stops"
 PLAIN = "loads, windows and distance alone"
