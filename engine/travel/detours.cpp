@@ -4,8 +4,8 @@
 // corner to its target. Who sees whom is a table of rows of different lengths: the entries of row
 // `i` are those from `begin[i]` up to `begin[i + 1]`.
 #include <algorithm>
-#include <functional>
 #include <limits>
+#include <span>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -73,13 +73,19 @@ public:
         }
     }
 
-    // Take the soonest; false if there is none, and times begin anew.
+    // Leave all out, and let times begin anew.
+    void clear() {
+        if (waiting_ > 0) {
+            for (std::vector<Arrival>& bucket : buckets_) bucket.clear();
+        }
+        soon_.clear();
+        now_ = waiting_ = 0;
+    }
+
+    // Take the soonest; false if there is none.
     bool pop(Arrival& arrival) {
         while (soon_.empty()) {
-            if (waiting_ == 0) {
-                now_ = 0;
-                return false;
-            }
+            if (waiting_ == 0) return false;
             std::swap(soon_, at(++now_));
             waiting_ -= static_cast<Int>(soon_.size());
             std::make_heap(soon_.begin(), soon_.end());
@@ -113,7 +119,38 @@ double longest(View<const double, 1> durations) {
     return found;
 }
 
-// The quickest flights from a node to all corners.
+// Which nodes each corner is seen from, as entries of `inward`.
+class Beholders {
+public:
+    struct Beholder {
+        Int node, entry;
+    };
+
+    Beholders(const Sights& inward, std::size_t num_corners) : begin_(num_corners + 1) {
+        for (const Int corner : inward.place) ++begin_[static_cast<std::size_t>(corner) + 1];
+        for (std::size_t corner = 1; corner < begin_.size(); ++corner) {
+            begin_[corner] += begin_[corner - 1];
+        }
+        beholder_.resize(static_cast<std::size_t>(inward.place.size()));
+        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
+        for (Int node = 0; node + 1 < inward.begin.size(); ++node) {
+            for (Int entry = inward.begin[node]; entry < inward.begin[node + 1]; ++entry) {
+                beholder_[next[static_cast<std::size_t>(inward.place[entry])]++] = {node, entry};
+            }
+        }
+    }
+
+    std::span<const Beholder> of(Int corner) const {
+        const auto at = static_cast<std::size_t>(corner);
+        return {beholder_.data() + begin_[at], begin_[at + 1] - begin_[at]};
+    }
+
+private:
+    std::vector<std::size_t> begin_;  // (corner + 1,)
+    std::vector<Beholder> beholder_;
+};
+
+// The quickest flights from a node that bend at least once.
 //
 // Dijkstra (1959), a note on two problems in connexion with graphs, Numer. Math. 1:269-271.
 class Reach {
@@ -121,11 +158,14 @@ public:
     explicit Reach(const Network& network)
         : network_(network),
           flown_(static_cast<std::size_t>(network.between.begin.size() - 1)),
+          least_(static_cast<std::size_t>(network.inward.begin.size() - 1)),
+          beholders_(network.inward, flown_.size()),
           ahead_(std::max(longest(network.outward.duration), longest(network.between.duration))) {}
 
-    // Let those of another node be there.
-    void start_from(Int node) {
+    // Fly from a node, at least until no flight to any of some others can be quicker.
+    void fly_from(Int node, std::span<const Int> targets) {
         std::fill(flown_.begin(), flown_.end(), Flown{});
+        std::fill(least_.begin(), least_.end(), Flown{});
         const Sights& outward = network_.outward;
         for (Int entry = outward.begin[node]; entry < outward.begin[node + 1]; ++entry) {
             Flown& there = to(outward.place[entry]);
@@ -133,27 +173,41 @@ public:
             if (there.duration < nowhere) ahead_.push(there.duration, outward.place[entry]);
         }
         Ahead::Arrival arrival{};
-        while (ahead_.pop(arrival)) {
-            if (!(arrival.time > to(arrival.corner).duration)) {
-                go_on_from(arrival.corner, arrival.time);
+        for (Int number = 0; ahead_.pop(arrival); ++number) {
+            if (number % looks_back == 0 && arrival.time > longest_to(targets)) break;
+            if (arrival.time > to(arrival.corner).duration) continue;
+            land_from(arrival.corner);
+            go_on_from(arrival.corner, arrival.time);
+        }
+        ahead_.clear();
+    }
+
+    const Flown& flown_to(Int target) const { return least_[static_cast<std::size_t>(target)]; }
+
+private:
+    static constexpr Int looks_back = 64;  // arrivals until it is looked whether all are reached
+
+    Flown& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
+
+    double longest_to(std::span<const Int> targets) const {
+        double found = 0.0;
+        for (const Int target : targets) {
+            const bool is_seen = network_.inward.begin[target] < network_.inward.begin[target + 1];
+            if (is_seen) found = std::max(found, flown_to(target).duration);
+        }
+        return found;
+    }
+
+    void land_from(Int corner) {
+        const Flown here = to(corner);
+        for (const auto& [node, entry] : beholders_.of(corner)) {
+            const double total = here.duration + network_.inward.duration[entry];
+            Flown& there = least_[static_cast<std::size_t>(node)];
+            if (total < there.duration) {
+                there = {here.distance + network_.inward.distance[entry], total};
             }
         }
     }
-
-    // The quickest flight to a node.
-    Flown flown_to(Int target) {
-        Flown least;
-        const Sights& inward = network_.inward;
-        for (Int entry = inward.begin[target]; entry < inward.begin[target + 1]; ++entry) {
-            const Flown& here = to(inward.place[entry]);
-            const double total = here.duration + inward.duration[entry];
-            if (total < least.duration) least = {here.distance + inward.distance[entry], total};
-        }
-        return least;
-    }
-
-private:
-    Flown& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
 
     void go_on_from(Int corner, double reached) {
         const Sights& between = network_.between;
@@ -168,6 +222,8 @@ private:
 
     const Network& network_;
     std::vector<Flown> flown_;  // (corner,)
+    std::vector<Flown> least_;  // (node,)
+    Beholders beholders_;
     Ahead ahead_;
 };
 
@@ -176,16 +232,18 @@ private:
 void fly_around(const Network& network, View<const bool, 2> wanted, bool mutual, Int first,
                 Int last, const FlightLegs& legs) {
     Reach reach(network);
+    std::vector<Int> targets;
     for (Int node = first; node < last; ++node) {
         const View<const bool, 1> row = wanted[node];
-        const Int begin = mutual ? node : 0;
-        if (std::none_of(row.begin() + begin, row.end(), std::identity{})) continue;
-        reach.start_from(node);
-        for (Int target = begin; target < row.size(); ++target) {
-            if (!row[target]) continue;
-            const Flown flown = reach.flown_to(target);
-            legs.write(node, target, flown);
-            if (mutual) legs.write(target, node, flown);
+        targets.clear();
+        for (Int target = mutual ? node : 0; target < row.size(); ++target) {
+            if (row[target]) targets.push_back(target);
+        }
+        if (targets.empty()) continue;
+        reach.fly_from(node, targets);
+        for (const Int target : targets) {
+            legs.write(node, target, reach.flown_to(target));
+            if (mutual) legs.write(target, node, reach.flown_to(target));
         }
     }
 }

@@ -145,8 +145,9 @@ void Lookout::open_wedge(const Corner& corner) {
     double right = std::atan2(to.y, to.x) - more;
     right -= std::floor(right / half_turn) * half_turn;
     const auto slope = [](double angle) {
-        const double quarter = half_turn / 4;
-        return 1.0 / std::tan(std::clamp(angle, quarter, 3 * quarter));
+        // Exactly, at the bounds of the quarter, or what lies there would be lost.
+        if (angle <= half_turn / 4) return 1.0;
+        return angle >= 3 * half_turn / 4 ? -1.0 : 1.0 / std::tan(angle);
     };
     const double left = right + wide;
     if (left <= half_turn) {

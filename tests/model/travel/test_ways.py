@@ -56,6 +56,15 @@ def test_ways_are_those_of_a_plain_search(places: list[tuple[float, float]],
     assert flown == pytest.approx(shortest(points, areas), abs=1e-3)
 
 
+def test_ways_between_corners_may_lead_exactly_northwest() -> None:
+    rings: list[Ring] = [((0.0, 0.0), (0.0, 50.0), (150.0, 200.0)),
+                         ((0.0, 0.0), (0.0, 100.0), (300.0, 50.0)),
+                         ((0.0, 0.0), (0.0, 300.0), (50.0, 0.0))]
+    points = np.array([(0.0, -200.0), (100.0, 150.0)])
+    flown = flight_legs(points, Airspace(tuple(rings)), SPEED).distance
+    assert flown == pytest.approx(shortest(points, rings), abs=1e-3)
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_ways_past_many_areas_are_those_of_a_plain_search(seed: int) -> None:
     rng = np.random.default_rng(seed)
