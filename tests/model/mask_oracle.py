@@ -6,6 +6,7 @@ A second reading of the decision process: it keeps the decisions of one vehicle,
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import permutations
 
 from model.judge.check import Evaluation, check
@@ -25,6 +26,9 @@ from tests.model.open_trip import (
 )
 
 MINUTE = 60_000
+
+MOST_TIMED = 1000
+"""Lists of trips whose times are kept: those that the next actions ask for again."""
 
 
 @dataclass(frozen=True)
@@ -63,17 +67,27 @@ def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
 
 def _timed_route(problem: Problem, vehicle: Vehicle, start: int | None = None) -> Route:
     """Time all trips, the first begun at `start`, the others no sooner than they are held."""
-    kind = problem.vehicle_types[vehicle.kind]
-    trips: list[Trip] = []
-    ready = kind.earliest
-    for trip in vehicle.trips:
-        decision = trip.decision()
-        begin = max(ready, trip.begins, latest_release(problem, decision))
-        if start is not None and not trips:
-            begin = start
-        trips.append(schedule_trip(problem, kind, replace(decision, start=begin), ready))
-        ready = trips[-1].stops[-1].departure + kind.reload_duration
-    return Route(vehicle.kind, vehicle.index, tuple(trips))
+    trips = _timed_trips(problem, vehicle.kind, vehicle.trips, start)
+    return Route(vehicle.kind, vehicle.index, trips)
+
+
+@lru_cache(MOST_TIMED)
+def _timed_trips(problem: Problem, kind: int, trips: tuple[OpenTrip, ...],
+                 start: int | None) -> tuple[Trip, ...]:
+    """Time trips; those before the last are mostly known, as they are over."""
+    if not trips:
+        return ()
+    before = _timed_trips(problem, kind, trips[:-1], start)
+    vehicle_type, last = problem.vehicle_types[kind], trips[-1]
+    ready = vehicle_type.earliest
+    if before:
+        ready = before[-1].stops[-1].departure + vehicle_type.reload_duration
+    decision = last.decision()
+    begin = max(ready, last.begins, latest_release(problem, decision))
+    if start is not None and not before:
+        begin = start
+    decision = replace(decision, start=begin)
+    return (*before, schedule_trip(problem, vehicle_type, decision, ready))
 
 
 def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
