@@ -84,7 +84,7 @@ struct PartToPlan {
 
 // A place of a part where truck and drone are together: the first stop, a customer, a launch site,
 // or the last stop.
-using Spot = std::int8_t;
+using Spot = std::int16_t;
 
 constexpr Spot no_spot = -1;
 

@@ -19,6 +19,7 @@ BestOperations::BestOperations(const ProblemData& data, PartScratch& scratch)
       part_(scratch.part),
       scratch_(scratch),
       rate_(data.rate[part_.type]),
+      customers_(static_cast<Spot>(part_.customers)),
       spots_(static_cast<Spot>(part_.customers + part_.halts + 2)),
       sets_(Int{1} << part_.customers),
       all_(static_cast<unsigned>(sets_ - 1)) {
@@ -28,7 +29,7 @@ BestOperations::BestOperations(const ProblemData& data, PartScratch& scratch)
     std::copy_n(part.halt.begin(), part.halts, node_.begin() + 1 + part.customers);
     std::copy_n(part.need.begin(), part.halts, need_.begin() + 1 + part.customers);
     node_[static_cast<std::size_t>(spots_ - 1)] = part.to;
-    for (Spot customer = 1; customer <= part.customers; ++customer) {
+    for (Spot customer = 1; customer <= customers_; ++customer) {
         if (data.can(part.type, 0, node(customer))) driven_ |= bit(customer);
     }
 }
@@ -75,7 +76,7 @@ PartScratch::Way BestOperations::beyond(const PartScratch::Way& by, Spot place, 
 PartScratch::Way BestOperations::best_way(Spot from, unsigned set, Spot to) const {
     PartScratch::Way best{};
     double least = infinite_cost;
-    for (Spot before = 1; before <= part_.customers; ++before) {
+    for (Spot before = 1; before <= customers_; ++before) {
         if (!(set & bit(before))) continue;
         const PartScratch::Way by = beyond(way(from, set & ~bit(before), before), before, to);
         const double cost = way_cost(by);
@@ -96,7 +97,7 @@ double BestOperations::way_cost(const PartScratch::Way& by) const {
 void BestOperations::find_flights() {
     const VehicleType& type = data_.type[part_.type];
     for (Spot from = 0; from < last(); ++from) {
-        for (Spot customer = 1; customer <= part_.customers; ++customer) {
+        for (Spot customer = 1; customer <= customers_; ++customer) {
             const Windows place = data_.place.by_air(type)[node(customer)];
             for (Spot to = 1; to < spots_; ++to) {
                 flight(from, customer, to) =
@@ -132,7 +133,7 @@ PartScratch::Across BestOperations::best_across(Spot from, unsigned set, Spot to
     const Int stay =
         stay_beside_launch(type, data_.place.by_truck(type)[node(from)].service_duration());
     if (is_customer(to) && (!(set & bit(to)) || !drives(to))) return best;
-    for (Spot flown = 1; flown <= part_.customers; ++flown) {
+    for (Spot flown = 1; flown <= customers_; ++flown) {
         const unsigned inner = others & ~bit(flown);
         // Who is flown to is not back before the truck stops there again.
         if (!(others & bit(flown)) || !flies(flown) || (need(to) & bit(flown))) continue;
@@ -176,7 +177,7 @@ double BestOperations::drive_on(Spot from, Spot to) const {
 void BestOperations::halt_from(unsigned set, Spot from) {
     const double before = reached(set, from).cost;
     if (before == infinite_cost) return;
-    for (Spot to = static_cast<Spot>(part_.customers + 1); to < spots_; ++to) {
+    for (Spot to = static_cast<Spot>(customers_ + 1); to < spots_; ++to) {
         if (to == from || !may_come(set, to)) continue;
         reach(set, to, {before + drive_on(from, to), set, from, no_spot});
     }
@@ -187,7 +188,7 @@ void BestOperations::go_on_from(unsigned set, Spot from) {
     const double before = reached(set, from).cost;
     if (before == infinite_cost) return;
     const unsigned rest = all_ & ~set;
-    for (Spot customer = 1; customer <= part_.customers; ++customer) {
+    for (Spot customer = 1; customer <= customers_; ++customer) {
         if (!(rest & bit(customer))) continue;
         const unsigned then = set | bit(customer);
         if (drives(customer)) {

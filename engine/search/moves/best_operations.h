@@ -27,7 +27,7 @@ public:
     Int count() const { return count_; }
     const PlannedOperation& operation(Int number) const { return scratch_.planned[number]; }
     Int node(Spot spot) const { return node_[static_cast<std::size_t>(spot)]; }
-    bool is_customer(Spot spot) const { return spot > 0 && spot <= part_.customers; }
+    bool is_customer(Spot spot) const { return spot > 0 && spot <= customers_; }
     Spot last() const { return static_cast<Spot>(spots_ - 1); }
 
     // Calls a function for whom the truck serves on an operation, in order, but at its end.
@@ -59,7 +59,7 @@ private:
         return scratch_.way[at(from, set, to)];
     }
     Int& flight(Spot from, Spot customer, Spot to) const {
-        return scratch_.flight[(from * (part_.customers + 1) + customer) * spots_ + to];
+        return scratch_.flight[(from * (customers_ + 1) + customer) * spots_ + to];
     }
     PartScratch::Reached& reached(unsigned set, Spot spot) const {
         return scratch_.reached[static_cast<Int>(set) * spots_ + spot];
@@ -88,6 +88,7 @@ private:
     const PartToPlan& part_;
     PartScratch& scratch_;
     Rate rate_;
+    Spot customers_;
     Spot spots_;
     Int sets_;
     unsigned all_;
