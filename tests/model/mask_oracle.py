@@ -6,7 +6,6 @@ A second reading of the decision process: it keeps the decisions of one vehicle,
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from functools import lru_cache
 from itertools import permutations
 
 from model.judge.check import Evaluation, check
@@ -16,19 +15,16 @@ from model.judge.flown_trips import charged_start, excess_of
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff, storm_met
-from model.judge.timing import Operation, latest_release, schedule_trip
+from model.judge.timing import Operation
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
-    Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred,
+    Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred, timed_trips,
 )
 
 MINUTE = 60_000
-
-MOST_TIMED = 1000
-"""Lists of trips whose times are kept: those that the next actions ask for again."""
 
 
 @dataclass(frozen=True)
@@ -67,27 +63,8 @@ def _timed(problem: Problem, vehicle: Vehicle, trip: OpenTrip) -> Trip:
 
 def _timed_route(problem: Problem, vehicle: Vehicle, start: int | None = None) -> Route:
     """Time all trips, the first begun at `start`, the others no sooner than they are held."""
-    trips = _timed_trips(problem, vehicle.kind, vehicle.trips, start)
+    trips = timed_trips(problem, vehicle.kind, vehicle.trips, start)
     return Route(vehicle.kind, vehicle.index, trips)
-
-
-@lru_cache(MOST_TIMED)
-def _timed_trips(problem: Problem, kind: int, trips: tuple[OpenTrip, ...],
-                 start: int | None) -> tuple[Trip, ...]:
-    """Time trips; those before the last are mostly known, as they are over."""
-    if not trips:
-        return ()
-    before = _timed_trips(problem, kind, trips[:-1], start)
-    vehicle_type, last = problem.vehicle_types[kind], trips[-1]
-    ready = vehicle_type.earliest
-    if before:
-        ready = before[-1].stops[-1].departure + vehicle_type.reload_duration
-    decision = last.decision()
-    begin = max(ready, last.begins, latest_release(problem, decision))
-    if start is not None and not before:
-        begin = start
-    decision = replace(decision, start=begin)
-    return (*before, schedule_trip(problem, vehicle_type, decision, ready))
 
 
 def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:

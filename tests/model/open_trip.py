@@ -1,11 +1,18 @@
 """A trip so far, as the oracle of the mask sees it, and what its drones could do."""
 
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 from model.judge.clock import opening
 from model.judge.energy import hover_energy, leg_energy
-from model.judge.timing import Operation, SortieDecision, TripDecision
+from model.judge.timing import (
+    Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
+)
 from model.problem import DroneType, Problem, VehicleType
+from model.solution import Trip
+
+MOST_TIMED = 1000
+"""Lists of trips whose times are kept: those that the next actions ask for again."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +44,25 @@ class OpenTrip:
         sorties = tuple(SortieDecision((f.customer,), f.launch_stop, f.recovery_stop or 0, f.drone)
                         for f in self.flights)
         return TripDecision(self.nodes, sorties, self.operations)
+
+
+@lru_cache(MOST_TIMED)
+def timed_trips(problem: Problem, kind: int, trips: tuple[OpenTrip, ...],
+                 start: int | None) -> tuple[Trip, ...]:
+    """Time trips; those before the last are mostly known, as they are over."""
+    if not trips:
+        return ()
+    before = timed_trips(problem, kind, trips[:-1], start)
+    vehicle_type, last = problem.vehicle_types[kind], trips[-1]
+    ready = vehicle_type.earliest
+    if before:
+        ready = before[-1].stops[-1].departure + vehicle_type.reload_duration
+    decision = last.decision()
+    begin = max(ready, last.begins, latest_release(problem, decision))
+    if start is not None and not before:
+        begin = start
+    decision = replace(decision, start=begin)
+    return (*before, schedule_trip(problem, vehicle_type, decision, ready))
 
 
 def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int,
