@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from model.engine.drone_types import all_kinds
-from model.engine.instance import Instance
+from model.engine.instance import WORK_RATES, Instance
 from model.engine.records import Records
 from model.problem import UNLIMITED, BoolArray, IntArray, Problem
 from model.search.route.layout import MOST_VISITS, Strategy
@@ -69,7 +69,8 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
     return Strategy(
         loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star and whole,
         resplit=resplit,
-        small_moves=moves.small_moves and resplit and _may_be_any_time(problem, instance),
+        small_moves=(moves.small_moves and resplit and _may_be_any_time(problem, instance)
+                     and _flights_may_save(instance)),
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
         scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,
@@ -103,6 +104,15 @@ def _may_be_any_time(problem: Problem, instance: Instance) -> bool:
                | (place["release"] > 0)).any()
     return not (limited or instance.max_time_aboard.shape[1] or instance.goods.shape[1]
                 or instance.setup.shape[1])
+
+
+def _flights_may_save(instance: Instance) -> bool:
+    """Tell whether time costs, or flying less than driving as far."""
+    types, rates = instance.type[0], instance.rate[0]
+    dear = rates["drone_distance"] < rates["distance"]
+    for name in WORK_RATES:
+        dear = dear | (rates[name] > 0)
+    return bool((dear & (types["drones"] == 1)).any())
 
 
 def _may_save(instance: Instance, evaluation: Records) -> bool:

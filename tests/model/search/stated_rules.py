@@ -57,6 +57,8 @@ RULES = {
     "no windows": lambda problem: replace(problem, customers=tuple(
         replace(customer, latest=UNLIMITED) for customer in problem.customers)),
     "one drone a truck": with_vehicles(drones=replace(DRONES, count=1)),
+    "flights cost as much as drives": with_vehicles(
+        drones=replace(DRONES, count=1, cost_per_km=1.0)),
     "batteries are swapped": with_vehicles(drones=replace(DRONES, swap_duration=HOUR)),
     "setups": with_customers(setup_duration=HOUR),
     "sorties of several": with_vehicles(drones=replace(DRONES, max_customers_per_sortie=2)),
