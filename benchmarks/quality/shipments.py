@@ -148,18 +148,15 @@ def main(
     names: Annotated[list[str] | None, typer.Option("--set", help="Sets, if not both.")] = None,
 ) -> None:
     """Plan the instances of some sets."""
-    for path in [path for name in names or SETS for path in sorted((data / name).glob("*.txt"))]:
-        instance = read(path)
-        if not least <= instance.num_customers <= most:
-            continue
-        for seed in range(seeds):
-            row = run(instance, seconds, seed)
-            print(f"{row.instance:14} {row.n:5} {row.vehicles:4} of {row.best_vehicles:4} "
-                  f"{row.length:10.1f} of {row.best_known:10.1f} {row.gap_percent:7.2f} % "
-                  f"{row.turns:9} turns" + (f", {row.left_out} left out" * (row.left_out > 0)),
-                  flush=True)
-            if out is not None:
-                appended(out, Run, [row])
+    instances = [read(path) for name in names or SETS
+                 for path in sorted((data / name).glob("*.txt"))]
+    runs = (run(instance, seconds, seed) for instance in instances
+            if least <= instance.num_customers <= most for seed in range(seeds))
+    for row in runs if out is None else appended(out, Run, runs):
+        print(f"{row.instance:14} {row.n:5} {row.vehicles:4} of {row.best_vehicles:4} "
+              f"{row.length:10.1f} of {row.best_known:10.1f} {row.gap_percent:7.2f} % "
+              f"{row.turns:9} turns" + f", {row.left_out} left out" * (row.left_out > 0),
+              flush=True)
 
 
 if __name__ == "__main__":
