@@ -212,7 +212,9 @@ class Ground:
         steady = stated.wind if isinstance(stated.wind, WindInput) else WindInput()
         rings = [self.planar(np.array(ring, dtype=np.float64)) for ring in stated.no_fly]
         around, over = self._projected(met.around), self._projected(met.over)
-        near = [around[number] for number in within_reach(around, self.points_m)]
+        # Ways around the request's own areas may lead to zones that others don't.
+        reached = np.concatenate([self.points_m, *rings])
+        near = [around[number] for number in within_reach(around, reached)]
         edges = edges_of([*map(Polygon, rings), *near])
         self._preparing.expect(merging_seconds(len(edges), count_nearby(edges)))
         return Airspace(

@@ -150,6 +150,17 @@ def test_explain_lists_the_zones_around_a_customer(client: httpx.Client) -> None
         "above the ground. Its authority: Port, tower@port.example.")
 
 
+def test_zones_on_the_way_around_areas_are_flown_around(client: httpx.Client) -> None:
+    request = asked(geojson({"type": "Polygon", "coordinates": [
+        [[24.91, 60.185], [24.95, 60.185], [24.95, 60.21], [24.91, 60.21]]]}))
+    request["airspace"]["no_fly"] = [
+        [[24.92, 60.15], [24.94, 60.15], [24.94, 60.186], [24.92, 60.186]]]
+    alone = request | {"airspace": {"no_fly": request["airspace"]["no_fly"]}}
+    flown, straighter = (planned(client, each)["summary"]["drone_distance"]
+                         for each in (request, alone))
+    assert flown > straighter + 500
+
+
 BOWTIE = [[24.90, 60.20], [24.92, 60.21], [24.92, 60.20], [24.90, 60.21]]
 
 
