@@ -2,6 +2,10 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
+from typing import Literal
+
+BreakPlace = Literal["departure", "way", "arrival"]
+"""Where a break between two stops is taken: at the first, on the way, or at the second."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,11 +60,26 @@ class Sortie:
 
 
 @dataclass(frozen=True, slots=True)
+class TakenBreak:
+    """A break of the driver, between two stops: after the departure from one, before the arrival
+    at the next.
+    """
+
+    number: int  # index into VehicleType.breaks
+    stop: int  # index into Trip.stops of the first of both
+    place: BreakPlace
+    arrival: int  # when the truck stands there
+    start: int
+    end: int
+
+
+@dataclass(frozen=True, slots=True)
 class Trip:
     """Depot to depot on one loading."""
 
     stops: tuple[Stop, ...]
     sorties: tuple[Sortie, ...] = ()
+    breaks: tuple[TakenBreak, ...] = ()  # in order
 
     @property
     def customer_stops(self) -> list[Stop]:
@@ -112,7 +131,7 @@ def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
     def trip(old: Trip) -> Trip:
         return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
                                stop.setup, stop.is_launch_site) for stop in old.stops),
-                    tuple(sortie(each) for each in old.sorties))
+                    tuple(sortie(each) for each in old.sorties), old.breaks)
 
     def sortie(old: Sortie) -> Sortie:
         return replace(old, visits=tuple([

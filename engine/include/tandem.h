@@ -85,7 +85,8 @@ typedef struct tandem_pair {
    rows tell of which drones. Of one that flies by itself, what is said of drones holds for its
    trips; its legs hold launches and recoveries. Each of its trips takes a battery of the depot
    where it begins, or all beyond so many `trips_uncharged` together a place to charge at its own.
- */
+   Its driver has so many breaks, in order, of a route that began at `breaks_since` if that isn't
+   before all. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -143,6 +144,14 @@ typedef struct tandem_vehicle_type {
     int64_t storms;
     int64_t storm_from[16];
     int64_t storm_until[16];
+    int64_t breaks;
+    int64_t breaks_since;
+    int64_t break_earliest[8];
+    int64_t break_latest[8];
+    int64_t break_duration[8];
+    int64_t break_after_departure[8]; /* whether both count from when the route begins */
+    int64_t break_anywhere[8];
+    int64_t break_unpaid[8];
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
@@ -208,6 +217,7 @@ typedef struct tandem_logged_stop {
     int64_t arrival;
     int64_t start;
     int64_t leave;
+    int64_t rests; /* breaks before the next, as rules/breaks.h packs them */
 } tandem_logged_stop;
 
 typedef struct tandem_logged_trip {
@@ -263,6 +273,7 @@ typedef struct tandem_vehicle {
     int64_t start_best;        /* latest known start of the first trip that costs nothing */
     int64_t departure_best;    /* the departure that follows from it */
     int64_t next_start;        /* earliest start of the next trip */
+    int64_t rested;            /* number of the driver's next break */
     int64_t launched;          /* on the trip before this stop */
     int64_t flying;            /* drones */
     int64_t given;             /* on the trip, over all dimensions */
@@ -447,8 +458,17 @@ typedef struct tandem_stop {
     int64_t dep;
     int64_t hold;
     int64_t idle;
+    int64_t rests; /* breaks before the next, as rules/breaks.h packs them */
     double window_cost;
 } tandem_stop;
+
+/* A leg of a route that breaks interrupt. */
+typedef struct tandem_broken_leg {
+    int64_t rests;    /* the breaks, as rules/breaks.h packs them */
+    int64_t begin;    /* of the route */
+    int64_t leave;    /* of the leg */
+    int64_t duration; /* at full speed, without setup */
+} tandem_broken_leg;
 
 /* A drone's way from a stop to its customers, and back at another or the same. */
 typedef struct tandem_sortie {
@@ -497,6 +517,7 @@ typedef struct tandem_route {
     int64_t working;
     int64_t offset;
     int64_t awaited;
+    int64_t unpaid; /* breaks */
     int64_t stamp; /* stands for what the route is; 0 while a turn changes it */
     int64_t barred;
 } tandem_route;
@@ -1336,6 +1357,10 @@ int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* sear
 /* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
    it. */
 int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot);
+/* Write when a vehicle of a type stands for each break on a leg, and when that begins. */
+int tandem_break_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
+                       const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,
+                       const tandem_i64_2d* times);
 /* Write when service begins at customers, by the rows of all nodes. */
 int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
                           const tandem_i64_1d* arrivals, const tandem_i64_1d* starts);

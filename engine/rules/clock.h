@@ -18,10 +18,15 @@ inline Int changes_until(View<const Int, 1> times, Int changes, Int time) {
     return std::upper_bound(times.data(), times.data() + changes, time) - times.data();
 }
 
+// How long a truck sets up after a leg.
+inline Int setup_after(View<const Setup, 1> setups, Int origin, Int to) {
+    if (setups.empty() || setups[origin].site == setups[to].site) return 0;
+    return setups[to].setup_duration;
+}
+
 // How long a truck sets up after a leg that the leg's duration doesn't hold.
 inline Int setup_beside(const VehicleType& type, View<const Setup, 1> setups, Int origin, Int to) {
-    if (setups.empty() || is_steady(type) || setups[origin].site == setups[to].site) return 0;
-    return setups[to].setup_duration;
+    return is_steady(type) ? 0 : setup_after(setups, origin, to);
 }
 
 // When a leg of `duration` at full speed, begun at `leave`, is done.

@@ -81,7 +81,8 @@ void add_cost(const Instance& instance, const Setting& setting, const VehicleLog
         }
     }
     const Int end = log.stop[log.count.stops - 1].leave;
-    const Int working = end - first_departure(setting, log, log.trip[0].start);
+    const Int working =
+        end - first_departure(setting, log, log.trip[0].start) - unpaid_in(setting, log);
     const Int served = log.count.stops - 2 * log.count.trips;
     cost.fixed += rate.fixed;
     cost.distance += drive_cost(rate, driven, hours_and_km);

@@ -1,7 +1,9 @@
 #include "simulation/meeting.h"
 
 #include <algorithm>
+#include <optional>
 
+#include "rules/breaks.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
@@ -188,6 +190,30 @@ Int meet(const Setting& setting, View<Drone, 1> drones, Int here, Int arrival) {
     return free;
 }
 
+// When a truck that leaves at `leave` arrives, set up, with the breaks that its driver takes.
+struct Ride {
+    Int arrival;  // -1: a break can't be taken
+    Rests rests;
+};
+
+Ride ride(const Setting& setting, const Vehicle& vehicle, Int begin, Int to, Int leave) {
+    const Int here = vehicle.node;
+    if (!has_breaks(setting.type)) return {travel_arrival(setting, here, to, leave), {}};
+    const Int setup = setup_after(setting.setup, here, to);
+    const auto travel = travel_without_setup(setting, here, to);
+    const bool is_customer = to >= setting.num_depots;
+    const auto opens = [&](Int arrival) {
+        return is_customer ? setting.node[to].start_of_service(arrival + setup) - setup : arrival;
+    };
+    const auto leaves = [&](Int arrival) {
+        return is_customer ? setting.node[to].end_of_service(arrival + setup) : arrival;
+    };
+    const std::optional<Rests> rests =
+        rests_on_leg(setting.type, vehicle.rested, begin, leave, travel, leaves, opens);
+    if (!rests) return {-1, {}};
+    return {come(setting, *rests, begin, here, to, leave), *rests};
+}
+
 // Tell whether a drone in flight reaches its customer too late for a hard window.
 bool any_late(const Setting& setting, Int here, View<const Drone, 1> drones) {
     return std::any_of(drones.begin(), drones.end(), [&](const Drone& drone) {
@@ -254,24 +280,26 @@ Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const Vehicl
     return take_off(type, vehicle.crew, vehicle.launched);
 }
 
-Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to) {
-    constexpr Leaving impossible{-1, -1, -1};
+Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int begin,
+                  Int to) {
+    const Leaving impossible{-1, -1, -1, {}};
     const Int here = vehicle.node;
     mark_places(setting, drones, here, to);
     if (vehicle.flying == 0) {
         const Int leave = std::max(vehicle.service_end, vehicle.free);
-        const Int arrival = travel_arrival(setting, here, to, leave);
-        return {vehicle.free, arrival, arrival};
+        const auto [arrival, rests] = ride(setting, vehicle, begin, to, leave);
+        return {vehicle.free, arrival, arrival, rests};
     }
     // Who can't be met loops, of which the others may be launched later, and so on.
     while (true) {
         const Int left = operate(setting, vehicle, drones, to);
         if (left < 0) return impossible;
         const Int leave = std::max(vehicle.service_end, left);
-        const Int arrival = travel_arrival(setting, here, to, leave);
+        const auto [arrival, rests] = ride(setting, vehicle, begin, to, leave);
+        if (arrival < 0) return impossible;
         const Int free = meet(setting, drones, here, arrival);
         if (free < 0) continue;
-        return any_late(setting, here, drones) ? impossible : Leaving{left, arrival, free};
+        return any_late(setting, here, drones) ? impossible : Leaving{left, arrival, free, rests};
     }
 }
 

@@ -6,6 +6,7 @@
 // recovered. So launches are timed anew once it is known where the truck drives to.
 #pragma once
 
+#include "rules/breaks.h"
 #include "simulation/state.h"
 
 namespace tandem {
@@ -43,15 +44,18 @@ Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const Vehicl
                     Int takeoff);
 
 // End of the launches and recoveries at a stop, arrival at the next, end of the recoveries there;
-// -1 each if some sortie can be recovered at neither, or is launched too late.
+// -1 each if some sortie can be recovered at neither, or is launched too late, or a break can't be
+// taken.
 struct Leaving {
     Int left;
     Int arrival;
     Int free;
+    Rests rests;  // between both stops
 };
 
 // Decide what the sorties in flight do if the truck drives to `to` next, and mark each as met or
-// looping, with its times.
-Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int to);
+// looping, with its times. The route begins at `begin`.
+Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int begin,
+                  Int to);
 
 }  // namespace tandem

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "guard.h"
+#include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/flight.h"
 #include "rules/load.h"
@@ -47,7 +48,7 @@ Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int no
         arrival = travel_arrival(setting, vehicle.node, node, leaves_first(setting.type, leave));
         free = arrival;
     } else {
-        const Leaving leaving = leave_for(setting, vehicle, drones, node);
+        const Leaving leaving = leave_for(setting, vehicle, drones, 0, node);
         if (leaving.arrival < 0) return Verdict::no;
         arrival = leaving.arrival;
         free = leaving.free;
@@ -89,7 +90,7 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     const Int delivered = given_by_flight(setting, node);
     board(open, drone, 0, node, takeoff);
     vehicle.given += delivered;
-    const Leaving leaving = leave_for(setting, vehicle, drones, home);
+    const Leaving leaving = leave_for(setting, vehicle, drones, 0, home);
     const bool is_held = leaving.arrival >= 0 && holds_all(setting, vehicle, drones, home, false);
     drone.sortie = in_flight;
     vehicle.given -= delivered;
@@ -141,7 +142,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
     const bool laden = carries_parcels(open);
-    const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden;
+    const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
+                        has_breaks(setting.type);
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {

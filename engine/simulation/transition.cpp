@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "rules/breaks.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/load.h"
@@ -22,7 +23,7 @@ void log_op(VehicleLog& log, Int stop, Int sortie, bool is_recovery) {
 }
 
 void log_stop(VehicleLog& log, Int node, Int arrival, Int start, Int leave) {
-    log.stop[log.count.stops++] = {node, arrival, start, leave};
+    log.stop[log.count.stops++] = {node, arrival, start, leave, 0};
 }
 
 // Append the recoveries decided by `leave_for`, in order.
@@ -256,9 +257,12 @@ bool drive(OpenVehicle& open, Int node) {
     } else if (is_customer && !hold_trip(open, release_of(place))) {
         return false;
     }
-    const auto [left, arrival, free] = leave_for(setting, vehicle, drones, node);
+    const auto [left, arrival, free, rests] =
+        leave_for(setting, vehicle, drones, log.trip[0].start, node);
     if (arrival < 0 || (is_customer && place.too_late(arrival))) return false;
     if (!holds_all(setting, vehicle, drones, node, is_customer)) return false;
+    log.stop[log.count.stops - 1].rests = rests.packed();
+    vehicle.rested = rests.next(vehicle.rested);
     load_stop(setting, vehicle, drones, node, is_customer);
     if (vehicle.flying > 0) {
         log.stop[log.count.stops - 1].leave = std::max(vehicle.service_end, left);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "rules/breaks.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
@@ -39,7 +40,8 @@ void copy_vehicle(State& state, Int r, Int to) {
 bool works_within(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
     const Int start = start_within_work(setting, log, vehicle.start_best);
-    return may_work(setting.type, vehicle.free - first_departure(setting, log, start));
+    const Int working = vehicle.free - first_departure(setting, log, start);
+    return may_work(setting.type, working - unpaid_in(setting, log));
 }
 
 // Who is served, in order, before the vehicle goes home.
@@ -118,6 +120,7 @@ bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Int distance, con
         if (!drive(open, node)) return false;
     }
     return drive(open, setting.type.ends_at) && may_end(setting.type, vehicle.free) &&
+           none_due(setting.type, vehicle.rested, log.trip[0].start, vehicle.free) &&
            works_within(open);
 }
 

@@ -116,6 +116,7 @@ public:
     bool run(Int first_trip, Int start) {
         op_ = log_.trip[first_trip].first_op;
         leave_ = start;
+        begin_ = first_trip == 0 ? start : log_.trip[0].start;
         for (Int trip = first_trip; trip < log_.count.trips; ++trip) {
             if (trip > first_trip) {
                 start = std::max(log_.trip[trip].release, leave_ + setting_.type.reload_duration);
@@ -156,9 +157,12 @@ private:
         const Int behind = stops_of(log_, trip).behind;
         for (Int index = first_; index < behind; ++index) {
             const Int node = log_.stop[index].node;
-            const Int arrival =
-                index == first_ ? start
-                                : travel_arrival(setting_, log_.stop[index - 1].node, node, leave_);
+            Int arrival = start;
+            if (index > first_) {
+                const LoggedStop& before = log_.stop[index - 1];
+                arrival = come(setting_, Rests(before.rests), begin_, before.node, node, leave_);
+                if (arrival < 0) return false;
+            }
             if (!run_stop(index, arrival)) return false;
         }
         return true;
@@ -312,6 +316,7 @@ private:
     const VehicleLog& log_;
     Int op_ = 0;
     Int leave_ = 0;
+    Int begin_ = 0;  // of the route
     bool lasting_ = true;
     // Of the trip: its first stop, the launches so far, the first instant at which any has left.
     Int first_ = 0;
@@ -431,7 +436,8 @@ Int start_to_depart(const Setting& setting, const VehicleLog& log, Int departure
 
 Int start_within_work(const Setting& setting, VehicleLog& log, Int known) {
     if (has_begun(setting.type)) return known;
-    const Int needed = log.stop[log.count.stops - 1].leave - longest_work(setting.type);
+    const Int needed =
+        log.stop[log.count.stops - 1].leave - longest_work(setting.type) - unpaid_in(setting, log);
     if (first_departure(setting, log, known) >= needed) return known;
     const Int later = start_to_depart(setting, log, needed);
     return costs_nothing(setting, log, 0, later) ? later : known;

@@ -5,6 +5,7 @@
 // a trip that costs nothing elsewhere.
 #pragma once
 
+#include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/flown_trip.h"
 #include "rules/pair.h"
@@ -57,6 +58,32 @@ inline Int travel_arrival(const Setting& setting, Int origin, Int to, Int leave)
     return leg_end(setting.type, setting.profile_time, setting.profile_factor,
                    setting.drive(origin, to), leave) +
            setup_beside(setting.type, setting.setup, origin, to);
+}
+
+// When a leg ends, by when it begins, without setup.
+inline auto travel_without_setup(const Setting& setting, Int origin, Int to) {
+    const Int setup = is_steady(setting.type) ? setup_after(setting.setup, origin, to) : 0;
+    return [&setting, duration = setting.drive(origin, to) - setup](Int leave) {
+        return leg_end(setting.type, setting.profile_time, setting.profile_factor, duration, leave);
+    };
+}
+
+// As `travel_arrival`, with breaks on a route that begins at `begin`; -1 if one can't be taken.
+inline Int come(const Setting& setting, Rests rests, Int begin, Int origin, Int to, Int leave) {
+    if (rests.count() == 0) return travel_arrival(setting, origin, to, leave);
+    const std::optional<Int> arrival =
+        arrival_after(setting.type, rests, begin, leave, travel_without_setup(setting, origin, to));
+    return arrival ? *arrival + setup_after(setting.setup, origin, to) : -1;
+}
+
+// How long the breaks are that a vehicle has taken and that don't count in its working duration.
+inline Int unpaid_in(const Setting& setting, const VehicleLog& log) {
+    if (!has_breaks(setting.type)) return 0;
+    Int unpaid = 0;
+    for (const LoggedStop& stop : log.stop.first(log.count.stops)) {
+        unpaid += unpaid_of(setting.type, Rests(stop.rests));
+    }
+    return unpaid;
 }
 
 // Time the trips from `first_trip` on, the first begun at `start`, all else without delay.

@@ -81,7 +81,8 @@ def judge_route(problem: Problem, route: Route, path: str,
     vehicle_type = problem.vehicle_types[route.vehicle_type]
     known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
     trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]",
-                   known[number] if number < len(known) else None, past.now)
+                   known[number] if number < len(known) else None, past.now,
+                   route.trips[0] if number else None)
              for number, trip in enumerate(route.trips)]
     timed = Route(route.vehicle_type, route.vehicle, tuple([trip.trip for trip in trips]))
     measured, cost = measure_route(problem, timed, tuple([trip.metrics for trip in trips]))
@@ -106,13 +107,13 @@ def _total(costs: list[Cost]) -> Cost:
 
 
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
-          known: KnownTrip | None, now: int) -> TimedTrip:
+          known: KnownTrip | None, now: int, first: Trip | None) -> TimedTrip:
     """Recompute a trip from the choices it states, and what is known of it."""
     decision = read_decision(stated, vehicle_type)
     if known is not None and begins_with(stated, known):
         trip = resume_trip(problem, vehicle_type, decision, known, now)
     else:
-        trip = schedule_trip(problem, vehicle_type, decision, 0)
+        trip = schedule_trip(problem, vehicle_type, decision, 0, first)
     return TimedTrip(decision, trip, measure_trip(problem, vehicle_type, trip), path)
 
 
@@ -171,6 +172,7 @@ def _unreadable(problem: Problem, route: Route, path: str) -> Iterator[Violation
             yield Violation("DEPOT", "a trip begins and ends at the depot", trip_path)
             continue
         yield from _unreadable_stops(problem, trip, trip_path)
+        yield from _unreadable_breaks(vehicle_type, trip, trip_path)
         if vehicle_type.flies:
             legs = pairwise([stop.node for stop in trip.stops])
             yield from _unreachable(problem, vehicle_type, legs, trip_path)
@@ -197,6 +199,14 @@ def _unreadable_stops(problem: Problem, trip: Trip, path: str) -> Iterator[Viola
             yield Violation("DEPOT", f"depot {node} amid a trip", stop_path)
         else:
             yield Violation("DEPOT", f"node {node} is no depot to begin or end at", stop_path)
+
+
+def _unreadable_breaks(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
+    for index, taken in enumerate(trip.breaks):
+        if not (0 <= taken.number < len(vehicle_type.breaks)
+                and 0 <= taken.stop < len(trip.stops) - 1):
+            yield Violation("BREAK", f"{vehicle_type.id} has no such break between two stops",
+                            f"{path}.breaks[{index}]")
 
 
 def _unreadable_sortie(
@@ -234,6 +244,8 @@ def _mismatches(stated: Trip, timed: Trip, path: str) -> Iterator[Violation]:
     for index, (said, stop) in enumerate(zip(stated.stops, timed.stops, strict=True)):
         yield from _mismatch(said, stop, ("arrival", "service_start", "departure"),
                              f"{path}.stops[{index}]")
+    for index, (claimed, taken) in enumerate(zip(stated.breaks, timed.breaks, strict=True)):
+        yield from _mismatch(claimed, taken, ("arrival", "start", "end"), f"{path}.breaks[{index}]")
     for index, (claim, sortie) in enumerate(zip(stated.sorties, timed.sorties, strict=True)):
         sortie_path = f"{path}.sorties[{index}]"
         yield from _mismatch(claim, sortie, ("launch_time", "recovery_start", "recovery_time"),

@@ -15,9 +15,22 @@ MS_PER_MINUTE = 60_000
 
 def leg_end(departure: int, duration: int, profile: SpeedProfile | None) -> int:
     """Return when a leg of a matrix duration ends, rounded up to a millisecond."""
+    return work_end(departure, duration * FULL_SPEED, profile)
+
+
+def work_between(begin: int, end: int, profile: SpeedProfile | None) -> int:
+    """Return how much is driven from one instant to another, in ms times the factor of speed."""
     if profile is None:
-        return departure + duration
-    work = duration * FULL_SPEED
+        return (end - begin) * FULL_SPEED
+    times = [begin, *(time for time in profile.times if begin < time < end), end]
+    return sum([(until - since) * profile.factors[bisect_right(profile.times, since)]
+                for since, until in pairwise(times)])
+
+
+def work_end(departure: int, work: int, profile: SpeedProfile | None) -> int:
+    """Return when so much is driven, as `work_between` counts it, rounded up to a millisecond."""
+    if profile is None:
+        return departure - -work // FULL_SPEED
     time = departure
     for change in range(bisect_right(profile.times, departure), len(profile.times)):
         until_change = (profile.times[change] - time) * profile.factors[change]

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from model.judge.breaks import unpaid
 from model.judge.clock import opening
 from model.judge.energy import sortie_energy
 from model.judge.flown_trips import trip_energy
@@ -41,7 +42,7 @@ class TripMetrics:
 class RouteMetrics:
     """One vehicle."""
 
-    working_duration: int = 0  # ms from first departure to last return
+    working_duration: int = 0  # ms from first departure to last return, without unpaid breaks
     working_rate: float | None = None  # of the longest without overtime; None without a limit
     overtime: int = 0  # ms past shift or working duration, the longer
     cost: float = 0.0
@@ -160,7 +161,7 @@ def measure_route(
     if begin is None:
         begin = first_departure(vehicle_type, route.trips[0])
     end = route.trips[-1].stops[-1].departure
-    working = end - begin
+    working = end - begin - unpaid(vehicle_type, route.trips)
     over = overtime(vehicle_type, end, working)
     over_rate = vehicle_type.overtime.cost_per_hour if vehicle_type.overtime else 0.0
     stops = sum([len(trip.customer_stops) for trip in route.trips]) * vehicle_type.cost_per_stop

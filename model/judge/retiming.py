@@ -93,7 +93,7 @@ class _Timer:
             if known is None:
                 charged = charged_start(self._problem, self._type, timed, trip.nodes)
                 begin = max(ready, self._free_from(trip), charged, 0 if start is None else start)
-                timed.append(self._from(trip, begin, start is not None))
+                timed.append(self._from(trip, begin, start is not None, *timed[:1]))
             else:
                 timed.append(resume_trip(self._problem, self._type, trip, known, self._past.now))
             ready = max(timed[-1].stops[-1].departure + self._type.reload_duration,
@@ -103,10 +103,11 @@ class _Timer:
     def _known_trip(self, number: int) -> KnownTrip | None:
         return self._known[number] if number < len(self._known) else None
 
-    def _from(self, trip: TripDecision, begin: int, is_chosen: bool = True) -> Trip:
+    def _from(self, trip: TripDecision, begin: int, is_chosen: bool = True,
+              first: Trip | None = None) -> Trip:
         """Return a trip from an instant on, or, if not chosen, once parcels stay fresh."""
         decision = replace(trip, start=begin if is_chosen else None)
-        return schedule_trip(self._problem, self._type, decision, begin)
+        return schedule_trip(self._problem, self._type, decision, begin, first)
 
     def _free_from(self, trip: TripDecision) -> int:
         """Return when all parcels of a trip are at the depot."""
@@ -133,9 +134,10 @@ class _Timer:
     def _delay(self, decision: TripDecision, trip: Trip, room: int) -> int:
         """Return how much later a trip may begin that may end `room` later."""
         if not (trip.sorties or self._type.speed_profile or self._type.busy_until
-                or self._problem.launch_sites):
+                or self._problem.launch_sites or trip.breaks):
             return _plain_delay(self._problem, trip, room)
         high = room + sum([halt.service_start - halt.ready for halt in halts(trip)])
+        high += sum([taken.start - taken.arrival for taken in trip.breaks])
         low, latest = 0, trip.stops[-1].departure + room
         late = _lateness(self._problem, trip)
         for step in range(BISECTIONS if high else 0):

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
 from model.judge.flown_trips import charged_start, excess_of
@@ -45,6 +46,7 @@ class TripDecision:
     sorties: tuple[SortieDecision, ...] = ()
     operations: tuple[tuple[Operation, ...], ...] | None = None  # per stop; None: by arrival
     start: int | None = None  # arrival at the first stop; None: as soon as possible
+    breaks: tuple[BreakDecision, ...] = ()
 
     def customers(self, first: int) -> tuple[int, ...]:
         """Return those whom it serves, whose nodes begin at `first`, the truck's first."""
@@ -110,7 +112,7 @@ def read_decision(trip: Trip, kind: VehicleType) -> TripDecision:
     nodes = tuple([stop.node for stop in trip.stops])
     start = trip.stops[0].arrival
     if not trip.sorties:
-        return TripDecision(nodes, (), None, start)
+        return TripDecision(nodes, (), None, start, decisions_of(trip))
     keyed: list[list[tuple[tuple[int, ...], Operation]]] = [[] for _ in nodes]
     sorties = []
     begins = launch_begins(trip.sorties, kind)
@@ -126,7 +128,7 @@ def read_decision(trip: Trip, kind: VehicleType) -> TripDecision:
             recovery = (max(begin, recovery[0]), max(end, recovery[1]), phase, index, 1)
         keyed[last].append((recovery, Operation(index, False)))
     operations = tuple(tuple(operation for _, operation in sorted(group)) for group in keyed)
-    return TripDecision(nodes, tuple(sorties), operations, start)
+    return TripDecision(nodes, tuple(sorties), operations, start, decisions_of(trip))
 
 
 def latest_release(problem: Problem, decision: TripDecision) -> int:
@@ -260,21 +262,22 @@ def _timed_sorties(
 
 
 def schedule_trip(
-    problem: Problem, vehicle_type: VehicleType, decision: TripDecision, ready: int
+    problem: Problem, vehicle_type: VehicleType, decision: TripDecision, ready: int,
+    first: Trip | None = None
 ) -> Trip:
-    """Return a trip with its times.
+    """Return a trip with its times; `first` is the first of the route, if that is another.
 
     Without a start of its own it begins once `ready`, or later if that keeps parcels from being
     aboard too long, or who flies by itself from waiting too long in the air.
     """
-    trip = _schedule_trip(problem, vehicle_type, decision, ready)
+    trip = _schedule_trip(problem, vehicle_type, decision, ready, first)
     if decision.start is not None or not (
             problem.limits_time_aboard or problem.limits_time_between or vehicle_type.flies):
         return trip
     excess = excess_of(problem, vehicle_type, trip)
     while excess > 0:
         later = replace(decision, start=trip.stops[0].arrival + excess)
-        held = _schedule_trip(problem, vehicle_type, later, ready)
+        held = _schedule_trip(problem, vehicle_type, later, ready, first)
         left = excess_of(problem, vehicle_type, held)
         if left >= excess:
             break
@@ -283,7 +286,7 @@ def schedule_trip(
 
 
 def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
-                   ready: int) -> Trip:
+                   ready: int, first_trip: Trip | None) -> Trip:
     duration, setup = problem.travel[vehicle_type.travel].duration, 0
     profile, drones = vehicle_type.speed_profile, vehicle_type.drones
     customers, first, last = problem.customers, len(problem.depots), len(decision.nodes) - 1
@@ -292,10 +295,17 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     arrival = decision.start
     if arrival is None:
         arrival = max(ready, latest_release(problem, decision))
+    began = first_trip or Trip((Stop(decision.nodes[0], arrival, arrival, arrival),))
+    begin, breaks = begin_of(vehicle_type, began), []
     departure = node = 0
     for index, following in enumerate(decision.nodes):
         if index:
-            arrival = leg_end(departure, duration.item(node, following), profile)
+            leg = duration.item(node, following)
+            arrival = leg_end(departure, leg, profile)
+            if decision.breaks:
+                arrival, taken = drive(vehicle_type, begin, departure, leg, [
+                    each for each in decision.breaks if each.stop == index - 1])
+                breaks += taken
             setup = problem.setup_between(node, following)
         node = following
         start = departure = arrival
@@ -315,8 +325,8 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
                                      start if node < first else arrival + setup, flights))
         stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
-        return Trip(tuple(stops))
-    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type))
+        return Trip(tuple(stops), (), tuple(breaks))
+    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type), tuple(breaks))
 
 
 def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
@@ -373,7 +383,7 @@ def schedule(problem: Problem, decision: RouteDecision) -> Route:
     for trip in decision.trips:
         _require_known(problem, vehicle_type, trip)
         ready = max(ready, charged_start(problem, vehicle_type, trips, trip.nodes))
-        trips.append(schedule_trip(problem, vehicle_type, trip, ready))
+        trips.append(schedule_trip(problem, vehicle_type, trip, ready, *trips[:1]))
         ready = trips[-1].stops[-1].departure + vehicle_type.reload_duration
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Literal
 
+from model.problem.breaks import MAX_BREAKS, Break
 from model.problem.customer import Customer
 from model.problem.energy import Energy
 from model.problem.overtime import Overtime
@@ -134,6 +135,7 @@ class VehicleType:
     max_range: int | None = None  # of one that flies: mm to customers from a trip's ends
     has_charger: bool = False  # of one that flies: it has a place to charge at its depot already
     straight: int = 0  # index into Problem.travel, whose distances tell that
+    breaks: tuple[Break, ...] = ()  # of each driver, in the order in which they are taken
     co2_kg_per_km: float | None = None  # of the truck, for replies alone
     co2_kg_per_kwh: float | None = None  # of the energy that its drones use
 
@@ -157,6 +159,8 @@ class VehicleType:
         require(self.max_airborne != 0, f"vehicle type {self.id} max_airborne", self.max_airborne)
         require(self.drones is not None or not self.more_drones,
                 f"vehicle type {self.id} more_drones", self.more_drones)
+        require(len(self.breaks) <= (0 if self.flies else MAX_BREAKS),
+                f"vehicle type {self.id} breaks", len(self.breaks))
         self._require_flight()
         self._require_beginning()
 

@@ -21,6 +21,7 @@ def evaluate(instance: Instance) -> Records:
     costly = np.any([rates[name] > 0 for name in WORK_RATES], axis=0)
     timed = costly | (types["max_working_duration"] < UNLIMITED)
     retimed = types["speed_changes"] != NO_PROFILE
+    retimed = retimed | (types["breaks"] > 0)
     flies = types["flies"] > 0
     retimed = retimed | any_aboard(types, (types["charge"] > 0) & ((types["drones"] > 0) | flies))
     retimed = retimed | any_aboard(types, (types["storms"] > 0) & (types["drones"] > 0))

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from model.engine.breaks import PLACES, break_times
 from model.engine.instance import Instance
 from model.engine.library import packed
 from model.engine.packing import Packed
@@ -12,7 +13,9 @@ from model.engine.records import read_rows
 from model.problem import IntArray, Problem
 from model.simulation.actions import apply_route, close_vehicle, reset
 from model.simulation.state import NO_VEHICLE, State, VehicleLogs
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit, with_handling
+from model.solution import (
+    Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit, with_handling,
+)
 
 
 def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntArray) -> Solution:
@@ -34,13 +37,14 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntAr
     done = 0
     while done < len(codes):
         done = apply_route(*given, 0, codes, done)
-        routes += _close(problem, state, given)
+        routes += _close(problem, instance, state, given)
     nodes = range(problem.num_depots, problem.num_nodes)
     unassigned = tuple(node for node in nodes if not state.served[0, node])
     return Solution(tuple(routes), unassigned)
 
 
-def _close(problem: Problem, state: State, given: tuple[Packed, Packed]) -> list[Route]:
+def _close(problem: Problem, instance: Instance, state: State,
+           given: tuple[Packed, Packed]) -> list[Route]:
     """Close the open vehicle and return its route, if it has one.
 
     `given` is what the engine takes: the problem, and the state.
@@ -49,14 +53,15 @@ def _close(problem: Problem, state: State, given: tuple[Packed, Packed]) -> list
     if vehicle.type == NO_VEHICLE or state.log.count["trips"][0] == 0:
         return []
     close_vehicle(*given, 0)
-    return [Route(vehicle.type, vehicle.index, _trips(problem, vehicle.type, state.log))]
+    return [Route(vehicle.type, vehicle.index, _trips(problem, instance, vehicle.type, state.log))]
 
 
-def _trips(problem: Problem, index: int, logs: VehicleLogs) -> tuple[Trip, ...]:
+def _trips(problem: Problem, instance: Instance, index: int,
+           logs: VehicleLogs) -> tuple[Trip, ...]:
     kind, (count,) = problem.vehicle_types[index], read_rows(logs.count[:1])
     firsts = logs.trip["first_stop"][0, : count.trips].tolist()
     stops: list[Stop] = []
-    for node, ready, start, leave in logs.stop[0, : count.stops].tolist():
+    for node, ready, start, leave, _ in logs.stop[0, : count.stops].tolist():
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         stops.append(Stop(node, ready - setup, start, leave, setup))
     sorties = read_rows(logs.sortie[0, : count.sorties])
@@ -64,9 +69,30 @@ def _trips(problem: Problem, index: int, logs: VehicleLogs) -> tuple[Trip, ...]:
     for first, behind in zip(firsts, [*firsts[1:], count.stops], strict=True):
         flown = tuple(_sortie(problem, row, stops[row.launch_stop].node, first) for row in sorties
                       if first <= row.launch_stop < behind)
+        breaks = _breaks(instance, index, stops, logs, (first, behind)) if kind.breaks else ()
         trips.append(Trip(with_handling(stops[first:behind], kind.launch_duration,
-                                        kind.recovery_duration), flown))
+                                        kind.recovery_duration), flown, breaks))
     return tuple(trips)
+
+
+def _breaks(instance: Instance, k: int, stops: Sequence[Stop], logs: VehicleLogs,
+            trip: tuple[int, int]) -> tuple[TakenBreak, ...]:
+    """Return the breaks of a trip whose first stop, and the first behind it, are given."""
+    legs = instance.duration[0, instance.type[0, k].travel]
+    profile = instance.profile_time[0], instance.profile_factor[0]
+    begin = int(logs.trip[0, 0]["start"])
+    taken = []
+    for place in range(trip[0], trip[1] - 1):
+        here, there = stops[place], stops[place + 1]
+        duration = legs.item(here.node, there.node)
+        if instance.type[0, k].speed_changes < 0:
+            duration -= there.setup
+        taken += [TakenBreak(number, place - trip[0], PLACES[where], arrival, start,
+                             start + int(instance.type[0, k].break_duration[number]))
+                  for number, where, arrival, start in break_times(
+                      instance.type[0], profile, k, int(logs.stop[0, place]["rests"]), begin,
+                      here.departure, duration)]
+    return tuple(taken)
 
 
 def _sortie(problem: Problem, row: Any, launch_node: int, first_stop: int) -> Sortie:

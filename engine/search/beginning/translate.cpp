@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "guard.h"
+#include "rules/breaks.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/pair.h"
@@ -87,6 +88,11 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
+    if (has_breaks(data.type[route.type])) {
+        bool settled = false;
+        return price_as_is(data, fleet, slot, settled) &&
+               (settled || settle(data, route, stops, trips, sorties));
+    }
     load_trips(data, route, stops, trips, sorties);
     clear_holds(route, stops, trips);
     if (!drive_forward(data, route, stops, sorties)) return false;
@@ -128,6 +134,28 @@ extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem
         Fleet routes = fleet_of(*fleet);
         if (!finish_route(data_of(*data), routes, slot)) {
             throw std::invalid_argument("nobody can drive the route");
+        }
+    });
+}
+
+extern "C" int tandem_break_times(const tandem_vehicle_type_1d* types,
+                                  const tandem_i64_2d* profile_time,
+                                  const tandem_i64_2d* profile_factor, int64_t k,
+                                  const tandem_broken_leg* leg, const tandem_i64_2d* times) {
+    return guarded([&] {
+        const VehicleType& type = View<VehicleType, 1>(*types)[k];
+        const View<Int, 2> written(*times);
+        const Rests rests(leg->rests);
+        const auto travel = [&](Int leave) {
+            return leg_end(type, View<Int, 2>(*profile_time)[k], View<Int, 2>(*profile_factor)[k],
+                           leg->duration, leave);
+        };
+        BrokenLeg broken(type, leg->begin, leg->leave, travel);
+        for (Int index = 0; index < rests.count(); ++index) {
+            broken.rest(rests.number(index), rests.place(index), [&](Int stood, Int start) {
+                written(index, 0) = stood;
+                written(index, 1) = start;
+            });
         }
     });
 }

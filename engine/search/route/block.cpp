@@ -336,7 +336,11 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         if (stop.kind == end_stop || p + 1 >= stops.size() || waits_for_drones(type)) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
-        const TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});
+        TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});
+        if (truck.resting && stop.rests != 0) {
+            there.c = truck.come(stop, next, c);
+            if (there.c == far) return -1;
+        }
         d = there.d;
         c = there.c;
         ++p;

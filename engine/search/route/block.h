@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <optional>
 
+#include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
@@ -40,7 +42,8 @@ struct Truck {
           own(data_of_it.place[0]),
           drones(drone_data_at(data_of_it, first_drone_row(data_of_it.type, row))),
           alike(!are_several(type)),
-          steady(is_steady(type)) {}
+          resting(has_breaks(type)),
+          steady(is_steady(type) && !resting) {}
 
     const ProblemData& data;
     Int k;
@@ -49,7 +52,9 @@ struct Truck {
     NodeTable own;     // by the service durations that are customers' own
     DroneData drones;  // what its first drones meet
     bool alike;        // all of them
-    bool steady;
+    bool resting;      // whether its driver has breaks
+    bool steady;       // whether all lasts as long at any time
+    Int begin = none;  // of the route, where the driver has breaks
 
     // Return what the drone of a sortie meets.
     DroneData drone_data(const Sortie& sortie) const {
@@ -67,6 +72,22 @@ struct Truck {
         const Int arrival =
             leg_end(type, data.profile_time[k], data.profile_factor[k], duration, leave.c);
         return {none, arrival + setup_beside(type, data.setup, node, to)};
+    }
+
+    // Return when a leg from a stop to a node ends, left at `leave`, without breaks and setup.
+    auto legs_end(const Stop& from, Int to) const {
+        const bool holds_setup = is_steady(type);
+        const Int setup = holds_setup ? setup_after(data.setup, from.node, to) : 0;
+        return [this, duration = from.gap - setup](Int leave) {
+            return leg_end(type, data.profile_time[k], data.profile_factor[k], duration, leave);
+        };
+    }
+
+    // Return when it comes from a stop to a node, with the breaks between; `far` if one can't be.
+    Int come(const Stop& from, Int to, Int leave) const {
+        const std::optional<Int> arrival =
+            arrival_after(type, Rests(from.rests), begin, leave, legs_end(from, to));
+        return arrival ? *arrival + setup_after(data.setup, from.node, to) : far;
     }
 
     // Return when what it does at a stop by itself ends.

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "randomness.h"
+#include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
+#include "search/route/breaks.h"
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
@@ -20,6 +22,12 @@ namespace {
 
 // Attempts to find out how late a trip may begin whose drones come in another order if it waits.
 constexpr Int halvings = 6;
+
+// Attempts likewise where breaks may then be due, or not any more.
+constexpr Int halvings_with_breaks = 20;
+
+// How often a trip with breaks is held back again since it has lost some.
+constexpr Int settled_again = 3;
 
 // Draws after which a search for one of few customers ends.
 constexpr Int most_draws = 64;
@@ -54,8 +62,13 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop
             leave = arrival - before.gap;
         } else {
             arrival -= setup_beside(type, data.setup, before.node, stop.node);
-            leave =
-                leg_start(type, data.profile_time[k], data.profile_factor[k], before.gap, arrival);
+            const auto back = [&](Int time) {
+                return leg_start(type, data.profile_time[k], data.profile_factor[k], before.gap,
+                                 time);
+            };
+            leave = has_breaks(type) ? departure_before(type, Rests(before.rests),
+                                                        begin_of(type, stops), arrival, back)
+                                     : back(arrival);
         }
     }
     return leave;
@@ -68,7 +81,7 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop
 Int latest_hold(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 View<const Sortie, 1> sorties, Int first) {
     Int hold = none;
-    if (is_steady(data.type[route.type])) {
+    if (is_steady(data.type[route.type]) && !has_breaks(data.type[route.type])) {
         const Int base = stops[first].before;
         hold = route.end - (route.cum - base);
         for (Int p = first; p < route.length; p = stops[p].last + 1) {
@@ -94,7 +107,7 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
                  View<const Sortie, 1> sorties) {
     if (route.sorties == 0) return false;
     const Int soonest = settled_departure(data, route, stops, sorties);
-    return !may_work(data.type[route.type], route.end - soonest);
+    return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
 }
 
 // Tell whether each trip serves whole shipments, each picked up first.
@@ -108,21 +121,15 @@ bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1>
     });
 }
 
-// Write times and cost of a route with trips that end where they do. In place; false if it breaks
-// a rule.
-//
-// Where that costs less, its trips are held back; `settled` tells.
-bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+// As `price_as_is`, of a route whose loads are known and whose first trip begins no sooner than its
+// release says.
+bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     const VehicleType& type = data.type[route.type];
     const bool held_back = data.evaluation[route.type].held_back;
-    if (!load_trips(data, route, stops, trips, sorties)) return false;
-    if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips)) return false;
-    if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
-    if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     clear_holds(route, stops, trips);
     if (!drive_forward(data, route, stops, sorties)) return false;
     if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
@@ -134,13 +141,41 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
         if (!settle(data, route, stops, trips, sorties)) return false;
         departure = settled_departure(data, route, stops, sorties);
     }
-    route.working = route.end - departure;
+    route.working = route.end - departure - route.unpaid;
     if (!may_work(type, route.working)) return false;
     const auto [cost, early] = price_route(data, route, stops, trips, sorties);
     fleet.cost[slot] = cost;
     if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);
     fleet.early[slot] = held_back ? early : 0.0;
     return true;
+}
+
+// As `price_loaded`, where a driver who begins later may have had breaks before.
+//
+// That is tried where time counts, or nothing else goes.
+bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const VehicleType& type = data.type[route.type];
+    const Int release = stops[0].release;
+    Int begin = std::max(release, type.shift_earliest), chosen = none;
+    double best = 0.0;
+    while (true) {
+        const bool possible = price_loaded(data, fleet, slot, settled);
+        if (possible && (chosen == none || fleet.cost[slot] < best)) {
+            chosen = begin;
+            best = fleet.cost[slot];
+        }
+        const bool is_enough = possible ? !data.evaluation[route.type].timed : chosen != none;
+        const Int later = later_begin(type, begin);
+        if (is_enough || !may_end(type, later)) {
+            if (chosen == none || (possible && chosen == begin)) return chosen != none;
+            break;
+        }
+        begin = stops[0].release = later;
+    }
+    stops[0].release = chosen;
+    return price_loaded(data, fleet, slot, settled);
 }
 
 // As `refresh`, with trips that end where they do.
@@ -181,26 +216,43 @@ void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
 
 }  // namespace
 
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const View<Trip, 1> trips = fleet.trip[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    if (!load_trips(data, route, stops, trips, sorties)) return false;
+    if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips)) return false;
+    if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
+    if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
+    return has_breaks(data.type[route.type]) ? price_later(data, fleet, slot, settled)
+                                             : price_loaded(data, fleet, slot, settled);
+}
+
 void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips) {
     for (const Trip& trip : trips.first(route.trips)) stops[trip.first].hold = none;
 }
 
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties) {
-    for (const Trip& trip : trips.first(route.trips)) {
+    const bool resting = has_breaks(data.type[route.type]);
+    Int index = 0, again = resting ? settled_again : 0;
+    while (index < route.trips) {
+        const Trip& trip = trips[index++];
         Stop& stop = stops[trip.first];
         const Int hold = latest_hold(data, route, stops, sorties, trip.first);
-        const Int soonest = std::max(stop.arrival, stop.release);
+        const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
         if (hold <= soonest) continue;
-        const Int end = route.end;
-        Int found = none, failed = hold, tried = hold;
-        for (Int attempt = 0; attempt <= halvings && found != hold; ++attempt) {
+        const Int end = route.end, before = stop.hold;
+        Int found = before, failed = hold, tried = hold;
+        const Int most = resting ? halvings_with_breaks : halvings;
+        for (Int attempt = 0; attempt <= most && found != hold; ++attempt) {
             stop.hold = tried;
             if (drive_forward(data, route, stops, sorties) && route.end <= end &&
                 !any_too_long(data, route, stops, trips, sorties)) {
                 found = tried;
             } else {
-                // Drones in another order of arrival took longer.
+                // Drones in another order of arrival took longer, or breaks that are due.
                 failed = tried;
             }
             tried = (std::max(found, soonest) + failed) >> 1;
@@ -209,6 +261,8 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
             stop.hold = found;
             if (!drive_forward(data, route, stops, sorties)) return false;
         }
+        // Without some breaks it may begin even later.
+        if (found > before && again-- > 0) --index;
     }
     return true;
 }

@@ -13,6 +13,12 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties);
 
+// Write times and cost of a route with trips that end where they do. In place; false if it breaks
+// a rule.
+//
+// Where that costs less, its trips are held back; `settled` tells.
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled);
+
 // Write all that follows from the sequence of a route. In place; false if it breaks a rule.
 //
 // Where trips may end at several places, that which costs least is chosen between two.

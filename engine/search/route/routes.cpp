@@ -9,6 +9,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "search/route/block.h"
+#include "search/route/breaks.h"
 #include "search/route/ends.h"
 #include "search/route/rarer.h"
 
@@ -94,7 +95,22 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties) {
-    const Truck truck(data, route.type);
+    const VehicleType& type = data.type[route.type];
+    if (!has_breaks(type)) return drive_as_placed(data, route, stops, sorties);
+    clear_breaks(route, stops);
+    const bool driven = drive_as_placed(data, route, stops, sorties);
+    if (driven && !any_break_due(type, route, stops)) return true;
+    // Whoever takes breaks is later everywhere, which helps drones alone.
+    if (!driven && route.sorties == 0) return false;
+    return place_breaks(data, route, stops, sorties) &&
+           drive_as_placed(data, route, stops, sorties) && !any_break_due(type, route, stops);
+}
+
+bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                     View<Sortie, 1> sorties) {
+    Truck truck(data, route.type);
+    if (truck.resting) truck.begin = begin_of(truck.type, stops);
+    route.unpaid = 0;
     const Int length = route.length, count = route.sorties;
     stops = stops.first(length);
     sorties = sorties.first(count);
@@ -135,11 +151,17 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
         if (behind.kind == end_stop) {
             time = leave + behind.gap;
         } else {
-            time = truck.travel(behind.node, stops[last + 1].node, behind.gap, {none, leave}).c;
+            const Int next = stops[last + 1].node;
+            time = truck.travel(behind.node, next, behind.gap, {none, leave}).c;
+            if (truck.resting && behind.rests != 0) {
+                time = truck.come(behind, next, leave);
+                if (time == far) return false;
+            }
         }
         cum += behind.gap;
         p = last + 1;
     }
+    if (truck.resting) route.unpaid = unpaid_on(truck.type, stops);
     route.end = stops[length - 1].leave;
     route.cum = stops[length - 1].cum;
     route.awaited = sums.awaited;

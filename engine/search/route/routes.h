@@ -22,7 +22,12 @@ inline void carry(const ProblemData& data, Trip& trip, Int node) {
 bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
                 View<const Sortie, 1> sorties);
 
-// Write times as soon as possible, stop after stop. In place; false if a rule is broken.
+// Write times as soon as possible, stop after stop, with breaks where they are placed. In place;
+// false if a rule is broken.
+bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                     View<Sortie, 1> sorties);
+
+// As `drive_as_placed`, with breaks placed so that the route ends as soon as possible.
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties);
 

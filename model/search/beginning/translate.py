@@ -1,11 +1,12 @@
 """Plans to and from the routes of a search."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from model.engine.instance import DIMENSIONS_PER_TIER, NONE
+from model.engine.breaks import NONE, PLACES, break_times
+from model.engine.instance import DIMENSIONS_PER_TIER, NO_PROFILE
 from model.engine.library import call, dtype_of, packed
 from model.engine.records import Record, Records, one, read_rows
 from model.problem import FloatArray, IntArray, Problem
@@ -14,7 +15,9 @@ from model.search.route.layout import (
     CUSTOMER, END, HALT, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
 from model.search.route.state import Searcher
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit, with_handling
+from model.solution import (
+    Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit, with_handling,
+)
 
 SPARE_SLOTS = 8
 STOPS_OPENED = 4
@@ -183,8 +186,25 @@ def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip
     return tuple(
         Trip(with_handling(halts[first:last + 1], *handling),
              tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
-                   for row in sorties if first <= row.launch <= last))
+                   for row in sorties if first <= row.launch <= last),
+             _breaks(data, route.type, halts, rows, (first, last)) if kind.breaks else ())
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
+
+
+def _breaks(data: ProblemData, k: int, halts: Sequence[Stop], rows: Records,
+            trip: tuple[int, int]) -> tuple[TakenBreak, ...]:
+    """Return the breaks of a trip, of which the first and the last stop are given."""
+    kind, begin, (first, last) = data.type[k], halts[0].arrival, trip
+    profile = data.profile_time, data.profile_factor
+    taken = []
+    for place in range(first, last):
+        setup = halts[place + 1].setup if kind.speed_changes == NO_PROFILE else 0
+        taken += [TakenBreak(number, place - first, PLACES[where], arrival, start,
+                             start + int(kind.break_duration[number]))
+                  for number, where, arrival, start in break_times(
+                      data.type, profile, k, int(rows[place]["rests"]), begin,
+                      halts[place].departure, int(rows[place]["gap"]) - setup)]
+    return tuple(taken)
 
 
 def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,

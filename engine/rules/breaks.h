@@ -1,0 +1,227 @@
+// Breaks of those who drive: when they may begin, which are due, and legs that they interrupt.
+//
+// A break lies between two stops: where the truck leaves, on its way, or where it arrives, before
+// it is ready to serve. They are taken in the order stated, each as soon as its window opens.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "problem/instance.h"
+#include "rules/clock.h"
+
+namespace tandem {
+
+constexpr Int most_breaks = 8;
+
+// Where a break between two stops is taken.
+enum class RestPlace : Int { departure, way, arrival };
+
+// The breaks taken between two stops, in order. Packed, 0 is none.
+class Rests {
+public:
+    Rests() = default;
+    explicit Rests(Int packed) : packed_(packed) {}
+
+    Int packed() const { return packed_; }
+    Int count() const { return packed_ & 15; }
+    Int number(Int index) const { return packed_ >> shift(index) & 7; }
+    RestPlace place(Int index) const { return RestPlace{packed_ >> (shift(index) + 3) & 3}; }
+
+    // The first break that may come behind these, all of which come behind `next`.
+    Int next(Int next) const { return count() > 0 ? number(count() - 1) + 1 : next; }
+
+    // These, and then another break.
+    Rests with(Int number, RestPlace place) const {
+        const Int more = number | static_cast<Int>(place) << 3;
+        return Rests((packed_ + 1) | more << shift(count()));
+    }
+
+private:
+    static Int shift(Int index) { return 4 + 5 * index; }
+
+    Int packed_ = 0;
+};
+
+// A break of a route that begins at an instant.
+struct Break {
+    Int earliest, latest, duration;
+
+    Int start(Int time) const { return std::max(time, earliest); }
+    bool may_begin(Int time) const { return start(time) <= latest; }
+    Int end(Int time) const { return start(time) + duration; }
+};
+
+// How many breaks a driver has.
+inline Int num_breaks(const VehicleType& type) { return type.breaks; }
+
+// Whether a driver has breaks, so that times hang on where they are taken.
+inline bool has_breaks(const VehicleType& type) { return type.breaks > 0; }
+
+// When a route began, as far as breaks hang on it, that begins here at `begin`.
+inline Int counted_begin(const VehicleType& type, Int begin) {
+    return type.breaks_since == none ? begin : type.breaks_since;
+}
+
+// A break of a route that begins at `begin`.
+inline Break break_of(const VehicleType& type, Int number, Int begin) {
+    const bool follows = type.break_after_departure[number] == 1;
+    const Int since = follows ? counted_begin(type, begin) : 0;
+    return {since + type.break_earliest[number], since + type.break_latest[number],
+            type.break_duration[number]};
+}
+
+// Whether a break may be taken on the way, by who drives as fast all day.
+inline bool may_rest_on_way(const VehicleType& type, Int number) {
+    return type.break_anywhere[number] == 1 && is_steady(type);
+}
+
+// Whether a break can be over before a route begins, which then hasn't it.
+inline bool over_before(const VehicleType& type, Int number, Int begin) {
+    return break_of(type, number, begin).end(none) <= counted_begin(type, begin);
+}
+
+// The first instant later than `begin` by which one more break is over; `far`: none is, or a route
+// can't begin then.
+inline Int later_begin(const VehicleType& type, Int begin) {
+    Int later = far;
+    for (Int number = 0; number < type.breaks; ++number) {
+        const Int end = break_of(type, number, 0).end(none);
+        if (type.break_after_departure[number] == 0 && end > begin) later = std::min(later, end);
+    }
+    return type.breaks_since == none ? later : far;
+}
+
+// Whether a route that begins and ends then has to have none of the breaks from `number` on.
+inline bool none_due(const VehicleType& type, Int number, Int begin, Int end) {
+    for (; number < type.breaks; ++number) {
+        if (break_of(type, number, begin).latest < end && !over_before(type, number, begin)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// How long the breaks between two stops are that don't count in the working duration.
+inline Int unpaid_of(const VehicleType& type, Rests rests) {
+    Int unpaid = 0;
+    for (Int index = 0; index < rests.count(); ++index) {
+        const Int number = rests.number(index);
+        if (type.break_unpaid[number] == 1) unpaid += type.break_duration[number];
+    }
+    return unpaid;
+}
+
+// A leg that a driver with breaks has before him.
+//
+// `Travel` tells when it ends that begins at an instant, without breaks and setup.
+template <class Travel>
+class BrokenLeg {
+public:
+    BrokenLeg(const VehicleType& type, Int begin, Int leave, const Travel& travel)
+        : type_(type), begin_(begin), travel_(travel), time_(leave) {}
+
+    Int time() const { return time_; }
+
+    // Take a break, if it may begin; `note` gets when the truck stands, and when it begins.
+    template <class Note>
+    bool rest(Int number, RestPlace place, const Note& note) {
+        const Break pause = break_of(type_, number, begin_);
+        if (place == RestPlace::arrival) arrive();
+        Int stood = time_;
+        const Int start = pause.start(time_);
+        if (place == RestPlace::way && !arrived_) {
+            if (left_ < 0) left_ = travel_(time_) - time_;
+            const Int driven = std::min(left_, start - time_);
+            stood = time_ + driven;
+            left_ -= driven;
+        }
+        if (start > pause.latest) return false;
+        note(stood, start);
+        time_ = start + pause.duration;
+        return true;
+    }
+
+    bool rest(Int number, RestPlace place) {
+        return rest(number, place, [](Int, Int) {});
+    }
+
+    // Drive on to the end of the leg.
+    Int arrive() {
+        if (!arrived_) time_ = left_ < 0 ? travel_(time_) : time_ + left_;
+        arrived_ = true;
+        return time_;
+    }
+
+private:
+    const VehicleType& type_;
+    Int begin_;
+    const Travel& travel_;
+    Int time_;
+    Int left_ = -1;  // of the leg, if that isn't all of it
+    bool arrived_ = false;
+};
+
+// When a leg with breaks ends that is begun at `leave`; nothing if one can't begin in its window.
+template <class Travel>
+std::optional<Int> arrival_after(const VehicleType& type, Rests rests, Int begin, Int leave,
+                                 const Travel& travel) {
+    BrokenLeg leg(type, begin, leave, travel);
+    for (Int index = 0; index < rests.count(); ++index) {
+        if (!leg.rest(rests.number(index), rests.place(index))) return std::nullopt;
+    }
+    return leg.arrive();
+}
+
+// The latest departure of a leg with breaks that ends by `arrival`, as far as breaks delay it.
+//
+// `back` tells it without them.
+template <class Back>
+Int departure_before(const VehicleType& type, Rests rests, Int begin, Int arrival,
+                     const Back& back) {
+    Int time = arrival;
+    bool driven = false;
+    for (Int index = rests.count() - 1; index >= 0; --index) {
+        const Break pause = break_of(type, rests.number(index), begin);
+        if (rests.place(index) != RestPlace::arrival && !driven) {
+            time = back(time);
+            driven = true;
+        }
+        time -= pause.duration;
+        if (type.break_after_departure[rests.number(index)] == 0) {
+            time = std::min(time, pause.latest);
+        }
+    }
+    return driven ? time : back(time);
+}
+
+// The breaks that a driver takes on a leg who doesn't know what comes behind it.
+//
+// From `next` on, each is put off if it may begin when the truck, not delayed, `leaves` there
+// again; it is taken at once where it ends before the service there `opens`. Nothing if none of
+// that can be.
+template <class Travel, class Leaves, class Opens>
+std::optional<Rests> rests_on_leg(const VehicleType& type, Int next, Int begin, Int leave,
+                                  const Travel& travel, const Leaves& leaves, const Opens& opens) {
+    Rests rests;
+    BrokenLeg leg(type, begin, leave, travel);
+    bool there = false;
+    for (; next < type.breaks; ++next) {
+        if (over_before(type, next, begin)) continue;
+        const Break pause = break_of(type, next, begin);
+        BrokenLeg onward = leg;
+        const Int arrival = onward.arrive();
+        const bool waits = pause.may_begin(arrival) && pause.end(arrival) <= opens(arrival);
+        if (!waits && leaves(arrival) <= pause.latest) break;
+        RestPlace place = RestPlace::arrival;
+        if (!there && !pause.may_begin(arrival)) {
+            place = may_rest_on_way(type, next) ? RestPlace::way : RestPlace::departure;
+        }
+        there = place == RestPlace::arrival;
+        if (!leg.rest(next, place)) return std::nullopt;
+        rests = rests.with(next, place);
+    }
+    return rests;
+}
+
+}  // namespace tandem

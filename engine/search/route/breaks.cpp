@@ -1,0 +1,261 @@
+#include "search/route/breaks.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "search/route/block.h"
+
+namespace tandem {
+namespace {
+
+constexpr std::size_t most_labels = most_breaks + 1;
+
+// Breaks taken so far, and when the truck then is somewhere, `far` if never.
+struct Label {
+    Int time = far;
+    std::array<Int, most_breaks> stop{};  // by which of those due it is, the stop before it
+    std::array<RestPlace, most_breaks> place{};
+
+    Label with(Int number, Int before, RestPlace where, Int then) const {
+        Label next = *this;
+        next.time = then;
+        next.stop[static_cast<std::size_t>(number)] = before;
+        next.place[static_cast<std::size_t>(number)] = where;
+        return next;
+    }
+};
+
+void take_sooner(Label& label, const Label& other) {
+    if (other.time < label.time) label = other;
+}
+
+class Placing {
+public:
+    Placing(const ProblemData& data, const Route& route, View<Stop, 1> stops,
+            View<Sortie, 1> sorties)
+        : truck_(data, route.type),
+          type_(truck_.type),
+          stops_(stops.first(route.length)),
+          sorties_(sorties.first(route.sorties)) {
+        truck_.begin = begin_of(type_, stops);
+        for (Int number = 0; number < num_breaks(type_); ++number) {
+            if (!over_before(type_, number, truck_.begin)) {
+                due_[static_cast<std::size_t>(count_++)] = number;
+            }
+        }
+    }
+
+    bool run() {
+        make_ready(truck_, stops_, sorties_);
+        at(0).time = type_.shift_earliest;
+        Int p = 0;
+        while (true) {
+            if (stops_[p].kind == start_stop) {
+                launched_ = 0;
+                first_of_trip_ = sortie_;
+            }
+            const Int last = last_of_block(p);
+            pass_block(p, last);
+            if (last + 1 == stops_.size()) return write();
+            if (stops_[last].kind == end_stop) {
+                for (Label& label : labels_) {
+                    if (label.time < far) label.time += stops_[last].gap;
+                }
+            } else {
+                drive(last);
+            }
+            p = last + 1;
+        }
+    }
+
+private:
+    // Return the number of a break that is due at the beginning.
+    Int due(Int number) const { return due_[static_cast<std::size_t>(number)]; }
+
+    Label& at(Int number) { return labels_[static_cast<std::size_t>(number)]; }
+
+    // Return the last stop of the block that begins at stop `p`, and pass its sorties.
+    Int last_of_block(Int p) {
+        Int last = p;
+        behind_ = sortie_;
+        for (; behind_ < sorties_.size() && sorties_[behind_].launch <= last; ++behind_) {
+            last = std::max(last, sorties_[behind_].recovery);
+        }
+        return last;
+    }
+
+    // Let the labels at the beginning of a block be those at its end.
+    void pass_block(Int first, Int last) {
+        if (behind_ == sortie_) {
+            for (Label& label : labels_) {
+                if (label.time < far) label.time = leave_alone(stops_[first], label.time);
+            }
+            return;
+        }
+        std::array<Label, most_labels> left;
+        for (Int number = 0; number <= count_; ++number) {
+            if (at(number).time < far) fly(first, last, number, left);
+        }
+        labels_ = left;
+        launched_ += behind_ - sortie_;
+        sortie_ = behind_;
+    }
+
+    // Return when the truck, at a stop without launches at `time`, leaves it; `far` if it can't.
+    Int leave_alone(Stop& stop, Int time) {
+        truck_.time_alone(stop, time);
+        return time > stop.hi || time < stop.lo ? far : std::max(time + stop.d, stop.c);
+    }
+
+    // Time a block with sorties, after `number` breaks, with none and then with more of them.
+    void fly(Int first, Int last, Int number, std::array<Label, most_labels>& left) {
+        for (Int q = first; q < last; ++q) stops_[q].rests = 0;
+        Label label = at(number);
+        const Int time = label.time;
+        label.time = leave_block(first, time);
+        take_sooner(left[static_cast<std::size_t>(number)], label);
+        Int from = first;
+        for (; number < count_; ++number) {
+            Label best;
+            for (Int q = from; q < last; ++q) {
+                for (const RestPlace place : {RestPlace::arrival, other_place(number)}) {
+                    const Int before = stops_[q].rests;
+                    stops_[q].rests = Rests(before).with(due(number), place).packed();
+                    take_sooner(best, label.with(number, q, place, leave_block(first, time)));
+                    stops_[q].rests = before;
+                }
+            }
+            if (best.time == far) return;
+            label = best;
+            from = label.stop[static_cast<std::size_t>(number)];
+            stops_[from].rests =
+                Rests(stops_[from].rests)
+                    .with(due(number), label.place[static_cast<std::size_t>(number)])
+                    .packed();
+            take_sooner(left[static_cast<std::size_t>(number + 1)], label);
+        }
+    }
+
+    // Return when the truck leaves a block with sorties that it reaches at `time`; `far` if it
+    // can't.
+    Int leave_block(Int first, Int time) {
+        for (Int s = sortie_; s < behind_; ++s) sorties_[s].state = sortie_waits;
+        BlockSums sums;
+        sums.time = time;
+        sums.oldest = sortie_;
+        sums.launched = launched_;
+        sums.first_sortie = first_of_trip_;
+        if (time_block(truck_, stops_, sorties_, first, sums) < 0) return far;
+        const Stop& stop = stops_[first];
+        return time > stop.hi || time < stop.lo ? far : std::max(time + stop.d, stop.c);
+    }
+
+    // Where a break is taken that isn't taken where the truck arrives.
+    RestPlace other_place(Int number) const {
+        return may_rest_on_way(type_, due(number)) ? RestPlace::way : RestPlace::departure;
+    }
+
+    // Let the labels at stop `p` be those where the next is reached.
+    void drive(Int p) {
+        const Int setup = setup_after(truck_.data.setup, stops_[p].node, stops_[p + 1].node);
+        const auto travel = truck_.legs_end(stops_[p], stops_[p + 1].node);
+        for (Int number = 0; number < count_; ++number) {
+            rest(at(number), number, p, RestPlace::departure);
+        }
+        std::array<Label, most_labels> there;
+        for (Int number = 0; number <= count_; ++number) {
+            if (at(number).time < far) ride(at(number), number, p, travel, there);
+        }
+        labels_ = there;
+        for (Int number = 0; number < count_; ++number) {
+            rest(at(number), number, p, RestPlace::arrival);
+        }
+        for (Label& label : labels_) {
+            if (label.time < far) label.time += setup;
+        }
+    }
+
+    // Take a break where the truck is.
+    void rest(const Label& label, Int number, Int p, RestPlace place) {
+        const Break pause = break_of(type_, due(number), truck_.begin);
+        if (label.time < far && pause.may_begin(label.time)) {
+            take_sooner(at(number + 1), label.with(number, p, place, pause.end(label.time)));
+        }
+    }
+
+    // Drive a leg, without breaks and with those that may be taken on the way.
+    template <class Travel>
+    void ride(const Label& left, Int number, Int p, const Travel& travel,
+              std::array<Label, most_labels>& there) const {
+        BrokenLeg leg(type_, truck_.begin, left.time, travel);
+        Label label = left;
+        while (true) {
+            BrokenLeg rest_of_leg = leg;
+            label.time = rest_of_leg.arrive();
+            take_sooner(there[static_cast<std::size_t>(number)], label);
+            if (number == count_ || !may_rest_on_way(type_, due(number)) ||
+                !leg.rest(due(number), RestPlace::way)) {
+                return;
+            }
+            label = label.with(number, p, RestPlace::way, leg.time());
+            ++number;
+        }
+    }
+
+    // Write the breaks of the route that ends first, of those that lack none. False: all do.
+    bool write() {
+        const Label* best = nullptr;
+        Int taken = 0;
+        for (Int number = 0; number <= count_; ++number) {
+            const Label& label = at(number);
+            if (label.time < far && (best == nullptr || label.time < best->time) &&
+                (number == count_ || none_due(type_, due(number), truck_.begin, label.time))) {
+                best = &label;
+                taken = number;
+            }
+        }
+        if (best == nullptr) return false;
+        for (Stop& stop : stops_) stop.rests = 0;
+        for (Int number = 0; number < taken; ++number) {
+            const auto index = static_cast<std::size_t>(number);
+            Stop& stop = stops_[best->stop[index]];
+            stop.rests = Rests(stop.rests).with(due(number), best->place[index]).packed();
+        }
+        return true;
+    }
+
+    Truck truck_;
+    const VehicleType& type_;
+    View<Stop, 1> stops_;
+    View<Sortie, 1> sorties_;
+    Int count_ = 0;  // of the breaks that the beginning doesn't come too late for
+    std::array<Int, most_breaks> due_{};
+    std::array<Label, most_labels> labels_;
+    Int sortie_ = 0;  // the first not passed, and the first behind the block
+    Int behind_ = 0;
+    Int launched_ = 0;  // on the trip
+    Int first_of_trip_ = 0;
+};
+
+}  // namespace
+
+void clear_breaks(const Route& route, View<Stop, 1> stops) {
+    for (Stop& stop : stops.first(route.length)) stop.rests = 0;
+}
+
+bool any_break_due(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
+    const Int begin = begin_of(type, stops);
+    Int next = 0;
+    for (const Stop& stop : stops.first(route.length)) {
+        next = Rests(stop.rests).next(next);
+    }
+    return !none_due(type, next, begin, route.end);
+}
+
+bool place_breaks(const ProblemData& data, const Route& route, View<Stop, 1> stops,
+                  View<Sortie, 1> sorties) {
+    return Placing(data, route, stops, sorties).run();
+}
+
+}  // namespace tandem

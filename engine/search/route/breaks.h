@@ -1,0 +1,36 @@
+// Where the breaks of a route are taken.
+#pragma once
+
+#include "rules/breaks.h"
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// Return when a route begins, as far as breaks hang on it.
+inline Int begin_of(const VehicleType& type, View<const Stop, 1> stops) {
+    return std::max(type.shift_earliest, std::max(stops[0].release, stops[0].hold));
+}
+
+// Return how long the breaks on a route are that don't count in the working duration.
+inline Int unpaid_on(const VehicleType& type, View<const Stop, 1> stops) {
+    Int unpaid = 0;
+    for (const Stop& stop : stops) unpaid += unpaid_of(type, Rests(stop.rests));
+    return unpaid;
+}
+
+// Let a route have no breaks. In place.
+void clear_breaks(const Route& route, View<Stop, 1> stops);
+
+// Tell whether a timed route lacks a break.
+bool any_break_due(const VehicleType& type, const Route& route, View<const Stop, 1> stops);
+
+// Write between which stops of a route breaks are taken, so that it ends as soon as possible. In
+// place; false if none of that can be.
+//
+// By dynamic programming over blocks and breaks taken: of two ways to have taken as many, that by
+// which the truck is there sooner is never worse. While drones fly, each break is placed where it
+// then delays least.
+bool place_breaks(const ProblemData& data, const Route& route, View<Stop, 1> stops,
+                  View<Sortie, 1> sorties);
+
+}  // namespace tandem

@@ -1,0 +1,91 @@
+"""Breaks between two stops: when they begin, and which of them a route has to have.
+
+A break lies between two stops of a trip: where the truck leaves, on its way, or where it arrives,
+before it is ready to serve. No launch, recovery or service falls into it. It begins as soon as its
+window opens. Times in ms.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from model.judge.clock import work_between, work_end
+from model.problem import FULL_SPEED, Break, VehicleType
+from model.solution import BreakPlace, TakenBreak, Trip
+
+
+class BreakDecision(NamedTuple):
+    """Which break is taken between which stops."""
+
+    number: int  # index into VehicleType.breaks
+    stop: int  # index of the stop before it
+    place: BreakPlace
+
+
+def decisions_of(trip: Trip) -> tuple[BreakDecision, ...]:
+    """Return the choices that a timed trip states."""
+    return tuple([BreakDecision(taken.number, taken.stop, taken.place) for taken in trip.breaks])
+
+
+def begin_of(kind: VehicleType, trip: Trip) -> int:
+    """Return when the route begins whose first trip is given."""
+    return trip.stops[0].arrival if kind.works_since is None else kind.works_since
+
+
+def window_of(each: Break, begin: int) -> tuple[int, int]:
+    """Return from and until when a break may begin on a route that begins then."""
+    since = begin if each.after_departure else 0
+    return since + each.earliest, since + each.latest
+
+
+def drive(kind: VehicleType, begin: int, departure: int, duration: int,
+          decisions: Iterable[BreakDecision]) -> tuple[int, list[TakenBreak]]:
+    """Return when a leg that breaks interrupt ends, with the breaks, of which all are known."""
+    profile = kind.speed_profile
+    time, work, taken = departure, duration * FULL_SPEED, []
+    for decision in decisions:
+        each = kind.breaks[decision.number]
+        if decision.place == "arrival":
+            time, work = work_end(time, work, profile), 0
+        start = max(time, window_of(each, begin)[0])
+        stood = time
+        if decision.place == "way":
+            arrival = work_end(time, work, profile)
+            work = 0 if arrival <= start else work - work_between(time, start, profile)
+            stood = min(arrival, start)
+        time = start + each.duration
+        taken.append(TakenBreak(decision.number, decision.stop, decision.place, stood, start, time))
+    return work_end(time, work, profile), taken
+
+
+def broken_breaks(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[tuple[int | None, str]]:
+    """Yield what is wrong with the breaks of a route, each with the trip that it is on, if any."""
+    begin, end = begin_of(kind, trips[0]), trips[-1].stops[-1].departure
+    last = -1
+    for index, trip in enumerate(trips):
+        for taken in trip.breaks:
+            each = kind.breaks[taken.number]
+            earliest, latest = window_of(each, begin)
+            if taken.number <= last:
+                yield index, f"break {each.id} comes after another that is stated behind it"
+            last = max(last, taken.number)
+            if not earliest <= taken.start <= latest:
+                yield index, f"break {each.id} doesn't begin in its window"
+            if taken.place == "way" and not each.anywhere:
+                yield index, f"break {each.id} isn't at a stop"
+    numbers = {taken.number for trip in trips for taken in trip.breaks}
+    for number, each in enumerate(kind.breaks):
+        if number not in numbers and is_due(each, begin, end):
+            yield None, f"break {each.id} is not taken"
+
+
+def is_due(each: Break, begin: int, end: int) -> bool:
+    """Tell whether a break can neither be over before a route begins nor begin once it has ended.
+    """
+    earliest, latest = window_of(each, begin)
+    return latest < end and earliest + each.duration > begin
+
+
+def unpaid(kind: VehicleType, trips: Iterable[Trip]) -> int:
+    """Return how long the breaks of a route are that don't count in the working duration."""
+    return sum([taken.end - taken.start for trip in trips for taken in trip.breaks
+                if not kind.breaks[taken.number].paid])

@@ -1,0 +1,125 @@
+"""Breaks are placed as brute force does, and all plans with them keep the rules."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import combinations, permutations, product
+
+import numpy as np
+import pytest
+
+from model.engine.instance import pack
+from model.judge.breaks import BreakDecision
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import UNLIMITED, Break, Customer, Depot, Problem, Travel, VehicleType
+from model.search.improve import SearchConfig, improve
+from model.simulation.extract import extract
+from model.solution import Solution
+from tests.model.rollouts import roll
+from tests.model.tiny import draw_tiny, with_breaks, with_drone_types, with_gaps, with_setups
+
+MINUTE = 60_000
+
+
+def drawn(rng: np.random.Generator) -> Problem:
+    """Draw two customers with windows, and one truck whose driver has one or two breaks."""
+    steps = rng.integers(1, 9, (3, 3)) * MINUTE
+    steps = np.minimum(steps, steps.T)
+    np.fill_diagonal(steps, 0)
+    customers = []
+    for index in range(2):
+        earliest = int(rng.integers(0, 30))
+        latest = earliest + int(rng.integers(0, 15)) if rng.random() < 0.7 else UNLIMITED
+        customers.append(Customer(
+            str(index), (1,), service_duration=int(rng.integers(0, 4)) * MINUTE,
+            earliest=earliest * MINUTE, latest=min(UNLIMITED, latest * MINUTE)))
+    breaks, opens = [], int(rng.integers(0, 15))
+    for number in range(int(rng.integers(1, 3))):
+        width = int(rng.integers(0, 8))
+        breaks.append(Break(
+            str(number), int(rng.integers(1, 6)) * MINUTE, opens * MINUTE, (opens + width) * MINUTE,
+            anywhere=bool(rng.random() < 0.4),
+            paid=bool(rng.random() < 0.6)))
+        opens += width + int(rng.integers(0, 8))
+    truck = VehicleType("truck", 1, (3,), 0, cost_per_km=1.0, cost_per_hour=30.0,
+                        breaks=tuple(breaks), latest=60 * MINUTE)
+    return Problem((Depot("hub"),), tuple(customers), (truck,), (Travel(steps, steps),),
+                   rng.random((3, 2)), unassigned_cost=60.0)
+
+
+def placements(problem: Problem, legs: int) -> Iterator[tuple[BreakDecision, ...]]:
+    """Yield all ways to take breaks, some or all, in order, on so many legs."""
+    breaks = problem.vehicle_types[0].breaks
+    places = [(leg, place) for leg in range(legs) for place in ("departure", "way", "arrival")]
+    for count in range(len(breaks) + 1):
+        for numbers in combinations(range(len(breaks)), count):
+            for where in product(places, repeat=count):
+                if list(where) == sorted(where, key=places.index):
+                    yield tuple(BreakDecision(number, leg, place) for number, (leg, place)
+                                in zip(numbers, where, strict=True))
+
+
+def cheapest(problem: Problem) -> float:
+    """Return the cost of the cheapest plan by trying all, begun at every minute."""
+    best = 2 * problem.unassigned_cost
+    for count in (1, 2):
+        for nodes in permutations((1, 2), count):
+            driven = sum(problem.travel[0].distance.item(*leg)
+                         for leg in zip((0, *nodes), (*nodes, 0), strict=True)) / 1e6
+            if driven + (2 - count) * problem.unassigned_cost >= best:
+                continue
+            for breaks in placements(problem, count + 1):
+                for start in range(40):
+                    trip = TripDecision((0, *nodes, 0), start=start * MINUTE, breaks=breaks)
+                    route = schedule(problem, RouteDecision(0, 0, (trip,)))
+                    left = tuple(node for node in (1, 2) if node not in nodes)
+                    judged = check(problem, Solution((route,), left))
+                    best = min(best, judged.cost.total if judged.is_feasible else math.inf)
+    return best
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_search_finds_the_cheapest_plan_with_breaks(seed: int) -> None:
+    problem = drawn(np.random.default_rng(seed))
+    found = improve(problem, pack([problem]), Solution((), (1, 2)),
+                    SearchConfig(turns=400)).solution
+    judged = check(problem, found)
+    assert judged.violations == ()
+    assert judged.cost.total == pytest.approx(cheapest(problem))
+
+
+CHANGES = with_gaps, with_setups, with_drone_types
+
+
+def mixed(seed: int) -> Problem:
+    rng = np.random.default_rng(seed)
+    return with_breaks(rng, CHANGES[seed % len(CHANGES)](rng, draw_tiny(rng)))
+
+
+def test_rollouts_and_search_keep_all_rules_with_breaks() -> None:
+    rolled = searched = 0
+    for seed in range(120):
+        problem = mixed(seed)
+        instance, nodes = pack([problem]), range(problem.num_depots, problem.num_nodes)
+        rollout = roll([problem], seed).rollouts[0]
+        plan = extract(problem, instance, rollout.actions)
+        judged = check(problem, plan)
+        assert judged.violations == ()
+        assert rollout.cost.sum() == pytest.approx(judged.cost.total)
+        rolled += sum(len(trip.breaks) for route in plan.routes for trip in route.trips)
+        found = improve(problem, instance, Solution((), tuple(nodes)),
+                        SearchConfig(turns=100)).solution
+        assert check(problem, found).violations == ()
+        searched += sum(len(trip.breaks) for route in found.routes for trip in route.trips)
+    assert rolled > 30 and searched > 15
+
+
+def test_breaks_that_nobody_needs_change_no_plan() -> None:
+    problem = drawn(np.random.default_rng(3))
+    kind = problem.vehicle_types[0]
+    late = replace(kind, breaks=(Break("late", MINUTE, 2 * 60 * MINUTE, 3 * 60 * MINUTE),))
+    plans = [improve(other, pack([other]), Solution((), (1, 2)), SearchConfig(turns=300)).solution
+             for other in (replace(problem, vehicle_types=(replace(kind, breaks=()),)),
+                           replace(problem, vehicle_types=(late,)))]
+    assert plans[0] == plans[1]
