@@ -63,7 +63,8 @@ class Geometry:
         for route in reply["routes"]:
             kind = self._types[route["type"]]
             for trip in route["trips"]:
-                stops = trip["stops"]
+                stops = [stop for stop in trip["stops"] if stop["kind"] != "break"]
+                places = _places(trip["stops"])
                 nodes = [self._nodes[stop["kind"], stop["id"]] for stop in stops]
                 driven = (self._flown(nodes, kind, kind, until) if kind.flies
                           else self._driven(nodes, kind.profile, until))
@@ -72,7 +73,8 @@ class Geometry:
                 for sortie in trip["sorties"]:
                     drones = drones_named(kind, sortie["drone"])
                     if drones is not None:
-                        self._add_flights(sortie, nodes, kind, drones, until)
+                        self._add_flights(sortie, [nodes[place] for place in places], kind, drones,
+                                          until)
 
     def _add_flights(self, sortie: Data, stops: Sequence[int], kind: VehicleTypeInput,
                      drones: DronesInput, until: float) -> None:
@@ -116,3 +118,12 @@ class Geometry:
         places = [self._locations[start], *((float(x), float(y)) for x, y in bends),
                   self._locations[end]]
         return encoded(places)
+
+
+def _places(stops: Sequence[Data]) -> list[int]:
+    """Return how many stops that are no breaks come before each; of a break, one less."""
+    places, count = [], -1
+    for stop in stops:
+        count += stop["kind"] != "break"
+        places.append(count)
+    return places

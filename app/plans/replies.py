@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -119,10 +120,13 @@ def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMe
         "load_rate": _finite(metrics.load_rate),
         "distance": whole(metrics.distance),
         "duration": whole(metrics.duration),
-        "stops": [_stop(problem, stop, load) | at_stop
-                  for stop, load, at_stop in zip(trip.stops, metrics.stop_loads, left, strict=True)
-                  if not problem.is_nowhere(stop.node)],
-        "sorties": [_sortie(problem, kind, vehicle, sortie, measured, behind)
+        "stops": [told for number, (stop, load, at_stop) in enumerate(
+                      zip(trip.stops, metrics.stop_loads, left, strict=True))
+                  for told in [*([] if problem.is_nowhere(stop.node)
+                                 else [_stop(problem, stop, load) | at_stop]),
+                               *_breaks_behind(problem, kind, trip, number, load)]],
+        "sorties": [_sortie(problem, kind, vehicle, _as_told(trip, sortie), measured,
+                            behind)
                     for sortie, measured, behind in zip(
                         trip.sorties, metrics.sorties, left_by_sorties(problem, kind, trip),
                         strict=True)],
@@ -133,6 +137,30 @@ def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMe
 def _flights(trip: TripMetrics) -> list[int | None]:
     """Return what each flight of a trip takes, the vehicle's own first."""
     return [trip.energy, *(sortie.energy for sortie in trip.sorties)]
+
+
+def _breaks_behind(problem: Problem, kind: int, trip: Trip, stop: int,
+                   load: Sequence[int]) -> list[Data]:
+    """Return the breaks between a stop of a trip and the next."""
+    return [{
+        "kind": "break",
+        "id": problem.vehicle_types[kind].breaks[taken.number].id,
+        "arrival": taken.arrival / 1000,
+        "service_start": taken.start / 1000,
+        "departure": taken.end / 1000,
+        "waiting": (taken.start - taken.arrival) / 1000,
+        "lateness": 0.0,
+        "load": _amounts(problem, load),
+    } for taken in trip.breaks if taken.stop == stop]
+
+
+def _as_told(trip: Trip, sortie: Sortie) -> Sortie:
+    """Return a sortie whose stops are numbered as in a reply, where breaks are stops, too."""
+    if not trip.breaks:
+        return sortie
+    launch, recovery = (stop + sum([taken.stop < stop for taken in trip.breaks])
+                        for stop in (sortie.launch_stop, sortie.recovery_stop))
+    return replace(sortie, launch_stop=launch, recovery_stop=recovery)
 
 
 def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:

@@ -23,6 +23,24 @@ def shift_errors(draft: Draft) -> Errors:
                            "latest or lower earliest.")
 
 
+def break_errors(draft: Draft) -> Errors:
+    """Say which breaks can't begin, or can't be told from others of their driver."""
+    for path, vehicle_type in draft.vehicle_types():
+        seen: dict[str, int] = {}
+        for index, each in enumerate(vehicle_type.breaks):
+            here, start = (*path, "breaks", index), each.start
+            if start.latest is not None and start.latest < start.earliest:
+                yield error_at("WINDOW_ENDS_BEFORE_START", (*here, "start", "latest"),
+                               f"The window ends at {draft.told(start.latest)}, before it starts "
+                               f"at {draft.told(start.earliest)}: raise latest or lower earliest.")
+            if index == 0 and draft.replan is not None and draft.replan.freeze_before is not None:
+                yield error_at("BREAKS_REPLANNED", here, "Which breaks were taken before is not "
+                               "known: leave breaks out, or freeze_before.")
+            if seen.setdefault(each.id, index) != index:
+                yield error_at("DUPLICATE_ID", (*here, "id"),
+                               f"breaks[{seen[each.id]}] has the same id: give each its own.")
+
+
 def depot_errors(draft: Draft) -> Errors:
     """Say which types name a depot that isn't there."""
     if draft.depots is None or None in draft.depots:
@@ -106,8 +124,8 @@ def _is_countable(draft: Draft, drones: Flyer, energy: EnergyInput) -> bool:
     return is_countable(drones, energy, decimals, [counted(each, decimals) for each in asked])
 
 
-TRUCKS = ("drones", "speed_profile", "start_location", "start_location_index", "max_sorties",
-          "max_airborne", "truck_waits", "revisits")
+TRUCKS = ("breaks", "drones", "speed_profile", "start_location", "start_location_index",
+          "max_sorties", "max_airborne", "truck_waits", "revisits")
 """Fields of a vehicle type that nothing has which flies by itself."""
 
 FLYING = ("altitude", "endurance", "max_range", "max_wind_kmh", "preset", "launch_duration",

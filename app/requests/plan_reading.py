@@ -1,6 +1,6 @@
 """A plan as `POST /plan` sent it -> `Solution`, so that it can be checked again or gone on from."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple, TypeVar
 
@@ -19,7 +19,7 @@ from app.schemas.request import DepotInput
 from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import Problem, VehicleType
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import BreakPlace, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
 
 NO_MORE = -1
 """Node of a customer whom a plan serves and the problem no longer has."""
@@ -36,6 +36,7 @@ _UNKNOWN: dict[str, ErrorCode] = {
     "end": "UNKNOWN_DEPOT",
     "launch_site": "UNKNOWN_DEPOT",
     "vehicle type": "UNKNOWN_VEHICLE_TYPE",
+    "break": "UNKNOWN_BREAK",
 }
 
 
@@ -180,6 +181,27 @@ def _by_name(entries: Entries) -> dict[str, int] | None:
     return {entry.id: 0 for entry in entries if entry is not None}
 
 
+def _places(stops: Sequence[StopInput]) -> dict[int, int]:
+    """Return the index of each stop among those that are no breaks."""
+    places = [index for index, stop in enumerate(stops) if stop.kind != "break"]
+    return {index: place for place, index in enumerate(places)}
+
+
+def _break_place(stops: Sequence[StopInput], index: int) -> BreakPlace:
+    """Return where a break is taken: at once, at the end of the leg, or on the way."""
+    first = index
+    while first > 0 and stops[first].kind == "break" and (
+            stops[first - 1].departure == stops[first].arrival):
+        first -= 1
+    if stops[first].kind != "break":
+        return "departure"
+    last = index
+    while last + 1 < len(stops) and stops[last].kind == "break" and (
+            stops[last].departure == stops[last + 1].arrival):
+        last += 1
+    return "way" if stops[last].kind == "break" else "arrival"
+
+
 class _PlanReader:
     """Finds what a plan names; `errors` collects what isn't there.
 
@@ -222,12 +244,32 @@ class _PlanReader:
         return self._find(path, "customer", customers, name, name, 0)
 
     def _trip(self, path: Path, trip: TripInput, vehicle: str, kind: KnownType) -> Trip:
-        return Trip(
-            stops=tuple(self._stop((*path, "stops", index), stop)
-                        for index, stop in enumerate(trip.stops)),
-            sorties=tuple(self._sortie((*path, "sorties", index), sortie, vehicle, kind)
-                          for index, sortie in enumerate(trip.sorties)),
-        )
+        stops = tuple(self._stop((*path, "stops", index), stop)
+                      for index, stop in enumerate(trip.stops) if stop.kind != "break")
+        sorties = tuple(self._sortie((*path, "sorties", index), sortie, vehicle, kind)
+                        for index, sortie in enumerate(trip.sorties))
+        if len(stops) == len(trip.stops):
+            return Trip(stops, sorties)
+        places = _places(trip.stops)
+        flown = tuple(replace(sortie, launch_stop=places.get(sortie.launch_stop, -1),
+                              recovery_stop=places.get(sortie.recovery_stop, -1))
+                      for sortie in sorties)
+        return Trip(stops, flown, tuple(self._breaks(path, trip, kind)))
+
+    def _breaks(self, path: Path, trip: TripInput, kind: KnownType) -> Iterator[TakenBreak]:
+        """Yield the breaks of a trip; their places follow from times."""
+        known = None
+        if kind.kind is not None:
+            known = {each.id: number for number, each in enumerate(kind.kind.breaks)}
+        before = -1
+        for index, stop in enumerate(trip.stops):
+            if stop.kind != "break":
+                before += 1
+                continue
+            number = self._find((*path, "stops", index, "id"), "break", known, stop.id, stop.id, 0)
+            yield TakenBreak(number, before, _break_place(trip.stops, index),
+                             thousandths(stop.arrival), thousandths(stop.service_start),
+                             thousandths(stop.departure))
 
     def _stop(self, path: Path, stop: StopInput) -> Stop:
         return Stop(

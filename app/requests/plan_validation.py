@@ -174,7 +174,7 @@ class _Checker:
         inner = kinds[1:] if is_open else kinds[1:-1]
         if (len(kinds) < 2 - is_open or kinds[0] not in ("depot", "start")
                 or (not is_open and kinds[-1] not in ("depot", "end"))
-                or any(kind not in ("customer", "launch_site") for kind in inner)):
+                or any(kind not in ("customer", "launch_site", "break") for kind in inner)):
             yield _error("TRIP_SHAPE", (*path, "stops"),
                          "A trip begins and ends at a depot, or where its vehicle does, with "
                          "customers between: state it so.")

@@ -18,13 +18,14 @@ MAX_INSTANT = UNLIMITED / 1000
 """Farthest instant from the plan's start in seconds; no vehicle returns later."""
 
 StopKind = Literal[
-    "depot", "customer", "start", "end", "launch_site", "pickup", "delivery"]
+    "depot", "customer", "start", "end", "launch_site", "pickup", "delivery", "break"]
 STOP_KIND_TEXT = (
     "What the place is: `start` and `end` are those of a vehicle type, `pickup` and `delivery` "
-    "those of a shipment. At a `launch_site` the truck stops for its drones alone.")
+    "those of a shipment. At a `launch_site` the truck stops for its drones alone. A "
+    "`break` lies between two places.")
 STOP_ID_TEXT = (
-    "Id of the depot, the customer, the vehicle type, the shipment or the launch site; of the "
-    "customer or depot where a truck comes back to.")
+    "Id of the depot, the customer, the vehicle type, the shipment, the launch site or the break; "
+    "of the customer or depot where a truck comes back to.")
 
 NOT_READ = "Not read: it is computed anew."
 

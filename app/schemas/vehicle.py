@@ -34,6 +34,7 @@ from app.schemas.fields import (
 )
 from app.schemas.limits import MAX_VEHICLES
 from app.schemas.rulebook import RULES, RuleName, fill_in
+from model.problem import MAX_BREAKS
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
 
@@ -113,6 +114,35 @@ class OvertimeInput(Input):
     )
 
 
+class BreakStartInput(Input):
+    """When a break may begin."""
+
+    earliest: Opening = Field(0.0, description="Earliest begin in seconds since plan start.")
+    latest: Instant | None = Field(
+        None, description="Latest begin in seconds since plan start. Null: any time, so that the "
+        "break is due on no route."
+    )
+
+
+class BreakInput(Input):
+    """A break of each vehicle's driver."""
+
+    id: Name = Field(description="Name of the break, unique for the vehicle type.")
+    duration: Duration = Field(description="Length in seconds.")
+    start: BreakStartInput = Field(
+        BreakStartInput(), description="When it may begin. A break is left out if it could be over "
+        "before the route begins, or begin once it has ended."
+    )
+    after_departure: bool = Field(
+        False, description="Whether `start` counts from when the vehicle's first trip begins."
+    )
+    at: Literal["stop", "anywhere"] = Field(
+        "stop", description="Where it is taken: at a `stop`, before or after its service, or "
+        "`anywhere`, on the way too."
+    )
+    paid: bool = Field(True, description="Whether it counts in the working duration.")
+
+
 class VehicleTypeInput(Input):
     """A number of equal trucks, with or without drones."""
 
@@ -178,6 +208,9 @@ class VehicleTypeInput(Input):
         None,
         description="Work past `shift.latest` or `max_working_duration`, at a price. Null: none is "
         "allowed.",
+    )
+    breaks: Annotated[list[BreakInput], Field(max_length=MAX_BREAKS)] = Field(
+        [], description="Breaks of each vehicle's driver, in the order in which they are taken."
     )
     max_trip_distance: Metres | None = Field(
         None, description="Longest drive of one trip in metres. Null: no limit."

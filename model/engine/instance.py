@@ -12,7 +12,7 @@ import numpy as np
 from model.engine.amount_rows import padded, write_amounts
 from model.engine.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
 from model.engine.battery_rows import battery_row, full_row, powers_row
-from model.engine.breaks import NONE, break_row
+from model.engine.breaks import break_row
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest

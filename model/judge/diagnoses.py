@@ -242,6 +242,11 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
     )
 
 
+def _breaks(attempt: Attempt) -> Diagnosis:
+    return Diagnosis("BREAK", f"Serving it alone leaves no time for a break of "
+                     f"{attempt.vehicle_type.id}.", None, None)
+
+
 DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "VEHICLE": _vehicle,
     "SKILLS": _skills,
@@ -262,6 +267,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "TIME_WINDOW": _time_window,
     "TIME_ABOARD": _time_aboard,
     "SHIFT": _shift,
+    "BREAK": _breaks,
     "WORKING_DURATION": _working_hours,
 }
 """Broken rules, the hardest to change first."""

@@ -122,7 +122,9 @@ def _without_stop(trip: TripDecision, stop: int) -> Iterator[TripDecision]:
     for stops in product(*ways):
         sorties = tuple([replace(sortie, launch_stop=launch, recovery_stop=recovery)
                          for sortie, (launch, recovery) in zip(trip.sorties, stops, strict=True)])
-        yield replace(trip, nodes=nodes, sorties=sorties, operations=operations)
+        breaks = tuple([each._replace(stop=max(0, each.stop - (each.stop >= stop)))
+                        for each in trip.breaks])
+        yield replace(trip, nodes=nodes, sorties=sorties, operations=operations, breaks=breaks)
 
 
 def _places_instead(index: int, gone: int) -> tuple[int, ...]:
@@ -177,8 +179,9 @@ def _with_stop(trip: TripDecision, stop: int, node: int) -> TripDecision:
     operations = trip.operations
     if operations is not None:
         operations = (*operations[:stop], (), *operations[stop:])
+    breaks = tuple([each._replace(stop=each.stop + (each.stop >= stop)) for each in trip.breaks])
     return replace(trip, nodes=(*trip.nodes[:stop], node, *trip.nodes[stop:]), sorties=sorties,
-                   operations=operations)
+                   operations=operations, breaks=breaks)
 
 
 def _with_flight(

@@ -13,6 +13,7 @@ from model.judge.clock import closing
 from model.judge.flown_trips import charged_start
 from model.judge.past import KnownTrip, Past, Vehicle
 from model.judge.places import halts
+from model.judge.placing import with_due_breaks
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
 )
@@ -47,6 +48,15 @@ def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past)
 
     What is known of its trips must be in the decision as it is.
     """
+    best = _best_timed(problem, decision, path, past)
+    if any(violation.code == "BREAK" for violation in best.judged.violations):
+        trips = tuple([replace(trip, breaks=()) for trip in decision.trips])
+        rested = with_due_breaks(problem, replace(decision, trips=trips))
+        best = min(best, _best_timed(problem, rested, path, past), key=lambda timed: timed.rank)
+    return best
+
+
+def _best_timed(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:
     timer = _Timer(problem, decision, past)
     best: TimedRoute | None = None
     for route in timer.tries():

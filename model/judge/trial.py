@@ -10,6 +10,7 @@ import numpy as np
 from model.judge.check import Evaluation, check
 from model.judge.clock import leg_start
 from model.judge.launches import launch_duration
+from model.judge.placing import with_due_breaks
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import Customer, DroneType, Problem, Shipment, Travel, VehicleType
 from model.solution import Solution
@@ -84,7 +85,10 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
 
 
 def _judge(problem: Problem, decision: TripDecision) -> Attempt:
-    solution = Solution((schedule(problem, RouteDecision(0, 0, (decision,))),))
+    route = RouteDecision(0, 0, (decision,))
+    if problem.vehicle_types[0].breaks:
+        route = with_due_breaks(problem, route)
+    solution = Solution((schedule(problem, route),))
     return Attempt(problem, solution, check(problem, solution))
 
 

@@ -15,11 +15,10 @@ from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel
 
 __all__ = [
-    "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS", "MAX_POWER",
-    "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM", "MOST_INCOMPATIBLE",
-    "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray", "Break", "Customer", "Depot",
-    "DepotKind",
-    "DroneType", "Energy", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Overtime",
-    "Pickups", "Points", "Problem", "ServedBy", "Shipment", "SpeedProfile", "StraightLegs",
-    "Travel", "UIntArray", "VehicleType",
+    "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
+    "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
+    "MOST_INCOMPATIBLE", "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray",
+    "Break", "Customer", "Depot", "DepotKind", "DroneType", "Energy", "FloatArray",
+    "IncompatibleGoods", "Int32Array", "IntArray", "Overtime", "Pickups", "Points", "Problem",
+    "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray", "VehicleType",
 ]

@@ -18,7 +18,8 @@ pytestmark = pytest.mark.slow
 
 FORMS = (
     "CustomerInput", "TimeWindowInput", "VehiclesInput", "DepotInput", "PlaceInput",
-    "VehicleTypeInput", "CostsInput", "SpeedChangeInput", "ShiftInput", "OvertimeInput",
+    "VehicleTypeInput", "CostsInput", "SpeedChangeInput", "ShiftInput", "BreakInput",
+    "BreakStartInput", "OvertimeInput",
     "DronesInput", "TurnaroundInput", "DroneCostsInput", "EnergyInput", "PowerInput", "ClimbInput",
     "WindInput", "LoadDimensionInput", "OptionsInput",
 )

@@ -15,7 +15,7 @@ from app.schemas.drones import DronesInput
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 from app.schemas.vehicle import VehicleTypeInput
 
-Activity = Literal["drive", "wait", "serve", "fly", "launch", "reload"]
+Activity = Literal["drive", "wait", "serve", "fly", "launch", "reload", "rest"]
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,9 @@ def _truck_bars(scene: Scene, route: RouteInput, kind: VehicleTypeInput) -> Iter
 
 
 def _halt_bars(scene: Scene, kind: str, stop: StopInput, trip: int) -> Iterator[Bar]:
-    if stop.departure > stop.arrival:
+    if stop.kind == "break":
+        yield Bar("rest", stop.service_start, stop.departure, trip)
+    elif stop.departure > stop.arrival:
         yield Bar("wait", stop.arrival, stop.departure, trip)
     if stop.kind == "customer":
         customer = scene.customers[stop.id]

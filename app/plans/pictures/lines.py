@@ -7,7 +7,7 @@ import numpy as np
 import polyline
 
 from app.plans.pictures.scene import Layout, Place, Point, flown_places
-from app.schemas.plan import SortieInput, TripInput
+from app.schemas.plan import SortieInput, StopInput, TripInput
 
 DECIMALS = 6
 
@@ -19,7 +19,7 @@ Line = list[Point]
 
 def driven_lines(layout: Layout, trip: TripInput) -> Iterator[Line]:
     """Yield the line of each leg of a trip."""
-    for before, stop in pairwise(trip.stops):
+    for before, stop in pairwise(places_of(trip)):
         yield _line(layout, (before.kind, before.id), (stop.kind, stop.id), stop.geometry)
 
 
@@ -45,3 +45,8 @@ def _decoded(layout: Layout, line: str) -> Sequence[Point]:
         return [(float(x), float(y)) for x, y in layout.project(places[:, ::-1])]
     except (IndexError, ValueError):
         return []
+
+
+def places_of(trip: TripInput) -> list[StopInput]:
+    """Return the stops of a trip but for its breaks, which lie between them."""
+    return [stop for stop in trip.stops if stop.kind != "break"]

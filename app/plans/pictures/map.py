@@ -9,7 +9,7 @@ from matplotlib.patches import Patch, PathPatch, Polygon
 from matplotlib.path import Path
 
 from app.plans.pictures.colours import BLACK, GREY, INK, VERMILLION, trip_colour, vehicle_marker
-from app.plans.pictures.lines import driven_lines, flown_lines
+from app.plans.pictures.lines import driven_lines, flown_lines, places_of
 from app.plans.pictures.scene import Layout, Place, Point, Scene, all_trips, counted, label
 from app.plans.pictures.zones import draw_zones, zone_handles, zones_on
 
@@ -84,7 +84,7 @@ def _draw_trips(axes: Axes, scene: Scene, layout: Layout, thin: bool) -> None:
         colour = trip_colour(index, number)
         legs = list(driven_lines(layout, trip))
         points = [point for leg in legs for point in leg] or [
-            layout.points[stop.kind, stop.id] for stop in trip.stops]
+            layout.points[stop.kind, stop.id] for stop in places_of(trip)]
         xs, ys = zip(*points, strict=True)
         axes.plot(xs, ys, color=colour, linewidth=1.0 if thin else 1.6, zorder=3,
                   solid_joinstyle="round", gid=f"trip-{index}-{number}")

@@ -69,7 +69,7 @@ def _trip_rows(scene: Scene, number: int, trip: TripInput) -> Iterator[Sequence[
 
 
 def _stop_row(scene: Scene, number: int, stop: StopInput) -> Sequence[str]:
-    if stop.kind == "depot":
+    if stop.kind in ("depot", "break"):
         return (str(number), stop.id, scene.clock(stop.arrival), "", scene.clock(stop.departure),
                 "", "", "", "truck")
     return (str(number), stop.id, scene.clock(stop.arrival), scene.clock(stop.service_start),

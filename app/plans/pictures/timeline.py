@@ -31,11 +31,11 @@ MAX_HEIGHT = 40.0
 
 _FIXED: dict[Activity, tuple[str, str]] = {
     "wait": (PALE, "Waiting"), "serve": (INK, "Serving"), "launch": (YELLOW, "Launch, recovery"),
-    "reload": (GREY, "Reloading")}
+    "reload": (GREY, "Reloading"), "rest": (GREY, "Break")}
 """Colour and name of what looks the same for all vehicles."""
 
 _ORDER: dict[Activity, int] = {
-    "drive": 2, "fly": 2, "reload": 2, "wait": 3, "launch": 4, "serve": 5}
+    "drive": 2, "fly": 2, "reload": 2, "rest": 2, "wait": 3, "launch": 4, "serve": 5}
 
 
 def row_tops(rows: Sequence[Row]) -> list[float]:

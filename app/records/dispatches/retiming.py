@@ -78,7 +78,7 @@ class _TripTold:
         """Return the stops in the order in which they are visited, as far as that was told."""
         stops = self.planned.stops
         plain = list(range(len(stops)))
-        if self.planned.sorties:
+        if self.planned.sorties or any(stop.kind == "break" for stop in stops):
             return plain
         inner = [number for number in plain if stops[number].kind in ("customer", "launch_site")]
         visited = sorted((number for number in inner if self._times[number]),

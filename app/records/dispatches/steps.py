@@ -32,8 +32,8 @@ class Visit:
 
 
 def stop_kind(trip: TripInput, number: int) -> StepKind | None:
-    """Return what a driver does at a stop but for drones; None: nothing, at a launch site."""
-    if trip.stops[number].kind == "launch_site":
+    """Return what a driver does at a stop but for drones; None: nothing to tell of."""
+    if trip.stops[number].kind in ("launch_site", "break"):
         return None
     if trip.stops[number].kind == "customer":
         return "stop"

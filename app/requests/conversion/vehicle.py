@@ -10,8 +10,8 @@ from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.winds import longest_calm
 from app.schemas.drones import DronesInput, TurnaroundInput
-from app.schemas.vehicle import OvertimeInput, VehicleTypeInput
-from model.problem import UNLIMITED, Depot, DroneType, Overtime, VehicleType
+from app.schemas.vehicle import BreakInput, OvertimeInput, VehicleTypeInput
+from model.problem import UNLIMITED, Break, Depot, DroneType, Overtime, VehicleType
 
 
 def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
@@ -55,6 +55,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         more_drones=tuple(drones[1:]),
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
+        breaks=tuple([_break(each) for each in stated.breaks]),
     )
     return _flying(kind, stated, travels, decimals, amounts) if stated.flies else kind
 
@@ -80,6 +81,14 @@ def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decim
         reload_duration=kind.reload_duration + thousandths(turnaround.swap_duration),
         energy=(None if stated.energy is None
                 else to_energy(stated, stated.energy, decimals, amounts)))
+
+
+def _break(stated: BreakInput) -> Break:
+    latest = stated.start.latest
+    return Break(
+        stated.id, thousandths(stated.duration), thousandths(stated.start.earliest),
+        UNLIMITED if latest is None else thousandths(latest),
+        after_departure=stated.after_departure, anywhere=stated.at == "anywhere", paid=stated.paid)
 
 
 def _overtime(stated: OvertimeInput | None) -> Overtime | None:

@@ -19,6 +19,8 @@ from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_breaks, with_drone_types, with_gaps, with_setups
 
+pytestmark = pytest.mark.slow
+
 MINUTE = 60_000
 
 
@@ -79,7 +81,7 @@ def cheapest(problem: Problem) -> float:
     return best
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(8))
 def test_search_finds_the_cheapest_plan_with_breaks(seed: int) -> None:
     problem = drawn(np.random.default_rng(seed))
     found = improve(problem, pack([problem]), Solution((), (1, 2)),
@@ -112,7 +114,8 @@ def test_rollouts_and_search_keep_all_rules_with_breaks() -> None:
                         SearchConfig(turns=100)).solution
         assert check(problem, found).violations == ()
         searched += sum(len(trip.breaks) for route in found.routes for trip in route.trips)
-    assert rolled > 30 and searched > 15
+    assert rolled > 30
+    assert searched > 15
 
 
 def test_breaks_that_nobody_needs_change_no_plan() -> None:

@@ -373,6 +373,7 @@ export default {
     wait: 'Warten',
     handle: 'Starten und aufnehmen',
     reload: 'Nachladen',
+    rest: 'Pause',
   },
   timeline: {
     title: 'Zeitachse',
@@ -732,6 +733,7 @@ export default {
     rates: 'Auslastung und Arbeitszeit',
     energy: '{{energy}} Wh',
     site: 'für seine Drohnen',
+    rest: 'Pause',
     trip: 'Fahrt',
     loadRate: 'Auslastung',
     workingRate: 'Arbeitszeitanteil',
@@ -938,8 +940,11 @@ export default {
     address: 'Adresse',
     allowed: 'Erlaubt',
     altitude: 'Höhe',
+    after_departure: 'Nach Abfahrt',
+    at: 'Wo',
     batteries: 'Akkus',
     chargers: 'Ladeplätze',
+    breaks: 'Pausen',
     battery_wh: 'Akku',
     capacity: 'Ladekapazität',
     charge_w: 'Ladeleistung',
@@ -1007,6 +1012,7 @@ export default {
     name: 'Name',
     num_samples: 'Zahl der Ziehungen',
     overtime: 'Überstunden',
+    paid: 'Bezahlt',
     per_hour: 'Je Stunde',
     per_km: 'Je km',
     per_load_km: 'Je Ladung und km',
@@ -1030,7 +1036,9 @@ export default {
     served_by: 'Bedient von',
     service_duration: 'Servicezeit',
     service_duration_by_type: 'Servicezeit je Typ',
+    duration: 'Dauer',
     setup_duration: 'Rüstzeit',
+    start: 'Beginnt',
     shift: 'Schicht',
     skills: 'Anforderungen',
     speed_kmh: 'Geschwindigkeit',
@@ -1109,6 +1117,8 @@ export default {
     greedy: 'jeweils das Wahrscheinlichste',
     any: 'jederzeit',
     last: 'nach allen Zustellungen',
+    stop: 'an einem Halt',
+    anywhere: 'auch unterwegs',
     depot: 'am Depot',
     open: 'am letzten Stopp',
     clock: 'Uhrzeiten',
@@ -1224,6 +1234,7 @@ export default {
       overtime:
         'Arbeit über Schicht oder längste Arbeitszeit hinaus, zu einem Preis. Leer: ' +
         'keine erlaubt.',
+      breaks: 'Pausen jeder Fahrerin und jedes Fahrers, der Reihe nach.',
       max_trip_distance: 'Längster Weg einer Fahrt. Leer: ohne Grenze.',
       max_trips: 'Wie viele Fahrten ein Fahrzeug höchstens macht.',
       max_stops:
@@ -1272,6 +1283,18 @@ export default {
     ShiftInput: {
       earliest: 'Frühester Beginn der ersten Fahrt.',
       latest: 'Späteste Rückkehr. Leer: ohne Grenze.',
+    },
+    BreakInput: {
+      id: 'Name der Pause.',
+      duration: 'Wie lange sie dauert.',
+      start: 'Wann sie beginnen darf.',
+      after_departure: 'Ob das ab dem Beginn der ersten Fahrt zählt.',
+      at: 'An einem Halt oder auch unterwegs.',
+      paid: 'Ob sie zur Arbeitszeit zählt.',
+    },
+    BreakStartInput: {
+      earliest: 'Frühester Beginn.',
+      latest: 'Spätester Beginn. Leer: Keine ist fällig.',
     },
     OvertimeInput: {
       max_duration: 'Längste Überstunden. Leer: ohne Grenze.',
@@ -1461,6 +1484,8 @@ export default {
     TWO_LISTS_OF_VEHICLES:
       'Geben Sie die erlaubten Fahrzeuge an oder die verbotenen, nicht beides.',
     SHIFT_ENDS_BEFORE_START: 'Die Schicht endet, bevor sie beginnt.',
+    BREAKS_REPLANNED: 'Ein Tag mit Pausen lässt sich unterwegs noch nicht weiterplanen.',
+    UNKNOWN_BREAK: 'Diese Pause hat niemand.',
     LOCATION_OFF_GLOBE:
       'Diesen Ort gibt es nicht: Die Länge ist höchstens 180, die Breite höchstens 90 Grad.',
     LOCATION_TOO_FAR: 'Dieser Ort ist zu weit weg.',
@@ -1573,6 +1598,7 @@ export default {
     PAYLOAD: 'Für eine Drohne ist es zu viel.',
     TIME_WINDOW: 'Das Zeitfenster wird verpasst.',
     SHIFT: 'Die Schicht endet vorher.',
+    BREAK: 'Für eine Pause bleibt keine Zeit.',
     WORKING_DURATION: 'Die längste Arbeitszeit reicht nicht.',
     WORKING_HOURS: 'Die Arbeitszeit reicht nicht.',
     TRIP_DISTANCE: 'Die Fahrt wäre zu lang.',

@@ -99,7 +99,9 @@ function indexTrip(index, vehicle, reply, number) {
     // A truck may come back to a depot or a customer for its drones.
     const source = isCustomer
       ? index.customers.get(stop.id)
-      : (index.depots.get(`${stop.kind} ${stop.id}`) ??
+      : stop.kind === 'break'
+        ? undefined
+        : (index.depots.get(`${stop.kind} ${stop.id}`) ??
         index.depots.get(`depot ${stop.id}`) ??
         index.customers.get(stop.id));
     return remember(index, {
@@ -110,8 +112,10 @@ function indexTrip(index, vehicle, reply, number) {
       load: stop.load,
     });
   });
-  reply.stops.forEach(({ geometry }, position) => {
+  reply.stops.forEach(({ geometry, kind }, position) => {
     const halt = trip.stops[position];
+    // A break is drawn where the stop before it is.
+    if (kind === 'break') halt.location = trip.stops[position - 1].location;
     const places = [trip.stops[position - 1]?.location, halt.location];
     halt.line = lineOf(geometry, places) ?? straightOrFlown(index, vehicle, places);
     halt.drawn = vehicle.flies ? index.air.drawn(vehicle.type, halt.line) : halt.line;

@@ -5,7 +5,7 @@ import { launchDurations } from './launches.js';
 import { titleOfVehicle } from './vehicle-labels.js';
 
 /** What bars mean, in the order of the legend. */
-export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload'];
+export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload', 'rest'];
 
 /**
  * Return one row per vehicle and per drone that flies, vehicles followed by their drones.
@@ -67,6 +67,12 @@ function serviceBy(type, customer) {
 function stopBars(halt, type) {
   const duration = halt.kind === 'customer' ? serviceBy(type, halt.source) : 0;
   const served = Math.min(halt.serviceStart + duration, halt.departure);
+  if (halt.kind === 'break') {
+    return [
+      { kind: 'wait', from: halt.arrival, until: halt.serviceStart, key: halt.key },
+      { kind: 'rest', from: halt.serviceStart, until: halt.departure, key: halt.key },
+    ];
+  }
   return [
     ...setupBars(halt),
     { kind: 'wait', from: halt.arrival + halt.setup, until: halt.serviceStart, key: halt.key },

@@ -207,7 +207,7 @@ function drawBar(context, row, bar, scale, view) {
   const x = scale.x(bar.from);
   const width = Math.max(scale.x(bar.until) - x, bar.kind === 'serve' ? 2 : 1);
   const box = boxOf(row, bar.kind);
-  if (bar.kind === 'wait' || bar.kind === 'reload') {
+  if (['wait', 'reload', 'rest'].includes(bar.kind)) {
     hatch(context, { x, width, ...box }, bar.kind === 'wait' ? colours.wait : colours.faint);
   } else {
     context.fillStyle = colour;

@@ -178,7 +178,8 @@ function Stop({ index, halt, selection, hovered }) {
       <${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}>${isLocked
         && halt.kind === 'customer' && html` <span
           class="lock-mark">${t('routes.locked')}</span>`}${halt.kind === 'launch_site'
-        && html` <span class="help">${t('routes.site')}</span>`}</th>
+        && html` <span class="help">${t('routes.site')}</span>`}${halt.kind === 'break'
+        && html` <span class="help">${t('routes.rest')}</span>`}</th>
     <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
       class="help">+${duration(halt.waiting)}</span>`}</td>
     <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>

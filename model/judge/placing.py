@@ -1,0 +1,55 @@
+"""Breaks put between the stops of a route that lacks some."""
+
+from dataclasses import replace
+
+from model.judge.breaks import BreakDecision, begin_of, broken_breaks, is_due
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import Problem
+from model.solution import BreakPlace, Route
+
+PLACES: tuple[BreakPlace, ...] = "departure", "arrival"
+
+
+def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
+    """Return a route that has the breaks that are due, each where the route then ends first.
+
+    Breaks that are placed already stay. One that can't be anywhere is left out, and those behind.
+    """
+    kind = problem.vehicle_types[decision.vehicle_type]
+    for number, each in enumerate(kind.breaks):
+        route = schedule(problem, decision)
+        begin, end = begin_of(kind, route.trips[0]), route.trips[-1].stops[-1].departure
+        taken = {placed.number for trip in decision.trips for placed in trip.breaks}
+        if number in taken or not is_due(each, begin, end):
+            continue
+        ways = [(wrong, _end(tried), way)
+                for way in _ways(decision, number)
+                for tried in [schedule(problem, way)]
+                for wrong in [any(of is not None for of, _ in broken_breaks(kind, tried.trips))]]
+        wrong, _, decision = min(ways, key=lambda way: way[:2])
+        if wrong:
+            break
+    return decision
+
+
+def _end(route: Route) -> int:
+    return route.trips[-1].stops[-1].departure
+
+
+def _ways(decision: RouteDecision, number: int) -> list[RouteDecision]:
+    """Return the route with a break more, at each place."""
+    ways = []
+    for index, trip in enumerate(decision.trips):
+        for stop in range(len(trip.nodes) - 1):
+            for place in PLACES:
+                trips = [*decision.trips]
+                trips[index] = _with(trip, BreakDecision(number, stop, place))
+                ways.append(replace(decision, trips=tuple(trips)))
+    return ways
+
+
+def _with(trip: TripDecision, more: BreakDecision) -> TripDecision:
+    def order(taken: BreakDecision) -> tuple[int, bool, int]:
+        return taken.stop, taken.place == "arrival", taken.number
+
+    return replace(trip, breaks=tuple(sorted((*trip.breaks, more), key=order)))

@@ -1,0 +1,104 @@
+"""Breaks of drivers, over HTTP."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from app.plans.pictures.drawing import draw_svg
+from app.serving.settings import Settings
+from model.planner import load_planner
+from tests.app.conftest import serving
+from tests.app.plans.asking import planned
+from tests.app.plans.pictures.conftest import scene_of
+from tests.app.plans.test_hubs import is_feasible
+
+Request = dict[str, Any]
+
+NOON = {"id": "lunch", "duration": 1800, "start": {"earliest": 600, "latest": 1200},
+        "after_departure": True}
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[httpx.Client]:
+    """Return a client of a service that plans as it does."""
+    settings = Settings()
+    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
+        yield client
+
+
+@pytest.fixture
+def resting(smallest: Request) -> Request:
+    """Return a request whose only vehicle has a break while it serves."""
+    smallest["options"] = {"search_iterations": 300}
+    smallest["fleet"][0] |= {"count": 1, "breaks": [NOON], "costs": {"per_km": 1, "per_hour": 10},
+}
+    for customer in smallest["customers"]:
+        customer["service_duration"] = 900
+    return smallest
+
+
+def breaks_of(plan: Request) -> list[Request]:
+    """Return all breaks."""
+    return [stop for route in plan["routes"] for trip in route["trips"] for stop in trip["stops"]
+            if stop["kind"] == "break"]
+
+
+def test_a_break_is_a_stop_and_passes_the_check(service: httpx.Client, resting: Request) -> None:
+    plan = planned(service, resting)
+    assert plan["status"] == "complete"
+    lunch, = breaks_of(plan)
+    assert lunch["id"] == "lunch"
+    assert 600 <= lunch["service_start"] <= 1200
+    assert lunch["departure"] - lunch["service_start"] == 1800
+    assert is_feasible(service, resting, plan)
+    for trip in (trip for route in plan["routes"] for trip in route["trips"]):
+        trip["stops"] = [stop for stop in trip["stops"] if stop["kind"] != "break"]
+    assert not is_feasible(service, resting, plan)
+
+
+def test_a_break_counts_in_working_duration_if_it_is_paid(service: httpx.Client,
+                                                          resting: Request) -> None:
+    paid = planned(service, resting)
+    resting["fleet"][0]["breaks"] = [NOON | {"paid": False}]
+    unpaid = planned(service, resting)
+    route, = unpaid["routes"]
+    stops = [stop for trip in route["trips"] for stop in trip["stops"]]
+    assert route["working_duration"] == pytest.approx(
+        stops[-1]["departure"] - stops[0]["departure"] - 1800)
+    assert unpaid["cost"]["total"] < paid["cost"]["total"]
+
+
+def test_a_break_is_left_out_that_begins_once_the_route_has_ended(service: httpx.Client,
+                                                                  resting: Request) -> None:
+    resting["fleet"][0]["breaks"] = [NOON | {"start": {"earliest": 600}}]
+    assert breaks_of(planned(service, resting)) == []
+
+
+def test_pictures_and_lines_show_plans_with_breaks(service: httpx.Client, resting: Request) -> None:
+    resting["options"] |= {"geometry": True}
+    plan = planned(service, resting)
+    assert all("geometry" in stop for route in plan["routes"] for trip in route["trips"]
+               for stop in trip["stops"][1:] if stop["kind"] != "break")
+    assert b"Break" in draw_svg(scene_of(resting, plan))
+
+
+@pytest.mark.parametrize(("changes", "code", "path"), [
+    ({"start": {"earliest": 9, "latest": 8}}, "WINDOW_ENDS_BEFORE_START",
+     "$.fleet[0].breaks[0].start.latest"),
+    ({"duration": -1}, "OUT_OF_RANGE", "$.fleet[0].breaks[0].duration"),
+    ({"at": "home"}, "UNKNOWN_VALUE", "$.fleet[0].breaks[0].at")])
+def test_wrong_breaks_are_told(service: httpx.Client, resting: Request, changes: Request, code: str,
+                               path: str) -> None:
+    resting["fleet"][0]["breaks"] = [NOON | changes]
+    error, = service.post("/plan", json=resting).json()["errors"]
+    assert (error["code"], error["path"]) == (code, path)
+
+
+def test_plans_with_breaks_cannot_be_gone_on_from(service: httpx.Client, resting: Request) -> None:
+    plan = planned(service, resting)
+    again = planned(service, resting | {"replan": {"plan": plan}})
+    assert breaks_of(again) == breaks_of(plan)
+    answer = service.post("/plan", json=resting | {"replan": {"plan": plan, "freeze_before": 60}})
+    assert "BREAKS_REPLANNED" in {error["code"] for error in answer.json()["errors"]}
