@@ -83,7 +83,9 @@ def record(
         drawn = problems(number, variants.split(","))
         for name, problem in tqdm(drawn, total=number, disable=None):
             for kind, plan, cost in plans(planner, problem, turns):
-                digest = hashlib.sha256(repr(plan).encode()).hexdigest()
+                # As plans were written before there were breaks.
+                digest = hashlib.sha256(
+                    repr(plan).replace(", breaks=()", "").encode()).hexdigest()
                 file.write(json.dumps({"name": f"{name}, {kind}", "cost": cost, "plan": digest,
                                        "left_out": len(plan.unassigned)}) + "\n")
             file.flush()

@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED, MS_PER_HOUR, UNLIMITED, DroneType, Energy, IncompatibleGoods, Overtime, Problem,
-    SpeedProfile, VehicleType,
+    FULL_SPEED, MS_PER_HOUR, UNLIMITED, Break, DroneType, Energy, IncompatibleGoods, Overtime,
+    Problem, SpeedProfile, VehicleType,
 )
 from training.instances import generate
 
@@ -46,6 +46,7 @@ RULES = {
     "waiting costs": with_customers(earliest=HOUR, early_cost_per_hour=1.0),
     "speed changes": with_vehicles(
         speed_profile=SpeedProfile((HOUR,), (FULL_SPEED, FULL_SPEED // 2))),
+    "drivers have breaks": with_vehicles(breaks=(Break("rest", HOUR, HOUR, 2 * HOUR),)),
     "drones are charged aboard": with_vehicles(drones=replace(DRONES, energy=BATTERY)),
     "it is too windy at times": with_vehicles(
         drones=replace(DRONES, storms=((HOUR, 2 * HOUR),))),
