@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Break, Customer, Depot, DroneType, Energy,
+    FULL_SPEED, MM_PER_KM, UNLIMITED, UNREACHABLE, Customer, Depot, DroneType, Energy,
     IncompatibleGoods, Overtime, Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.travel.matrices import with_nowhere
@@ -286,22 +286,6 @@ def with_own_durations(rng: np.random.Generator, problem: Problem) -> Problem:
         return replace(kind, service_durations=durations())
 
     return replace(problem, vehicle_types=tuple(map(changed, problem.vehicle_types)))
-
-
-def with_breaks(rng: np.random.Generator, problem: Problem) -> Problem:
-    """Return a problem most of whose drivers have one to three breaks, one behind the other."""
-    def drawn(kind: VehicleType) -> VehicleType:
-        breaks, opens = [], _draw(rng, 0, 8)
-        for number in range(int(rng.integers(0, 4))):
-            width = _draw(rng, 0, 8)
-            breaks.append(Break(
-                str(number), _draw(rng, 1, 6), opens, opens + width,
-                after_departure=bool(rng.random() < 0.3), anywhere=bool(rng.random() < 0.3),
-                paid=bool(rng.random() < 0.7)))
-            opens += width + _draw(rng, 0, 6)
-        return replace(kind, breaks=tuple(breaks))
-
-    return replace(problem, vehicle_types=tuple(map(drawn, problem.vehicle_types)))
 
 
 def with_setups(rng: np.random.Generator, problem: Problem) -> Problem:

@@ -17,7 +17,8 @@ from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
-from tests.model.tiny import draw_tiny, with_breaks, with_drone_types, with_gaps, with_setups
+from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
+from tests.model.tiny_breaks import with_breaks
 
 pytestmark = pytest.mark.slow
 
