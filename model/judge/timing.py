@@ -296,8 +296,7 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     if arrival is None:
         arrival = max(ready, latest_release(problem, decision))
     began = first_trip or Trip((Stop(decision.nodes[0], arrival, arrival, arrival),))
-    begin, breaks = begin_of(vehicle_type, began), []
-    departure = node = 0
+    begin, breaks, departure, node = begin_of(vehicle_type, began), [], 0, 0
     for index, following in enumerate(decision.nodes):
         if index:
             leg = duration.item(node, following)
