@@ -2,7 +2,7 @@
 
 Draws orders around three hubs from which drones fly by themselves, with areas that they may not fly
 through and batteries that are swapped between trips, and plans them within several times, by one
-thread and the service's policy. Each plan is judged.
+thread and the service's policy, or beside OR-Tools. Each plan is judged.
 """
 
 import json
@@ -18,6 +18,7 @@ from app.schemas.limits import DEFAULT_POLICY
 from app.schemas.request import PlanRequest
 from app.serving.settings import Settings
 from benchmarks.clock import count_processor_time
+from benchmarks.quality.hubs_by_ortools import plan_by_ortools
 from model.judge.check import check
 from model.planner import PlanOptions, load_planner
 from model.problem import FloatArray
@@ -87,11 +88,16 @@ def main(
     orders: Annotated[int, typer.Option(help="Orders.")] = 1000,
     drones: Annotated[int, typer.Option(help="Drones, of three hubs.")] = 100,
     seed: Annotated[int, typer.Option(help="Of what is drawn.")] = 1,
+    by_ortools: Annotated[bool, typer.Option(
+        help="Without energies, beside OR-Tools in the first time.")] = False,
 ) -> None:
     """Plan a day within several times, of the processor."""
     count_processor_time()
-    request = PlanRequest.model_validate_json(json.dumps(draw_day(orders, drones, seed)))
-    problem = to_problem(request)
+    day = draw_day(orders, drones, seed)
+    if by_ortools:
+        for kind in day["fleet"]:
+            del kind["energy"], kind["endurance"]
+    problem = to_problem(PlanRequest.model_validate_json(json.dumps(day)))
     planner = load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
     table = Table("seconds", "left out", "drones", "trips", "turns", "cost", "gap %")
     costs: list[float] = []
@@ -106,6 +112,14 @@ def main(
                      f"{len(found.solution.routes)}",
                      f"{sum(len(route.trips) for route in found.solution.routes)}",
                      f"{found.search_iterations}", f"{costs[-1]:.2f}"))
+    if by_ortools:
+        plan = plan_by_ortools(problem, (seconds or [10.0])[0])
+        evaluation = check(problem, plan)
+        costs.append(evaluation.cost.total)
+        rows.append(("OR-Tools", f"{len(plan.unassigned)}", f"{len(plan.routes)}",
+                     f"{sum(len(route.trips) for route in plan.routes)}",
+                     "" if evaluation.is_feasible else evaluation.violations[0].message,
+                     f"{costs[-1]:.2f}"))
     for row, cost in zip(rows, costs, strict=True):
         table.add_row(*row, f"{(cost / min(costs) - 1) * 100:.2f}")
     Console().print(table)

@@ -10,11 +10,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from model.engine.alarm import Alarm
-from model.engine.instance import Instance
+from model.engine.instance import Instance, pack
 from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.packing import packed_anew
+from model.search.beginning.packing import (
+    comes_by_trips, packed_anew, packed_plan, with_single_trips,
+)
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
@@ -32,8 +34,10 @@ from model.search.worker import Worker
 from model.solution import Solution, renumbered, renumbered_routes
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
-"""Number of customers from which on a plan with drones begins with one by trucks alone, and the
-share of the time that this takes."""
+"""Number of customers from which on a plan with drones begins with trucks alone, and the share."""
+
+BY_TRIP_SHARE, BY_TRIP_COOLED = 0.8, 0.6
+"""The share that trips of who flies take first, and through how much of the cooling they go."""
 
 MOST_BEGINNING = 0.05
 """Share of the time after which no other type of vehicle is tried at the beginning; thousands of
@@ -49,13 +53,11 @@ LARGE_FROM = 2000
 """Number of customers from which on a search is far from done with what it begins with."""
 
 LARGE_BY_TRUCK_SHARE = 0.6
-"""The share of the time that a plan by trucks alone takes there: a turn with drones takes many
-times as long, and each customer gets few of them."""
+"""The share by trucks alone there: a turn with drones takes many times as long."""
 
 IN_PARTS_FROM = 800
-"""Number of customers from which on a search of few turns stays near one of them for a while, then
-goes on to another: what it looks at then is in the processor's cache. Where drones fly, from
-`LARGE_FROM` on."""
+"""Number of customers from which on a search of few turns stays near one of them for a while: what
+it looks at then is in the processor's cache. Where drones fly, from `LARGE_FROM` on."""
 
 FEW_TURNS = 300
 """Turns for each customer below which it does; with more it brings nothing, but where customers are
@@ -219,8 +221,11 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
             trucks_first = not solution.routes and _trucks_come_first(problem, config.moves)
             if trucks_first:
                 found = _plan_by_truck(task)
-                if alarm.has_rung:
-                    return found
+            elif not solution.routes and comes_by_trips(problem):
+                found = _plan_by_trip(task)
+                task = replace(task, config=replace(config, cooled=BY_TRIP_COOLED))
+            if alarm.has_rung:
+                return found
             return _improved(task, found.solution, trucks_first, on_progress)
     except EndedError:
         return found
@@ -365,22 +370,31 @@ def _trucks_come_first(problem: Problem, moves: Moves) -> bool:
     return problem.num_customers >= BY_TRUCK_FROM and has_drones and moves.flights
 
 
-def _share_by_truck(problem: Problem) -> float:
-    return LARGE_BY_TRUCK_SHARE if problem.num_customers >= LARGE_FROM else BY_TRUCK_SHARE
-
-
 def _plan_by_truck(task: _Task) -> Improved:
     """Return a plan without flights, to which the drones' then are added.
 
     The order of the customers is found sooner so; whom no truck can serve is left out.
     """
-    config, limits = task.config, task.limits
-    share = _share_by_truck(task.problem)
-    turns = None if config.turns is None else math.ceil(config.turns * share)
+    moves = replace(task.config.moves, loops=False, crossings=False)
+    is_large = task.problem.num_customers >= LARGE_FROM
+    return _beforehand(replace(task, config=replace(task.config, moves=moves)),
+                       LARGE_BY_TRUCK_SHARE if is_large else BY_TRUCK_SHARE)
+
+
+def _plan_by_trip(task: _Task) -> Improved:
+    """Return a plan whose trips were found as if each were a vehicle's own, then packed."""
+    single = with_single_trips(task.problem)
+    found = _beforehand(replace(task, problem=single, instance=pack([single], False)),
+                        BY_TRIP_SHARE)
+    return replace(found, solution=packed_plan(task.problem, found.solution))
+
+
+def _beforehand(task: _Task, share: float) -> Improved:
+    """Return what a search that is given no plan finds in a share of the time."""
+    limits, threads = task.limits, task.config.threads
+    turns = None if task.config.turns is None else math.ceil(task.config.turns * share)
     deadline = limits.began + (limits.deadline - limits.began) * share
-    config = replace(config, turns=turns,
-                     moves=replace(config.moves, loops=False, crossings=False))
     limits = replace(limits, began=time.perf_counter(), end=deadline,
-                     turns=None if turns is None else turns // config.threads)
-    return _improved(replace(task, config=config, limits=limits), Solution((), ()), False,
-                     lambda _: None)
+                     turns=turns and turns // threads)
+    task = replace(task, config=replace(task.config, turns=turns), limits=limits)
+    return _improved(task, Solution((), ()), False, lambda _: None)

@@ -1,56 +1,106 @@
 """Trips of vehicles that fly by themselves, packed on as few of them as their times let."""
 
+import math
+from bisect import bisect_left
 from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from model.problem import Problem, VehicleType
+from model.problem import MS_PER_HOUR, UNLIMITED, Problem, VehicleType
 from model.search.beginning.stock import left_at
 from model.search.beginning.translate import left_out, make_searcher, read_routes
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.solution import Route, Solution, Stop, Trip
 
-LONG_AGO = -1
+BUSY = 0.6
+"""Share of its day that a vehicle spends on trips, where they are well packed."""
+
+BY_TRIP_FROM = 30
+"""Number of customers from which on trips of who flies are found before they are packed."""
+
+ORDERS = 16
+"""In how many orders trips are packed that the search goes on from."""
+
+SHAKEN = 0.6
+"""By which share of it a trip's leeway may seem more or less."""
+
+SOONER = 0.3
+"""What putting off the trips behind counts, by what waiting does."""
 
 
 def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
-                  nodes: Sequence[int] | None = None,
-                  beside: Sequence[Route] = ()) -> list[Route]:
+                  nodes: Sequence[int] | None = None, beside: Sequence[Route] = (),
+                  orders: int = 1) -> list[Route]:
     """Return trips of a type, each given by its customers, on vehicles one after another.
 
-    What must begin first comes first, each time on the vehicle that has been back for least time by
-    then; on another where none is in time. What no vehicle can fly any more is left out, or for
-    what routes `beside` leave no batteries, fewest customers first. Routes have no times yet.
-    `nodes` are the problem's, by the numbers that trips have.
+    Those with the least leeway come first, each where its vehicle waits least before and behind; on
+    another vehicle where it fits between no trips. What no vehicle can fly is left out, or for what
+    routes `beside` leave no batteries, fewest customers first. Of several `orders` the best counts.
+    Routes have no times yet. `nodes` are the problem's, by the numbers that trips have.
     """
     kind = problem.vehicle_types[k]
     stock = left_at(problem, beside, kind.depot)
     if kind.takes_batteries and len(trips) > stock.batteries:
         trips = sorted(trips, key=len, reverse=True)[:stock.batteries]
     timing = _Timing(problem, kind, nodes or range(problem.num_nodes))
-    back: list[int] = []  # by vehicle
-    made: list[list[Sequence[int]]] = []
-    for trip in sorted(trips, key=timing.latest_start):
-        chosen, ready = LONG_AGO, timing.ready(trip)
-        charged = sum(len(route) > kind.trips_uncharged for route in made)
-        for vehicle, free in enumerate(back):
-            if _may_go_on(kind, len(made[vehicle]), charged < stock.chargers) and (
-                    timing.end(trip, max(free, ready)) is not None
-                    and (chosen == LONG_AGO or _is_better(free, back[chosen], ready))):
-                chosen = vehicle
-        if (chosen == LONG_AGO and len(made) < kind.count
-                and _may_go_on(kind, 0, charged < stock.chargers)):
-            chosen = len(made)
-            made.append([])
-            back.append(kind.earliest)
-        end = None if chosen == LONG_AGO else timing.end(trip, max(back[chosen], ready))
-        if end is not None:
-            made[chosen].append(trip)
-            airborne = end - max(back[chosen], ready)
-            back[chosen] = end + max(kind.reload_duration, timing.charging(airborne))
-    return [Route(k, number, tuple([_trip(kind, each) for each in route]))
-            for number, route in enumerate(made) if route]
+    legs = [leg for leg in map(timing.leg, trips) if leg is not None]
+    rng = np.random.default_rng(0)
+    packed = [_packed(kind, sorted(legs, key=lambda leg: leg.leeway), stock.chargers)]
+    for _ in range(orders - 1):
+        share = rng.uniform(1.0 - SHAKEN, 1.0 + SHAKEN, len(legs)).tolist()
+        order = sorted(range(len(legs)), key=lambda index: legs[index].slack * share[index])
+        packed.append(_packed(kind, [legs[index] for index in order], stock.chargers))
+    rows = min(packed, key=lambda rows: (-sum(len(row.legs) for row in rows), len(rows)))
+    return [Route(k, number, tuple([_trip(kind, leg.trip) for leg in row.legs]))
+            for number, row in enumerate(rows)]
+
+
+def comes_by_trips(problem: Problem) -> bool:
+    """Tell whether a search begins with the trips of vehicles that fly, as if each had its own.
+
+    It does where they may make several, and where no truck has drones.
+    """
+    kinds = problem.vehicle_types
+    return (problem.num_customers >= BY_TRIP_FROM
+            and any(kind.flies and kind.max_trips > 1 for kind in kinds)
+            and all(kind.drones is None for kind in kinds))
+
+
+def with_single_trips(problem: Problem) -> Problem:
+    """Return a problem in which each trip of who flies is a vehicle's own.
+
+    What a vehicle costs is shared by the time that it flies, so that fewer fly at once.
+    """
+    return replace(problem, vehicle_types=tuple([
+        replace(kind, max_trips=1, fixed_cost=0.0, numbers=(),
+                cost_per_hour=kind.cost_per_hour + _hourly(problem, kind),
+                count=min(problem.num_customers, kind.count * kind.max_trips))
+        if kind.flies and kind.max_trips > 1 else kind for kind in problem.vehicle_types]))
+
+
+def _hourly(problem: Problem, kind: VehicleType) -> float:
+    """Return what an hour in the air costs of a vehicle; nothing where days have no end."""
+    over = min(kind.latest, max([customer.latest for customer in problem.customers]))
+    if over >= UNLIMITED or over <= kind.earliest:
+        return 0.0
+    return kind.fixed_cost / BUSY / (over - kind.earliest) * MS_PER_HOUR
+
+
+def packed_plan(problem: Problem, single: Solution) -> Solution:
+    """Return a plan of trips that were vehicles' own, packed; whom that leaves out is in no list.
+
+    Routes of others stay. They have no times yet.
+    """
+    kinds = problem.vehicle_types
+    packed = {k for k, kind in enumerate(kinds) if kind.flies and kind.max_trips > 1}
+    routes = [route for route in single.routes if route.vehicle_type not in packed]
+    for k in sorted(packed):
+        trips = [[stop.node for stop in route.trips[0].stops[1:-1]]
+                 for route in single.routes if route.vehicle_type == k]
+        routes += packed_routes(problem, k, trips, None, routes, ORDERS)
+    return Solution(tuple(routes), single.unassigned)
 
 
 def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
@@ -81,11 +131,83 @@ def _may_go_on(kind: VehicleType, trips: int, is_place_left: bool) -> bool:
     return trips < kind.max_trips and (is_place_left or not needs_one)
 
 
-def _is_better(free: int, other: int, ready: int) -> bool:
-    """Tell whether a vehicle waits for less time than another, or is late by less."""
-    if (free <= ready) != (other <= ready):
-        return free <= ready
-    return free > other if free <= ready else free < other
+@dataclass(frozen=True)
+class _Leg:
+    """A trip as others of its vehicle meet it."""
+
+    trip: Sequence[int]
+    ready: int  # all its parcels are there
+    latest: int  # start by which it is in time, if nobody waits
+    busy: int  # how long its vehicle is until it may begin another
+
+    @property
+    def slack(self) -> int:
+        """For how long it may be put off."""
+        return self.latest - self.ready
+
+    @property
+    def leeway(self) -> int:
+        """The same, less for one that takes long."""
+        return self.slack - self.busy
+
+
+@dataclass
+class _Row:
+    """Trips of one vehicle in their order."""
+
+    earliest: int
+    legs: list[_Leg] = field(default_factory=list)
+    free: list[int] = field(default_factory=list)  # when it may begin another after each
+    latest: list[int] = field(default_factory=list)  # start of each by which all behind are in time
+
+    def best_place(self, leg: _Leg) -> tuple[float, int]:
+        """Return what the best place for a trip costs in time, and that place; infinite if none."""
+        best = math.inf, 0
+        for place in range(bisect_left(self.latest, leg.ready + leg.busy), len(self.legs) + 1):
+            free = self.free[place - 1] if place else self.earliest
+            start = max(leg.ready, free)
+            if start > leg.latest:
+                break
+            end, cost = start + leg.busy, float(start - free if place else 0)
+            if place < len(self.legs):
+                if end > self.latest[place]:
+                    continue
+                behind = self.legs[place]
+                cost += max(0, behind.ready - end)
+                cost += SOONER * max(0, end - (self.free[place] - behind.busy))
+            best = min(best, (cost, place))
+        return best
+
+    def put(self, place: int, leg: _Leg) -> None:
+        """Put a trip at a place. In place."""
+        self.legs.insert(place, leg)
+        self.free.insert(place, 0)
+        self.latest.insert(place, 0)
+        for index in range(place, len(self.legs)):
+            free = self.free[index - 1] if index else self.earliest
+            self.free[index] = max(self.legs[index].ready, free) + self.legs[index].busy
+        for index in range(len(self.legs) - 1, -1, -1):
+            latest = self.legs[index].latest
+            if index + 1 < len(self.legs):
+                latest = min(latest, self.latest[index + 1] - self.legs[index].busy)
+            self.latest[index] = latest
+
+
+def _packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int) -> list[_Row]:
+    """Return trips on vehicles, put there in an order, with so many places to charge."""
+    rows: list[_Row] = []
+    for leg in legs:
+        is_left = sum(len(row.legs) > kind.trips_uncharged for row in rows) < chargers
+        able = [row for row in rows if _may_go_on(kind, len(row.legs), is_left)]
+        (cost, place), row = min([(row.best_place(leg), row) for row in able],
+                                 key=lambda found: found[0][0], default=((math.inf, 0), None))
+        if row is None or cost == math.inf:
+            if len(rows) == kind.count or not _may_go_on(kind, 0, is_left):
+                continue
+            row = _Row(kind.earliest)
+            rows.append(row)
+        row.put(place, leg)
+    return rows
 
 
 def _trip(kind: VehicleType, customers: Sequence[int]) -> Trip:
@@ -94,7 +216,7 @@ def _trip(kind: VehicleType, customers: Sequence[int]) -> Trip:
 
 
 class _Timing:
-    """When trips of a type end that begin at an instant."""
+    """When trips of a type may begin, and how long they take."""
 
     def __init__(self, problem: Problem, kind: VehicleType, nodes: Sequence[int]) -> None:
         self._problem = problem
@@ -102,25 +224,28 @@ class _Timing:
         self._kind = kind
         self._duration = problem.travel[kind.travel].duration
 
-    def ready(self, trip: Sequence[int]) -> int:
-        """Return when all its parcels are there."""
-        return max([self._kind.earliest,
-                    *[self._problem.customer_at(self._nodes[node]).release_time for node in trip]])
+    def leg(self, trip: Sequence[int]) -> _Leg | None:
+        """Return a trip as others meet it; None if it is never in time."""
+        kind, customers = self._kind, [self._problem.customer_at(self._nodes[node])
+                                       for node in trip]
+        ready = max([kind.earliest, *[customer.release_time for customer in customers]])
+        time, here, spent = ready + kind.launch_duration, kind.begins_at, kind.launch_duration
+        latest = kind.latest
+        for node, customer in zip(map(self._nodes.__getitem__, trip), customers, strict=True):
+            leg = self._duration.item(here, node) + self._problem.setup_between(here, node)
+            time, spent, here = time + leg, spent + leg, node
+            latest = min(latest, customer.latest - spent)
+            service = kind.service_at(customer)
+            time, spent = max(time, customer.earliest) + service, spent + service
+        home = self._duration.item(here, kind.ends_at) + kind.recovery_duration
+        latest = min(latest, kind.latest - spent - home)
+        airborne = time + home - ready
+        if ready > latest or ready + airborne > kind.latest:
+            return None
+        return _Leg(trip, ready, latest,
+                    airborne + max(kind.reload_duration, self._charging(airborne)))
 
-    def end(self, trip: Sequence[int], start: int) -> int | None:
-        """Return when it ends, its recovery included; None if somebody is reached too late."""
-        kind, time, here = self._kind, start + self._kind.launch_duration, self._kind.begins_at
-        for node in map(self._nodes.__getitem__, trip):
-            customer = self._problem.customer_at(node)
-            time += self._duration.item(here, node) + self._problem.setup_between(here, node)
-            if time > customer.latest and customer.late_cost_per_hour is None:
-                return None
-            time = max(time, customer.earliest) + kind.service_at(customer)
-            here = node
-        end = time + self._duration.item(here, kind.ends_at) + kind.recovery_duration
-        return end if end <= kind.latest else None
-
-    def charging(self, airborne: int) -> int:
+    def _charging(self, airborne: int) -> int:
         """Return how long a battery is charged at most after so long a trip; 0: it is full at once.
         """
         energy = self._kind.energy
@@ -128,14 +253,3 @@ class _Timing:
             return 0
         most = max(*energy.cruise, *energy.climb, *energy.descent, *energy.hover)
         return -(-min(airborne * most, energy.available) // energy.charge)
-
-    def latest_start(self, trip: Sequence[int]) -> int:
-        """Return when it has to begin at the latest, as if nobody waited."""
-        spent, here, latest = self._kind.launch_duration, self._kind.begins_at, self._kind.latest
-        for node in map(self._nodes.__getitem__, trip):
-            customer = self._problem.customer_at(node)
-            spent += self._duration.item(here, node)
-            latest = min(latest, customer.latest - spent)
-            spent += self._kind.service_at(customer)
-            here = node
-        return latest

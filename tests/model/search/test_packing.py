@@ -3,14 +3,17 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import Customer, Depot, Energy, Problem, Travel, VehicleType
-from model.search.beginning.packing import packed_routes
+from model.problem import Customer, Depot, DroneType, Energy, Problem, Travel, VehicleType
+from model.search.beginning.packing import (
+    comes_by_trips, packed_plan, packed_routes, with_single_trips,
+)
 from model.search.improve import SearchConfig, improve
-from model.solution import Solution
+from model.solution import Route, Solution, Stop, Trip
 
 MINUTE = 60_000
 
@@ -40,22 +43,29 @@ def trips_of(problem: Problem, *trips: tuple[int, ...]) -> list[list[tuple[int, 
 
 def test_one_vehicle_flies_what_it_can_one_after_another() -> None:
     problem = street(order("a"), order("b"), order("c"))
-    assert trips_of(problem, (1,), (2,), (3,)) == [[(3,), (2,), (1,)]]
+    row, = trips_of(problem, (1,), (2,), (3,))
+    assert sorted(row) == [(1,), (2,), (3,)]
 
 
 def test_who_must_be_served_at_once_gets_another_vehicle() -> None:
     problem = street(order("a", latest=2), order("b", latest=3))
-    assert trips_of(problem, (1,), (2,)) == [[(1,)], [(2,)]]
+    assert sorted(trips_of(problem, (1,), (2,))) == [[(1,)], [(2,)]]
+
+
+def test_trips_come_between_those_that_cannot_wait() -> None:
+    """Two are ready late, one early; what may wait fills the time between."""
+    problem = street(order("a", latest=2), order("b", 30, 33), order("c", latest=25))
+    assert trips_of(problem, (1,), (2,), (3,)) == [[(1,), (3,), (2,)]]
 
 
 def test_what_no_vehicle_can_fly_any_more_is_left_out() -> None:
     problem = street(order("a", latest=2), order("b", latest=3), kind=replace(DRONE, count=1))
-    assert trips_of(problem, (1,), (2,)) == [[(1,)]]
+    assert len(trips_of(problem, (1,), (2,))) == 1
 
 
 def test_no_vehicle_makes_more_trips_than_it_may() -> None:
     problem = street(order("a"), order("b"), order("c"), kind=replace(DRONE, max_trips=2))
-    assert trips_of(problem, (1,), (2,), (3,)) == [[(3,), (2,)], [(1,)]]
+    assert sorted(map(len, trips_of(problem, (1,), (2,), (3,)))) == [1, 2]
 
 
 def test_batteries_are_charged_between_packed_trips() -> None:
@@ -109,3 +119,57 @@ def test_joined_trips_last_in_the_air_and_on_the_battery() -> None:
         far = street(order("a"), order("b"), kind=kind, step=3)
         found = improve(far, pack([far]), Solution((), (1, 2)), SearchConfig(turns=0)).solution
         assert check(far, found).violations == ()
+
+
+def fleet_of_both(**stated: object) -> Problem:
+    """Return a day of forty orders for a truck and drones that fly several trips."""
+    rng = np.random.default_rng(4)
+    customers = [replace(order(str(index), released, released + 60),
+                         demand=(int(rng.integers(500, 2300)),))
+                 for index, released in enumerate(rng.integers(0, 400, 40).tolist())]
+    problem = street(*customers, kind=replace(DRONE, count=6, max_trips=30, **stated))
+    place = np.array([0, *[1 + index % 10 for index in range(40)]])
+    legs = np.abs(place[:, None] - place)
+    problem = replace(problem, travel=(Travel(legs * MINUTE, legs * 1_000_000),))
+    truck = VehicleType("truck", 1, (20_000,), 0, cost_per_km=2.0, max_trips=8)
+    return replace(problem, vehicle_types=(truck, *problem.vehicle_types))
+
+
+def test_trips_are_first_found_as_if_each_were_a_vehicles_own() -> None:
+    problem = fleet_of_both()
+    assert comes_by_trips(problem)
+    truck, drone = with_single_trips(problem).vehicle_types
+    assert truck == problem.vehicle_types[0]
+    assert (drone.max_trips, drone.count, drone.fixed_cost) == (1, 40, 0.0)
+    single = Solution((Route(0, 0, (Trip(tuple([Stop(node, 0, 0, 0) for node in (0, 1, 0)])),)),
+                       *[Route(1, number, (Trip(tuple([Stop(node, 0, 0, 0)
+                                                       for node in (0, number + 2, 0)])),))
+                         for number in range(39)]))
+    packed = packed_plan(problem, single)
+    assert packed.routes[0] == single.routes[0]
+    flown = [stop.node for route in packed.routes[1:] for trip in route.trips
+             for stop in trip.stops[1:-1]]
+    assert len(flown) == len(set(flown)) > 30
+    assert len(packed.routes) <= 7
+
+
+def test_no_trips_are_found_first_where_trucks_have_drones_or_few_are_served() -> None:
+    problem = fleet_of_both()
+    truck, drone = problem.vehicle_types
+    carrier = replace(truck, drones=DroneType(1, (1000,), 0))
+    assert not comes_by_trips(replace(problem, vehicle_types=(carrier, drone)))
+    assert not comes_by_trips(replace(problem, vehicle_types=(truck,)))
+    assert not comes_by_trips(street(order("a")))
+
+
+@pytest.mark.parametrize("stated", [{}, {"endurance": 30 * MINUTE}])
+def test_a_search_from_nothing_serves_all_by_truck_and_drones(stated: dict[str, object]) -> None:
+    problem = fleet_of_both(**stated)
+    nobody = Solution((), tuple(range(1, 41)))
+    found = [improve(problem, pack([problem]), nobody, SearchConfig(turns=600)).solution
+             for _ in range(2)]
+    assert found[0] == found[1]
+    evaluation = check(problem, found[0])
+    assert evaluation.violations == ()
+    assert found[0].unassigned == ()
+    assert {route.vehicle_type for route in found[0].routes} == {0, 1}
