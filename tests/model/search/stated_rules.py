@@ -55,6 +55,7 @@ RULES = {
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),
     "what is aboard costs": with_vehicles(cost_per_load_km=1.0),
+    "one vehicle": with_vehicles(count=1),
     "no windows": lambda problem: replace(problem, customers=tuple(
         replace(customer, latest=UNLIMITED) for customer in problem.customers)),
     "one drone a truck": with_vehicles(drones=replace(DRONES, count=1)),
