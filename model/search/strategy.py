@@ -70,8 +70,7 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star and whole,
         resplit=resplit,
         small_moves=(moves.small_moves and resplit and _may_be_any_time(problem, instance)
-                     and _flights_may_save(instance)
-                     and sum(kind.count for kind in problem.vehicle_types) == 1),
+                     and _flights_may_save(instance)),
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
         scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,

@@ -460,12 +460,16 @@ SmallMoves::Costs SmallMoves::costs(Int k, const OperationRow& row, Int begin, I
 // Write the trips that were changed, as they were at best if that is better than ever before. In
 // place; false if none was, or if one breaks a rule.
 bool SmallMoves::write() const {
+    // All are touched first: where customers are has to be known anew of each if one can't be so.
     bool changed = false;
     for (Int number = 0; number < num_trips_; ++number) {
-        const Changing& each = trip(number);
-        if (!each.is_changed) continue;
+        if (!trip(number).is_changed) continue;
         changed = true;
-        if (!write(each, improved_ ? each.best : each.row)) return false;
+        touch(searcher_, trip(number).slot);
+    }
+    for (Int number = 0; number < num_trips_; ++number) {
+        const Changing& each = trip(number);
+        if (each.is_changed && !write(each, improved_ ? each.best : each.row)) return false;
     }
     return changed;
 }
@@ -474,7 +478,6 @@ bool SmallMoves::write() const {
 bool SmallMoves::write(const Changing& trip, const OperationRow& row) const {
     const Fleet& now = searcher_.now;
     const Int spare = now.route.size() - 2;
-    touch(searcher_, trip.slot);
     keep_aside(now, trip.slot, spare);
     Route& route = now.route[trip.slot];
     const View<Stop, 1> stops = now.stop[trip.slot];

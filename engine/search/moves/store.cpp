@@ -124,8 +124,11 @@ private:
         return resplit_.attempt(rise);
     }
 
-    // How many trips are planned anew from their order this turn.
-    Int resplits_now() const { return small_moves_.can_do() ? resplits_beside : resplits; }
+    // How many trips are planned anew from their order this turn. Small moves find no stops at
+    // launch sites.
+    Int resplits_now() const {
+        return small_moves_.can_do() && !has_halts(data_) ? resplits_beside : resplits;
+    }
 
     Int num_trips() const {
         Int trips = 0;

@@ -57,7 +57,7 @@ def planned(problem: Problem, turns: int, seed: int = 0, without: bool = False) 
     (1, {}), (1, {"endurance": MS_PER_HOUR}), (1, {"cost_per_km": 0.0, "cost_per_hour": 1.0}),
     (1, {"endurance": MS_PER_HOUR // 4, "launch_duration": 60_000, "recovery_duration": 60_000}),
     (1, {"endurance": MS_PER_HOUR // 4, "endurance_includes_waiting": False}),
-    (1, {"max_range": 20 * 10**6}),
+    (1, {"max_range": 20 * 10**6}), (3, {}), (3, {"endurance": MS_PER_HOUR // 4}),
 ])
 def test_plans_keep_all_rules_and_cost_what_the_search_says(
         trucks: int, stated: dict[str, object]) -> None:
