@@ -107,12 +107,13 @@ def _may_be_any_time(problem: Problem, instance: Instance) -> bool:
 
 
 def _flights_may_save(instance: Instance) -> bool:
-    """Tell whether time costs, or flying less than driving as far."""
+    """Tell whether somebody may be flown to, and time costs, or flying less than driving as far."""
     types, rates = instance.type[0], instance.rate[0]
     dear = rates["drone_distance"] < rates["distance"]
     for name in WORK_RATES:
         dear = dear | (rates[name] > 0)
-    return bool((dear & (types["drones"] == 1)).any())
+    flies = (types["drones"] == 1) & instance.can_fly[0].any(axis=1)
+    return bool((dear & flies).any())
 
 
 def _may_save(instance: Instance, evaluation: Records) -> bool:

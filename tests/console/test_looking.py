@@ -150,8 +150,9 @@ STRENGTH = """async (key) => {
   const { select } = await import(`${modules}/actions.js`);
   select(key);
   await new Promise(requestAnimationFrame);
-  await new Promise(requestAnimationFrame);
-  const { left: x, top: y } = document.querySelector('.map-handle').getBoundingClientRect();
+  const handle = () => document.querySelector('.map-handle');
+  do await new Promise(requestAnimationFrame); while (!handle());
+  const { left: x, top: y } = handle().getBoundingClientRect();
   const canvas = document.querySelector('.leaflet-overlay-pane canvas');
   const { left, top, width } = canvas.getBoundingClientRect();
   const ratio = canvas.width / width;
