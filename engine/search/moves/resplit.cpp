@@ -186,7 +186,8 @@ bool Resplit::draw() {
     slot_ = now.where[node].slot;
     if (slot_ < 0 || data_.type[now.route[slot_].type].drones != 1) return false;
     type_ = now.route[slot_].type;
-    other_ = uniform(rng) < together_share ? partner(node) : nowhere;
+    // Two routes that may have stops at launch sites are planned anew one by one.
+    other_ = uniform(rng) < together_share && !has_halts(data_) ? partner(node) : nowhere;
     part_ = {0, now.route[slot_].length - 1};
     if (other_ < 0) part_ = window(stop_beside(now, node));
     lines_ = {};
