@@ -147,14 +147,15 @@ void SmallMoves::forget() {
 void SmallMoves::change() {
     const Int node = searcher_.scratch->moved_customers[random(customers_)];
     double drawn = uniform(searcher_.rng);
+    const auto falls_to = [&drawn](double share) { return (drawn -= share) < 0.0; };
     bool done = false;
-    if (drawn < relocate_share) {
+    if (falls_to(relocate_share)) {
         done = relocate(node);
-    } else if ((drawn -= relocate_share) < swap_share) {
+    } else if (falls_to(swap_share)) {
         done = swap(node);
-    } else if ((drawn -= swap_share) < reverse_share) {
+    } else if (falls_to(reverse_share)) {
         done = reverse(node);
-    } else if (drawn - reverse_share < segment_share) {
+    } else if (falls_to(segment_share)) {
         done = move_segment(node);
     } else {
         done = move_joint(node);
@@ -240,7 +241,7 @@ bool SmallMoves::swap(Int node) {
          !holds(data_.type[target.type], plus(minus(target.load, lost), gained)))) {
         return false;
     }
-    const auto put = [this](const Draft& draft, const Served& at, Int who) {
+    const auto put = [](const Draft& draft, const Served& at, Int who) {
         OperationStop& stop = draft.row[at.place - draft.span.first];
         (at.flown ? stop.flown : stop.node) = static_cast<std::int32_t>(who);
     };
