@@ -1,6 +1,7 @@
 """What the schema can't tell of a vehicle type."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from math import inf
 
 from app.requests.conversion.amounts import counted, decimals_of
 from app.requests.conversion.energy import is_countable
@@ -8,6 +9,7 @@ from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.drones import Flyer, TurnaroundInput
 from app.schemas.energy import EnergyInput
+from app.schemas.launch_site import HoursInput
 from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
 from model.problem import MAX_QUANTITY
 
@@ -21,6 +23,58 @@ def shift_errors(draft: Draft) -> Errors:
                            f"The shift ends at {draft.told(latest)}, before it starts at "
                            f"{draft.told(earliest)}: {draft.next_day(earliest, latest)}raise "
                            "latest or lower earliest.")
+
+
+def hours_errors(draft: Draft) -> Errors:
+    """Say which depots' hours can't be, or leave a vehicle type no day of its own."""
+    depots = draft.depots or ()
+    for index, depot in enumerate(depots):
+        hours = HoursInput() if depot is None else depot.time_window
+        if hours.latest is not None and hours.latest < hours.earliest:
+            yield error_at("WINDOW_ENDS_BEFORE_START", ("depots", index, "time_window", "latest"),
+                           f"The window ends at {draft.told(hours.latest)}, before it starts at "
+                           f"{draft.told(hours.earliest)}: raise latest or lower earliest.")
+    known = {depot.id: depot.time_window for depot in depots if depot is not None}
+    if (all(hours == HoursInput() for hours in known.values())
+            or any(_closing(hours) < hours.earliest for hours in known.values())):
+        return
+    first = next(iter(known))
+    for path, kind in draft.vehicle_types():
+        if {kind.depot or first, *kind.reload_depots} <= known.keys():
+            yield from _hours_of_type(kind, path, known, kind.depot or first)
+
+
+def _hours_of_type(kind: VehicleTypeInput, path: Path, known: Mapping[str, HoursInput],
+                   home: str) -> Errors:
+    """Say what a vehicle type's day misses, or can't be told, by the hours of its depots."""
+    overtime, shift = kind.overtime, kind.shift
+    over = 0.0 if overtime is None else overtime.max_duration
+    last = inf if shift.latest is None or over is None else shift.latest + over
+    opens, closes, hours = shift.earliest, last, known[home]
+    starts_there = kind.start_location is None and kind.start_location_index is None
+    if starts_there:
+        opens = max(opens, hours.earliest)
+    if kind.end == "depot":
+        closes = min(closes, _closing(hours))
+    places = {home, *kind.reload_depots} if kind.max_trips > 1 else set[str]()
+    if starts_there or kind.end == "depot":
+        places.add(home)
+    if opens > closes:
+        yield error_at("DEPOT_CLOSED", (*path, "shift"),
+                       f"The depot {home!r} isn't open during the shift: change the depot's "
+                       "time_window or the shift.")
+    elif any(known[place].earliest > opens or _closing(known[place]) < closes for place in places):
+        yield error_at("HOURS_DIFFER", path,
+                       "A depot that it uses opens after its day begins, or closes before that "
+                       "ends: narrow its shift, or state one time_window at all its depots.")
+    elif overtime is not None and kind.max_working_duration is not None and closes < last:
+        yield error_at("HOURS_AND_OVERTIME", (*path, "overtime"),
+                       f"The depot {home!r} closes before all overtime: leave out "
+                       "max_working_duration, overtime, or the end of the depot's time_window.")
+
+
+def _closing(hours: HoursInput) -> float:
+    return inf if hours.latest is None else hours.latest
 
 
 def break_errors(draft: Draft) -> Errors:

@@ -22,6 +22,17 @@ class SiteWindowInput(Input):
     )
 
 
+class HoursInput(Input):
+    """When a depot is open; both ends belong to it."""
+
+    earliest: Opening = Field(
+        0.0, description="First departure and return in seconds since plan start."
+    )
+    latest: Instant | None = Field(
+        None, description="Last departure and return in seconds since plan start. Null: no limit."
+    )
+
+
 class LaunchSiteInput(Input):
     """A place nobody ordered to, where a truck may stop for its drones alone."""
 

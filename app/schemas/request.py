@@ -15,7 +15,7 @@ from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Count, Input,
     Instant, Location, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
-from app.schemas.launch_site import LaunchSiteInput
+from app.schemas.launch_site import HoursInput, LaunchSiteInput
 from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
 )
@@ -46,6 +46,9 @@ class DepotInput(Input):
     location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
     location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
     launch: bool = Field(True, description=LAUNCH_TEXT)
+    time_window: HoursInput = Field(
+        HoursInput(), description="When trips may begin and end here, and vehicles reload. "
+        "Default: at any time.")
     batteries: Count | None = Field(
         None, description="Charged batteries here for vehicles that fly, those in them included. "
         "Each trip that begins here takes one, unless its vehicle is charged. Null: enough.")

@@ -255,7 +255,7 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         slack = None if trip is None else (most - trip.highest_load[dimension]) / 10**places
         yield (_capacity_field("capacity", kind, dimension), "unit", slack,
                replace(kind, capacity=_one_more(kind.capacity, dimension, 10**places)))
-    if kind.latest < UNLIMITED:
+    if kind.latest < min(UNLIMITED, bench.problem.depots[kind.ends_at].latest):
         end = None
         if found is not None:
             end = bench.plan.solution.routes[found.route].trips[-1].stops[-1].departure

@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
+from model.judge.hours import hours_violations
 from model.judge.hubs import hub_violations
 from model.judge.launch_sites import site_violations, with_launch_sites
 from model.judge.metrics import (
@@ -90,6 +91,7 @@ def judge_route(problem: Problem, route: Route, path: str,
         violations += _mismatches(stated, trip.trip, trip.path)
         violations += trip_violations(problem, route.vehicle_type, trip)
     violations += site_violations(problem, route.vehicle_type, trips)
+    violations += hours_violations(problem, trips)
     violations += route_violations(problem, vehicle_type, trips, measured, path,
                                    len(known) == len(trips))
     return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes)

@@ -201,8 +201,28 @@ def _more_overtime(attempt: Attempt, overtime: Overtime, limit: int, excess: int
         with_type(attempt, replace(vehicle_type, overtime=changed)))
 
 
+def _depot_hours(attempt: Attempt, closes: int) -> Diagnosis:
+    """Say that a vehicle would be back after its depot closes, which its shift might allow."""
+    problem, vehicle_type = attempt.problem, attempt.vehicle_type
+    depot, end = problem.depots[vehicle_type.ends_at], attempt.evaluation.makespan
+    late = up_to_tenth(end - closes, MS_PER_MINUTE)
+    enough = closes + late
+    depots = [replace(each, latest=min(enough, UNLIMITED)) if each is depot else each
+              for each in problem.depots]
+    changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
+    suffices = enough <= vehicle_type.last_by_shift
+    return Diagnosis(
+        "SHIFT", f"{vehicle_type.id} would be back {in_minutes(late)} after {depot.id} closes.",
+        if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough)
+        if suffices else None,
+        replace(with_type(attempt, changed), depots=tuple(depots)))
+
+
 def _shift(attempt: Attempt) -> Diagnosis:
     vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
+    closes = attempt.problem.depots[vehicle_type.ends_at].latest
+    if closes <= vehicle_type.latest + allowed_overtime(vehicle_type) < UNLIMITED:
+        return _depot_hours(attempt, closes)
     if overtime is not None:
         end = vehicle_type.latest + overtime.max_duration
         excess = up_to_tenth(attempt.evaluation.makespan - end, MS_PER_MINUTE)

@@ -13,12 +13,15 @@ from typing import NamedTuple
 import numpy as np
 
 from model.judge.clock import MS_PER_MINUTE
+from model.judge.metrics import allowed_overtime
 from model.judge.network import NEVER, Network, network_of
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, time_route
 from model.judge.rules import decimal
 from model.judge.timing import RouteDecision, TripDecision
-from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Problem, VehicleType
+from model.problem import (
+    MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Depot, Problem, VehicleType,
+)
 
 MOST_CUSTOMERS = 250
 """Among so many customers ways through others are looked for."""
@@ -146,18 +149,25 @@ def _tried(problem: Problem, kind: int, node: int, nodes: tuple[int, ...]) -> Pa
     others = tuple([each for each in nodes if each != node])
     if not timed.judged.violations:
         return Passage(timed, others, None)
-    lacks = _lacking(vehicles, timed)
+    lacks = _lacking(problem.depots[vehicles.ends_at], vehicles, timed)
     if lacks is None:
         return None
     types = [*problem.vehicle_types]
     types[kind] = lacks.changed
-    again = time_route(replace(problem, vehicle_types=tuple(types)), decision, "", EVERYTHING_OPEN)
+    depots = tuple([replace(each, latest=UNLIMITED) for each in problem.depots])
+    changed = replace(problem, vehicle_types=tuple(types),
+                      depots=depots if lacks.code == "SHIFT" else problem.depots)
+    again = time_route(changed, decision, "", EVERYTHING_OPEN)
     return None if again.judged.violations else Passage(again, others, lacks)
 
 
-def _lacking(vehicles: VehicleType, timed: TimedRoute) -> Lacking | None:
+def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | None:
     """Say what a trip that breaks one rule lacks; None if it breaks another one."""
     codes = {each.code for each in timed.judged.violations}
+    if codes == {"SHIFT"} and end.latest <= vehicles.latest + allowed_overtime(vehicles):
+        late = _up_to_tenth(timed.judged.end - end.latest, MS_PER_MINUTE)
+        return Lacking("SHIFT", f"would be back {_minutes(late)} after {end.id} closes",
+                       replace(vehicles, latest=min(end.latest + late, UNLIMITED)))
     if codes == {"SHIFT"} and vehicles.overtime is not None:
         over = vehicles.overtime.max_duration
         late = _up_to_tenth(timed.judged.end - vehicles.latest - over, MS_PER_MINUTE)

@@ -4,6 +4,7 @@ from model.problem.breaks import MAX_BREAKS, Break
 from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
 from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
 from model.problem.fleet import MAX_STORMS, DroneType, Pickups, SpeedProfile, VehicleType
+from model.problem.hours import within_hours
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem
 from model.problem.quantities import (
@@ -21,4 +22,5 @@ __all__ = [
     "Break", "Customer", "Depot", "DepotKind", "DroneType", "Energy", "FloatArray",
     "IncompatibleGoods", "Int32Array", "IntArray", "Overtime", "Pickups", "Points", "Problem",
     "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray", "VehicleType",
+    "within_hours",
 ]

@@ -18,8 +18,8 @@ class Depot:
     """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
     site: int | None = None  # places with equal numbers are one place
     launch: bool = True  # drones may take off, and be recovered, there
-    earliest: int = 0  # of a launch site: no drone takes off or is recovered there before
-    latest: int = UNLIMITED  # last arrival there
+    earliest: int = 0  # no trip begins or ends there before; at a launch site no flight
+    latest: int = UNLIMITED  # last departure and return; at a launch site last arrival
     stop_cost: float = 0.0  # of each stop there
     after: str | None = None  # id of the customer who has been served before, by the same vehicle
     batteries: int | None = None  # charged, for trips of who flies from there; None: enough

@@ -103,6 +103,7 @@ class VehicleType:
     speed_profile: SpeedProfile | None = None
     earliest: int = 0  # shift
     latest: int = UNLIMITED
+    last_by_shift: int = UNLIMITED  # last end, with overtime, if its depot didn't close before
     max_working_duration: int | None = None
     max_trip_distance: int | None = None
     overtime: Overtime | None = None  # None: shift and working duration can't be exceeded

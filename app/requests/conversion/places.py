@@ -101,7 +101,7 @@ class PlacedRequest:
     @cached_property
     def depots(self) -> tuple[Depot, ...]:
         """The nodes where trips may begin or end."""
-        depots = [Depot(depot.id) for depot in self.request.depots]
+        depots = [_depot(depot) for depot in self.request.depots]
         depots += [stand.depot for _, stand in self._stands]
         depots += [site for site, *_ in self._sites]
         return tuple(depots if self.nowhere is None else [*depots, NOWHERE])
@@ -167,6 +167,12 @@ def revisits(kind: VehicleTypeInput) -> bool:
     return kind.revisits and any(drones.count > 0 for drones in kind.drone_types)
 
 
+def _depot(stated: DepotInput) -> Depot:
+    hours = stated.time_window
+    return Depot(stated.id, earliest=thousandths(hours.earliest),
+                 latest=UNLIMITED if hours.latest is None else thousandths(hours.latest))
+
+
 def _launch_site(stated: LaunchSiteInput) -> Depot:
     window = stated.time_window
     return Depot(stated.id, "launch_site", earliest=thousandths(window.earliest),
@@ -187,6 +193,7 @@ def places_of_type(kind: VehicleTypeInput, depots: Sequence[Depot]) -> Places:
     """Return where vehicles of a type begin, end and reload, among the problem's depots."""
     nodes = {stand.depot.kind: depots.index(stand.depot) for stand in stands_of(kind)}
     end = depots.index(NOWHERE) if kind.end == "open" else nodes.get("end")
-    home = 0 if kind.depot is None else depots.index(Depot(kind.depot))
-    reload = sorted({depots.index(Depot(name)) for name in kind.reload_depots} - {home})
+    named = {depot.id: node for node, depot in enumerate(depots) if depot.kind == "depot"}
+    home = 0 if kind.depot is None else named[kind.depot]
+    reload = sorted({named[name] for name in kind.reload_depots} - {home})
     return Places(home, nodes.get("start"), end, tuple(reload))

@@ -11,7 +11,7 @@ from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.winds import longest_calm
 from app.schemas.drones import DronesInput, TurnaroundInput
 from app.schemas.vehicle import BreakInput, OvertimeInput, VehicleTypeInput
-from model.problem import UNLIMITED, Break, Depot, DroneType, Overtime, VehicleType
+from model.problem import UNLIMITED, Break, Depot, DroneType, Overtime, VehicleType, within_hours
 
 
 def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
@@ -19,11 +19,10 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
                     amounts: Collection[Sequence[int]]) -> VehicleType:
     """Convert a valid vehicle type; of the problem are `depots`, and `amounts` both ways."""
     travel, speed_profile = travels.drive(stated)
-    places = places_of_type(stated, depots)
-    shift = stated.shift
+    places, shift = places_of_type(stated, depots), stated.shift
     drones = [_drones(stated, each, travels, decimals, amounts) for each in stated.drone_types
               if each.count > 0]
-    kind = VehicleType(
+    kind = within_hours(depots, VehicleType(
         id=stated.id,
         count=stated.count,
         capacity=counted(stated.capacity, decimals),
@@ -56,7 +55,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
         breaks=tuple([_break(each) for each in stated.breaks]),
-    )
+    ))
     return _flying(kind, stated, travels, decimals, amounts) if stated.flies else kind
 
 

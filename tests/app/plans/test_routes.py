@@ -219,6 +219,8 @@ def _set(request: Request, path: str, value: Any) -> None:
     ("fleet.0.count", 0, "OUT_OF_RANGE", "$.fleet[0].count"),
     ("fleet.0.shift", {"earliest": 9, "latest": 8}, "SHIFT_ENDS_BEFORE_START",
      "$.fleet[0].shift.latest"),
+    ("depots.0.time_window", {"earliest": 9, "latest": 8}, "WINDOW_ENDS_BEFORE_START",
+     "$.depots[0].time_window.latest"),
     ("fleet.0.speed_kmh", 0, "OUT_OF_RANGE", "$.fleet[0].speed_kmh"),
     ("fleet.0.speed_profile", [{"from": 9, "speed_kmh": 8}, {"from": 9, "speed_kmh": 7}],
      "SPEED_PROFILE_ORDER", "$.fleet[0].speed_profile[1].from"),

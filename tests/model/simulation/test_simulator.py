@@ -22,10 +22,11 @@ from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
     with_duty,
-    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
-    with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
-    with_table, with_turnaround,
+    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends,
+    with_open_reloads, with_own_costs, with_own_durations, with_pickups, with_places, with_reloads,
+    with_setups, with_table, with_turnaround,
 )
+from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
 from tests.model.tiny_shipments import with_shipments
 
@@ -263,7 +264,7 @@ def test_rollouts_count_what_leaving_out_each_customer_costs() -> None:
     left_out = 0
     for seed in range(200):
         rng = np.random.default_rng(seed)
-        problem = with_own_costs(rng, draw_tiny(rng))
+        problem = with_hours(rng, with_own_costs(rng, draw_tiny(rng)))
         rollout = roll([problem], seed).rollouts[0]
         evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))
         assert evaluation.violations == (), f"seed {seed}"

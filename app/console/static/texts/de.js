@@ -1188,12 +1188,17 @@ export default {
       earliest: 'Wer vorher kommt, wartet; bis dahin startet keine Drohne.',
       latest: 'Späteste Ankunft. Leer: keine Grenze.',
     },
+    HoursInput: {
+      earliest: 'Wann es öffnet: erste Abfahrt und Rückkehr.',
+      latest: 'Wann es schließt: letzte Abfahrt und Rückkehr. Leer: nie.',
+    },
     DepotInput: {
       id: 'Name des Depots; kein anderes heißt so.',
       location: 'Wo es ist: Länge und Breite oder eine Adresse; auf einer Ebene x und y.',
       location_index:
         'Zeile dieses Orts in den Wegetabellen, ab 0; nötig, wenn das Problem solche mitbringt.',
       launch: 'Ob Drohnen hier starten und landen dürfen.',
+      time_window: 'Wann Touren hier beginnen und enden dürfen. Leer: jederzeit.',
       batteries:
         'Geladene Akkus für Fahrzeuge, die von hier fliegen: Jede Tour braucht einen. Leer: genug.',
       chargers:
@@ -1484,6 +1489,9 @@ export default {
     TWO_LISTS_OF_VEHICLES:
       'Geben Sie die erlaubten Fahrzeuge an oder die verbotenen, nicht beides.',
     SHIFT_ENDS_BEFORE_START: 'Die Schicht endet, bevor sie beginnt.',
+    DEPOT_CLOSED: 'Das Depot ist die ganze Schicht geschlossen.',
+    HOURS_DIFFER: 'Depots eines Typs öffnen oder schließen zu verschiedenen Zeiten.',
+    HOURS_AND_OVERTIME: 'Das Depot schließt vor allen Überstunden.',
     BREAKS_REPLANNED: 'Ein Tag mit Pausen lässt sich unterwegs noch nicht weiterplanen.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',
     LOCATION_OFF_GLOBE:
@@ -2025,6 +2033,7 @@ export default {
     window: 'passt, wenn sein Zeitfenster {{number}} {{time}} später schlösse',
     aboard: 'passt, wenn er {{time}} länger an Bord sein dürfte',
     shift: 'passt, wenn die Schicht von {{name}} {{time}} später endete',
+    closing: 'passt, wenn {{name}} {{time}} später schlösse',
     overtime: 'passt, wenn {{name}} {{time}} mehr Überstunden machen dürfte',
     stop: 'passt, wenn {{name}} 1 Stopp machen dürfte',
     sortie: 'passt, wenn {{name}} 1 Flug starten dürfte',

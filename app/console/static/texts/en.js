@@ -1173,6 +1173,10 @@ export default {
       earliest: 'Whoever comes before waits, and no drone takes off until then.',
       latest: 'Latest arrival. Empty: no limit.',
     },
+    HoursInput: {
+      earliest: 'When it opens: first departure and return.',
+      latest: 'When it closes: last departure and return. Empty: never.',
+    },
     DepotInput: {
       id: "The depot's name; no other has it.",
       location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',
@@ -1180,6 +1184,7 @@ export default {
         'Row of this place in the tables of legs, from 0; needed where the problem ' +
         'brings such tables.',
       launch: 'Whether drones may take off here and be recovered.',
+      time_window: 'When trips may begin and end here. Empty: at any time.',
       batteries:
         'Charged batteries here for vehicles that fly: each trip takes one. Empty: enough.',
       chargers:
@@ -1459,6 +1464,9 @@ export default {
     TWO_KINDS_OF_WINDOWS: 'State one window or several, not both.',
     TWO_LISTS_OF_VEHICLES: 'State the vehicles allowed or those forbidden, not both.',
     SHIFT_ENDS_BEFORE_START: 'The shift ends before it begins.',
+    DEPOT_CLOSED: 'The depot is closed all shift.',
+    HOURS_DIFFER: 'Depots of one type open or close at different times.',
+    HOURS_AND_OVERTIME: 'The depot closes before all overtime.',
     BREAKS_REPLANNED: 'A day under way can’t be planned on with breaks yet.',
     UNKNOWN_BREAK: 'No driver has this break.',
     LOCATION_OFF_GLOBE:
@@ -1974,6 +1982,7 @@ export default {
     window: 'fits if its window {{number}} closed {{time}} later',
     aboard: 'fits if it could be aboard {{time}} longer',
     shift: "fits if {{name}}'s shift ended {{time}} later",
+    closing: 'fits if {{name}} closed {{time}} later',
     overtime: 'fits if {{name}} could work {{time}} more overtime',
     stop: 'fits if {{name}} could make 1 stop',
     sortie: 'fits if {{name}} could launch 1 sortie',

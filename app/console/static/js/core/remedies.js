@@ -130,6 +130,15 @@ const CHANGES = [
     (request, { type }, id) =>
       setIn(request, [...dronesAt(request, type, id), 'turnaround', 'batteries'], 1),
   ],
+  [
+    new RegExp(`^fits if (?!its )(.+) closed ${NUMBER} minutes? later$`),
+    (request, _, id, more) =>
+      add(
+        request,
+        [...depotAt(request, id), 'time_window', 'latest'],
+        numberOf(more) * SECONDS_PER_MINUTE,
+      ),
+  ],
   [/^fits if drones may take off at (.+)$/, allowLaunches],
   [
     new RegExp(`^fits if .+ could work ${NUMBER} minutes? longer$`),

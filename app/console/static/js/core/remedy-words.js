@@ -32,6 +32,7 @@ const SAID = [
   ['window', `fits if its window ${NUMBER} closed ${TIME} later`],
   ['aboard', `fits if it could be aboard ${TIME} longer`],
   ['shift', `fits if ${NAME}'s shift ended ${TIME} later`],
+  ['closing', `fits if ${NAME} closed ${TIME} later`],
   ['overtime', `fits if ${NAME} could work ${TIME} more overtime`],
   ['stop', `fits if ${NAME} could make 1 stop`],
   ['sortie', `fits if ${NAME} could launch 1 sortie`],
