@@ -22,7 +22,12 @@ from benchmarks.fuzz.wild_vroom import wild_vroom
 
 Data = dict[str, Any]
 
+Name = tuple[str, int]
+"""Kind and id of a task."""
+
 REFUSED = (400, 413)
+
+NO_TASKS = ("start", "break", "end")
 
 
 @dataclass
@@ -70,36 +75,72 @@ def judge(request: Data, solution: Data) -> None:
     Fault
         If a job is lost or served twice, or a rule is broken.
     """
-    jobs = {job["id"]: job for job in request["jobs"]}
+    jobs = tasks_of(request)
     vehicles = {vehicle["id"]: vehicle for vehicle in request["vehicles"]}
-    served = [step["id"] for route in solution["routes"] for step in route["steps"]
-              if step["type"] == "job"]
-    left_out = [job["id"] for job in solution["unassigned"]]
+    served = [(step["type"], step["id"]) for route in solution["routes"]
+              for step in route["steps"] if step["type"] not in NO_TASKS]
+    left_out = [(job["type"], job["id"]) for job in solution["unassigned"]]
     if sorted(served + left_out) != sorted(jobs):
         raise Fault(f"served {served} and left out {left_out} of {sorted(jobs)}")
     for route in solution["routes"]:
         _judge_route(vehicles[route["vehicle"]], jobs, route["steps"])
 
 
-def _judge_route(vehicle: Data, jobs: dict[int, Data], steps: list[Data]) -> None:
-    """Raise `Fault` for a window, a load, a skill or a number of tasks that isn't kept."""
-    visited = [step for step in steps if step["type"] == "job"]
+def tasks_of(request: Data) -> dict[Name, Data]:
+    """Return jobs and the ends of shipments by kind and id; ends name the other one's."""
+    tasks: dict[Name, Data] = {("job", job["id"]): job for job in request["jobs"]}
+    for shipment in request.get("shipments", ()):
+        for kind, other in (("pickup", "delivery"), ("delivery", "pickup")):
+            tasks[kind, shipment[kind]["id"]] = {
+                "skills": shipment.get("skills", ()), **shipment[kind],
+                "mate": (other, shipment[other]["id"])}
+    return tasks
+
+
+def _judge_route(vehicle: Data, jobs: dict[Name, Data], steps: list[Data]) -> None:
+    """Raise `Fault` for a window, a load, a skill, a number of tasks, a shipment or a break that
+    isn't kept.
+    """
+    visited = [step for step in steps if step["type"] not in NO_TASKS]
+    names = [(step["type"], step["id"]) for step in visited]
     begin, end = vehicle.get("time_window", (0, float("inf")))
     if not begin <= steps[0]["arrival"] <= steps[-1]["arrival"] <= end:
         raise Fault(f"vehicle {vehicle['id']} works outside its window")
     if len(visited) > vehicle.get("max_tasks", len(visited)):
         raise Fault(f"vehicle {vehicle['id']} has too many tasks")
-    for step in visited:
-        job, start = jobs[step["id"]], step["arrival"] + step["waiting_time"]
-        if not any(first <= start <= last for first, last in
-                   job.get("time_windows", [(0, float("inf"))])):
+    for place, step in enumerate(visited):
+        job, start = jobs[names[place]], step["arrival"] + step["waiting_time"]
+        mate = job.get("mate")
+        if mate and (mate not in names or (names.index(mate) > place) != (mate[0] == "delivery")):
+            raise Fault(f"{names[place]} is not before, or behind, its other end")
+        if not _is_open(job, start):
             raise Fault(f"job {job['id']} is begun at {start}, outside its windows")
         if not set(job.get("skills", ())) <= set(vehicle.get("skills", ())):
             raise Fault(f"vehicle {vehicle['id']} lacks a skill for job {job['id']}")
+    _judge_breaks(vehicle, [step for step in steps if step["type"] == "break"])
     for step in steps:
         if any(load > most for load, most in
                zip(step.get("load", ()), vehicle.get("capacity", ()), strict=False)):
             raise Fault(f"vehicle {vehicle['id']} is too full: {step['load']}")
+
+
+def _judge_breaks(vehicle: Data, steps: list[Data]) -> None:
+    """Raise `Fault` for a break that is missing, too full, or outside its windows."""
+    breaks = {each["id"]: each for each in vehicle.get("breaks", ())}
+    if sorted(step["id"] for step in steps) != sorted(breaks):
+        raise Fault(f"vehicle {vehicle['id']} takes the breaks {steps}")
+    for step in steps:
+        each = breaks[step["id"]]
+        if not _is_open(each, step["arrival"] + step["waiting_time"]):
+            raise Fault(f"break {each['id']} is begun outside its windows")
+        if any(load > most for load, most in
+               zip(step.get("load", ()), each.get("max_load", ()), strict=False)):
+            raise Fault(f"vehicle {vehicle['id']} is too full for break {each['id']}")
+
+
+def _is_open(stated: Data, start: int) -> bool:
+    return any(first <= start <= last
+               for first, last in stated.get("time_windows", [(0, float("inf"))]))
 
 
 def main(

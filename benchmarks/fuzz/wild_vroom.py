@@ -39,6 +39,9 @@ def wild_vroom(rng: random.Random) -> Data:
                      for index in range(rng.choice((1, 1, 2, 4)))],
         "options": {"l": rng.choice((0.001, 0.02, 0.05)), "t": 1,
                     "g": not by_matrix and rng.random() < 0.3}}
+    if rng.random() < 0.4:
+        request["shipments"] = [_shipment(rng, index, dimensions, place)
+                                for index in range(rng.choice((1, 2, 5)))]
     if by_matrix:
         longest = rng.choice((0, 60, 3600, 10**6, LARGEST))
         request["matrices"] = {profile: _matrices(rng, number + 2, longest)
@@ -67,6 +70,22 @@ def _job(rng: random.Random, dimensions: int) -> Data:
         time_windows=_windows(rng))
 
 
+def _shipment(rng: random.Random, index: int, dimensions: int, place: Any) -> Data:
+    shared = _some(rng, 0.3, amount=_amounts(rng, dimensions, (0, 1, 2, 5, LARGEST)),
+                   priority=rng.randint(0, 100), skills=[rng.choice((0, 1, LARGEST))])
+    return shared | {kind: {"id": rng.choice((index, index, 2**64 - 1 - index)), **place(), **{
+        name: value for name, value in _job(rng, 0).items()
+        if name not in ("amount", "delivery", "pickup", "priority", "skills")}}
+        for kind in ("pickup", "delivery")}
+
+
+def _break(rng: random.Random, index: int, dimensions: int) -> Data:
+    return {"id": index} | _some(
+        rng, 0.6, time_windows=_windows(rng), service=rng.choice((0, 300, 2700, 10**8)),
+        description=rng.choice(TEXTS)) | _some(
+        rng, 0.2, max_load=_amounts(rng, dimensions, (0, 3, 10, LARGEST)))
+
+
 def _windows(rng: random.Random) -> list[list[int]]:
     windows, time = [], rng.choice((0, 0, 3600, 10**6, LARGEST - 100))
     for _ in range(rng.choice((1, 1, 2, 4, 12))):
@@ -87,6 +106,9 @@ def _vehicle(rng: random.Random, index: int, dimensions: int, place: Any) -> Dat
             vehicle[field.replace("location", name)] = value
     if dimensions and rng.random() < 0.99:
         vehicle["capacity"] = _amounts(rng, dimensions, (0, 3, 10, 100, LARGEST))
+    if rng.random() < 0.3:
+        vehicle["breaks"] = [_break(rng, number, len(vehicle.get("capacity", ())))
+                             for number in range(rng.choice((1, 1, 2, 8)))]
     begin = rng.choice((0, 0, 600, 10**6, LARGEST))
     return vehicle | _some(
         rng, 0.25, profile=rng.choice(PROFILES), description=rng.choice(TEXTS),

@@ -8,7 +8,10 @@ import numpy as np
 
 from app.formats.vroom.errors import INPUT, TOO_LARGE, VroomError
 from app.formats.vroom.roads import ask_roads
-from app.formats.vroom.schemas import Coordinates, Table, VroomMatricesInput, VroomRequest
+from app.formats.vroom.schemas import (
+    Coordinates, Table, VroomMatricesInput, VroomPlaceInput, VroomRequest,
+)
+from app.formats.vroom.tasks import tasks_of
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.work import legs_seconds
@@ -62,7 +65,8 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
     matrices = _stated_matrices(request)
     numbers: dict[Coordinates | int, int] = {}
     known: list[Place] = []
-    by_index = _states_indices(request, matrices)
+    tasks = [task.stated for task in tasks_of(request)]
+    by_index = _states_indices(request, tasks, matrices)
 
     def number(place: Place) -> int:
         key = place[1] if by_index else place[0]
@@ -76,7 +80,7 @@ def find_places(request: VroomRequest, speeds: Mapping[str, float],
     vehicles = request.vehicles
     starts = np.array([number((v.start, v.start_index)) for v in vehicles], np.int64)
     ends = np.array([number((v.end, v.end_index)) for v in vehicles], np.int64)
-    jobs = np.array([number((j.location, j.location_index)) for j in request.jobs], np.int64)
+    jobs = np.array([number((j.location, j.location_index)) for j in tasks], np.int64)
     profiles = list(dict.fromkeys(vehicle.profile for vehicle in vehicles))
     if len(profiles) * len(known)**2 > max_legs:
         raise VroomError(TOO_LARGE, f"Too many legs: {len(profiles)} profiles and {len(known)} "
@@ -107,9 +111,10 @@ def _stated_matrices(request: VroomRequest) -> Mapping[str, VroomMatricesInput]:
     return {"car": VroomMatricesInput.model_construct(durations=request.matrix)}
 
 
-def _states_indices(request: VroomRequest, matrices: Mapping[str, VroomMatricesInput]) -> bool:
+def _states_indices(request: VroomRequest, tasks: Sequence[VroomPlaceInput],
+                    matrices: Mapping[str, VroomMatricesInput]) -> bool:
     """Tell whether places are rows of matrices: all of them are, or none."""
-    stated = [job.location_index is not None for job in request.jobs]
+    stated = [job.location_index is not None for job in tasks]
     for vehicle in request.vehicles:
         sides = [index is not None
                  for point, index in ((vehicle.start, vehicle.start_index),

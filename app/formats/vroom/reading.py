@@ -5,7 +5,7 @@ What one field tells is checked by the schema, what places and matrices tell in
 """
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import pairwise
 
 from pydantic import ValidationError
@@ -13,7 +13,7 @@ from pydantic_core import from_json
 
 from app.formats.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error
 from app.formats.vroom.schemas import DEFAULT_COST_PER_HOUR, VroomRequest, VroomVehicleInput
-from app.formats.vroom.translate import amount_of
+from app.formats.vroom.tasks import Task, tasks_of
 from app.requests.refusal import MAX_COUNTED_ERRORS, require_readable
 from app.schemas.errors import InvalidRequestError, schema_error
 
@@ -21,6 +21,8 @@ LEAST_SPEED_FACTOR, MAX_SPEED_FACTOR = 0.01, 5.0
 
 MAX_ALL_WINDOWS = 100_000
 """Most time windows of all jobs together."""
+
+STEP_TYPES = ("job", "pickup", "delivery", "break")
 
 Faults = Iterator[str]
 
@@ -40,17 +42,18 @@ def read_request(body: bytes, max_jobs: int, max_vehicles: int) -> VroomRequest:
         raise _refusal(error, body) from error
     except InvalidRequestError as error:
         raise input_error([f"{fault.path}: {fault.message}" for fault in error.errors]) from error
-    if len(request.jobs) > max_jobs:
-        raise VroomError(TOO_LARGE, f"Too many locations ({len(request.jobs)}) in query, maximum "
-                                    f"is set to {max_jobs}")
+    tasks = tasks_of(request)
+    if len(tasks) > max_jobs:
+        raise VroomError(TOO_LARGE, f"Too many locations ({len(tasks)}) in query, maximum is set "
+                                    f"to {max_jobs}")
     if len(request.vehicles) > max_vehicles:
         raise VroomError(TOO_LARGE, f"Too many vehicles ({len(request.vehicles)}) in query, "
                                     f"maximum is set to {max_vehicles}")
-    windows = sum(len(job.time_windows or ()) for job in request.jobs)
+    windows = sum(len(task.stated.time_windows or ()) for task in tasks)
     if windows > MAX_ALL_WINDOWS:
         raise VroomError(TOO_LARGE, f"Too many time windows ({windows}) of all jobs, maximum is "
                                     f"{MAX_ALL_WINDOWS}")
-    faults = [*_refused(request), *_faults(request)]
+    faults = [*_faults(request, tasks)]
     if faults:
         raise input_error(faults)
     return request
@@ -67,36 +70,24 @@ def _refusal(error: ValidationError, body: bytes) -> VroomError:
     return input_error([f"{fault.path}: {fault.message}" for fault in found])
 
 
-def _refused(request: VroomRequest) -> Faults:
-    """Name what VROOM does and the planner can't do."""
-    if request.options.c:
-        yield "options.c: ETAs for given routes aren't computed here: leave it out."
-    if request.shipments:
-        yield ("shipments: goods can't be taken from one place of a route to another here: state "
-               "jobs with delivery or pickup.")
-    for vehicle in request.vehicles:
-        if vehicle.breaks:
-            yield (f"breaks of vehicle {vehicle.id}: breaks can't be planned here: state a shorter "
-                   "time_window, or two vehicles.")
-        for step in vehicle.steps:
-            for name in ("service_at", "service_after", "service_before"):
-                if getattr(step, name) is not None:
-                    yield (f"{name} in steps for vehicle {vehicle.id}: times can't be forced here: "
-                           "state time_windows of the job.")
-
-
-def _faults(request: VroomRequest) -> Faults:
+def _faults(request: VroomRequest, tasks: Sequence[Task]) -> Faults:
     if not request.vehicles:
         yield "No vehicle defined."
         return
-    if not request.jobs and not request.shipments:
+    if not tasks:
         yield "No task defined."
+    if request.options.c:
+        yield "options.c: ETAs for given routes aren't computed here: leave it out."
     yield from _repeated("vehicle", [vehicle.id for vehicle in request.vehicles])
-    yield from _repeated("job", [job.id for job in request.jobs])
+    for kind in ("job", "pickup", "delivery"):
+        yield from _repeated(kind, [task.id for task in tasks if task.kind == kind])
     for vehicle in request.vehicles:
         yield from _vehicle_faults(request, vehicle)
+        yield from _break_faults(request, vehicle)
     yield from _job_faults(request)
-    yield from _step_faults(request)
+    yield from _shipment_faults(request)
+    yield from _place_faults(tasks)
+    yield from _step_faults(request, tasks)
 
 
 def _repeated(kind: str, ids: list[int]) -> Faults:
@@ -135,35 +126,60 @@ def _size_faults(request: VroomRequest, name: str, size: int) -> Faults:
            f"The {name} states {size}, there are {holds}.")
 
 
+def _break_faults(request: VroomRequest, vehicle: VroomVehicleInput) -> Faults:
+    yield from _repeated("break", [each.id for each in vehicle.breaks])
+    for each in vehicle.breaks:
+        if each.max_load is not None and len(each.max_load) != len(vehicle.capacity or ()):
+            yield f"Inconsistent break max_load size for break {each.id}."
+        if each.time_windows is not None:
+            yield from _window_faults("break", each.id, sorted(each.time_windows))
+
+
 def _job_faults(request: VroomRequest) -> Faults:
     for job in request.jobs:
-        if job.location is None and job.location_index is None:
-            yield f"Invalid location for job {job.id}."
         for side in ("delivery", "pickup"):
-            if amount_of(job, side) or getattr(job, side) is not None:
-                yield from _size_faults(request, f"{side} of job {job.id}",
-                                        len(amount_of(job, side)))
+            amounts = getattr(job, side)
+            if amounts is not None:
+                yield from _size_faults(request, f"{side} of job {job.id}", len(amounts))
         if job.amount is not None and (job.delivery is not None or job.pickup is not None):
             yield f"amount of job {job.id} is the old name of delivery: leave it out."
-        if job.time_windows is not None:
-            yield from _window_faults(job.id, sorted(job.time_windows))
+        elif job.amount:
+            yield from _size_faults(request, f"delivery of job {job.id}", len(job.amount))
 
 
-def _window_faults(number: int, windows: list[tuple[int, int]]) -> Faults:
+def _shipment_faults(request: VroomRequest) -> Faults:
+    for shipment in request.shipments:
+        if shipment.amount is not None:
+            yield from _size_faults(request, f"amount of shipment {shipment.pickup.id}",
+                                    len(shipment.amount))
+
+
+def _place_faults(tasks: Sequence[Task]) -> Faults:
+    for task in tasks:
+        stated = task.stated
+        if stated.location is None and stated.location_index is None:
+            yield f"Invalid location for {task.kind} {task.id}."
+        if stated.time_windows is not None:
+            yield from _window_faults(task.kind, task.id, sorted(stated.time_windows))
+
+
+def _window_faults(kind: str, number: int, windows: list[tuple[int, int]]) -> Faults:
     if not windows:
-        yield f"Empty time windows for job {number}."
+        yield f"Empty time windows for {kind} {number}."
     for begin, end in windows:
         if begin > end:
             yield f"Invalid time window: [{begin}, {end}]"
     if any(following <= end for (_, end), (following, _) in pairwise(windows)):
-        yield f"Unsorted or overlapping time-windows for job {number}."
+        yield f"Unsorted or overlapping time-windows for {kind} {number}."
 
 
-def _step_faults(request: VroomRequest) -> Faults:
-    known = {job.id for job in request.jobs}
-    planned: set[int] = set()
+def _step_faults(request: VroomRequest, tasks: Sequence[Task]) -> Faults:
+    known = {(task.kind, task.id) for task in tasks}
+    planned: set[tuple[str, int]] = set()
     for vehicle in request.vehicles:
+        rests = {("break", each.id) for each in vehicle.breaks}
         last = len(vehicle.steps) - 1
+        taken: set[tuple[str, int]] = set()
         for place, step in enumerate(vehicle.steps):
             if (step.type == "start" and place != 0) or (step.type == "end" and place != last):
                 yield f"Unexpected {step.type} in input steps for vehicle {vehicle.id}."
@@ -171,12 +187,12 @@ def _step_faults(request: VroomRequest) -> Faults:
                 continue
             elif step.id is None:
                 yield f"Invalid id in steps for vehicle {vehicle.id}."
-            elif step.type in ("break", "pickup", "delivery"):
-                yield f"Invalid {step.type} id {step.id} for vehicle {vehicle.id}."
-            elif step.type != "job":
+            elif step.type not in STEP_TYPES:
                 yield f"Invalid type in steps for vehicle {vehicle.id}."
-            elif step.id not in known:
-                yield f"Invalid job id {step.id} for vehicle {vehicle.id}."
-            elif step.id in planned:
-                yield (f"Duplicate job id {step.id} in input steps for vehicle {vehicle.id}.")
-            planned.add(step.id if step.id is not None else -1)
+            elif (step.type, step.id) not in known | rests:
+                yield f"Invalid {step.type} id {step.id} for vehicle {vehicle.id}."
+            elif (step.type, step.id) in planned | taken:
+                yield (f"Duplicate {step.type} id {step.id} in input steps for vehicle "
+                       f"{vehicle.id}.")
+            else:
+                (taken if step.type == "break" else planned).add((step.type, step.id))

@@ -1,15 +1,18 @@
 """Routes -> VROOM's reply, as plain data."""
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
 import polyline
 
 from app.formats.vroom.places import StatedPlaces
-from app.formats.vroom.schemas import VroomJobInput, VroomRequest
-from app.formats.vroom.translate import amount_of
+from app.formats.vroom.schemas import VroomBreakInput, VroomPlaceInput, VroomRequest
+from app.formats.vroom.tasks import tasks_of
+from app.formats.vroom.translate import breaks_of
 from model.dialects.vroom.places import NOWHERE
-from model.dialects.vroom.timing import COST_SCALE, TIME_SCALE, TimedRoute
+from model.dialects.vroom.timing import COST_SCALE, TimedRoute
+from model.dialects.vroom.windows import TIME_SCALE
 
 Data = dict[str, Any]
 
@@ -24,6 +27,7 @@ class Writer:
         """Begin with what is asked for; `is_timed` if anything in it has a time window."""
         self._request = request
         self._places = places
+        self._tasks = tasks_of(request)
         self._num_amounts = len(request.vehicles[0].capacity or ())
         self._is_timed = is_timed
 
@@ -39,7 +43,7 @@ class Writer:
         """
         written = [self._route(route) for route in routes]
         served = {job for route in routes for job in route.jobs}
-        unassigned = [self._unassigned(job) for job in range(len(self._request.jobs))
+        unassigned = [self._unassigned(job) for job in range(len(self._tasks))
                       if job not in served]
         return {
             "code": 0,
@@ -61,7 +65,8 @@ class Writer:
         vehicle = self._request.vehicles[route.vehicle]
         steps = self._steps(route)
         setup = sum(halt.setup for halt in route.halts)
-        service = sum(halt.service for halt in route.halts)
+        service = (sum(halt.service for halt in route.halts)
+                   + sum(rest.duration for rest in route.rests))
         return {
             "vehicle": vehicle.id,
             "cost": self._cost(route, steps[-1]["duration"], setup + service),
@@ -71,7 +76,7 @@ class Writer:
             "service": service // TIME_SCALE,
             "duration": steps[-1]["duration"],
             "waiting_time": sum(step["waiting_time"] for step in steps),
-            "priority": sum(self._request.jobs[job].priority for job in route.jobs),
+            "priority": sum(self._tasks[job].priority for job in route.jobs),
             **self._distance(route.distances[-1]),
             "steps": steps,
             "violations": [],
@@ -92,26 +97,50 @@ class Writer:
         places, vehicle = self._places, route.vehicle
         sites = [int(places.jobs[job]) for job in route.jobs]
         first, last = int(places.starts[vehicle]), int(places.ends[vehicle])
-        load = self._sum(route.jobs, "delivery")
-        start = self._step("start", sites[0] if first == NOWHERE else first, load,
+        loads = self._loads(route.jobs)
+        start = self._step("start", sites[0] if first == NOWHERE else first, loads[0],
                            route.departure // TIME_SCALE)
         steps = [{**start, "duration": 0, "violations": [], **self._distance(0)}]
-        for halt, site, travel, distance in zip(route.halts, sites, route.travels, route.distances,
-                                                strict=False):
-            job = self._request.jobs[halt.job]
-            load = [amount + taken - brought for amount, taken, brought
-                    in zip(load, self._amount(job, "pickup"), self._amount(job, "delivery"),
-                           strict=True)]
-            arrival, begin = halt.arrival // TIME_SCALE, halt.start // TIME_SCALE
-            times = (halt.setup // TIME_SCALE, halt.service // TIME_SCALE, begin - arrival)
-            step = self._step("job", site, load, arrival, job, times)
-            steps.append({**step, "duration": self._duration(steps[-1], step, travel),
-                          "violations": [], **self._distance(distance)})
-        step = self._step("end", sites[-1] if last == NOWHERE else last, load,
-                          route.end // TIME_SCALE)
-        steps.append({**step, "duration": self._duration(steps[-1], step, route.travels[-1]),
-                      "violations": [], **self._distance(route.distances[-1])})
+        for gap, load in enumerate(loads):
+            steps += self._rests(route, gap, load, steps[-1])
+            if gap < len(sites):
+                halt, task = route.halts[gap], self._tasks[route.jobs[gap]]
+                arrival, begin = halt.arrival // TIME_SCALE, halt.start // TIME_SCALE
+                times = (halt.setup // TIME_SCALE, halt.service // TIME_SCALE, begin - arrival)
+                step = self._step(task.kind, sites[gap], loads[gap + 1], arrival, task.stated,
+                                  times)
+            else:
+                step = self._step("end", sites[-1] if last == NOWHERE else last, load,
+                                  route.end // TIME_SCALE)
+            steps.append({**step, "duration": self._duration(steps[-1], step, route.travels[gap]),
+                          "violations": [], **self._distance(route.distances[gap])})
         return steps
+
+    def _rests(self, route: TimedRoute, gap: int, load: Sequence[int],
+               before: Data) -> Iterator[Data]:
+        """Yield the breaks in a gap of a route, behind the step before."""
+        breaks = breaks_of(self._request.vehicles[route.vehicle])
+        travelled, way = ((route.travels[gap - 1], route.distances[gap - 1]) if gap else (0, 0))
+        leg, metres = route.travels[gap] - travelled, route.distances[gap] - way
+        for rest in route.rests:
+            if rest.gap == gap:
+                arrival = rest.arrival // TIME_SCALE
+                times = (0, rest.duration // TIME_SCALE, rest.start // TIME_SCALE - arrival)
+                step = self._step("break", None, load, arrival, breaks[rest.number], times)
+                driven = metres * rest.travel / leg if leg else 0.0
+                before = {**step, "duration": self._duration(before, step, 0), "violations": [],
+                          **self._distance(way + math.floor(driven + 0.5))}
+                yield before
+
+    def _loads(self, jobs: Sequence[int]) -> list[list[int]]:
+        """Return what is aboard at the start, and behind each job."""
+        tasks = [self._tasks[job] for job in jobs]
+        loads = [self._sum(task.delivery for task in tasks if task.kind == "job")]
+        for task in tasks:
+            loads.append([amount + taken - brought for amount, taken, brought
+                          in zip(loads[-1], self._amount(task.pickup),
+                                 self._amount(task.delivery), strict=True)])
+        return loads
 
     def _duration(self, before: Data, step: Data, travel: int) -> int:
         """Return the travel time up to a step; with windows, what makes all seconds add up."""
@@ -121,26 +150,27 @@ class Writer:
         duration: int = before["duration"] + step["arrival"] - left
         return duration
 
-    def _step(self, kind: str, site: int, load: list[int], arrival: int,
-              job: VroomJobInput | None = None, times: tuple[int, int, int] = (0, 0, 0)) -> Data:
+    def _step(self, kind: str, site: int | None, load: Sequence[int], arrival: int,
+              stated: VroomPlaceInput | VroomBreakInput | None = None,
+              times: tuple[int, int, int] = (0, 0, 0)) -> Data:
         setup, service, waiting = times
         return {
             "type": kind,
-            **_described("" if job is None else job.description),
-            **self._place(site),
-            **({} if job is None else {"id": job.id}),
+            **_described("" if stated is None else stated.description),
+            **({} if site is None else self._place(site)),
+            **({} if stated is None else {"id": stated.id}),
             "setup": setup,
             "service": service,
             "waiting_time": waiting,
-            **({} if job is None else {"job": job.id}),
-            **({"load": load} if self._num_amounts else {}),
+            **({} if stated is None or kind == "break" else {"job": stated.id}),
+            **({"load": list(load)} if self._num_amounts else {}),
             "arrival": arrival,
         }
 
     def _unassigned(self, index: int) -> Data:
-        job = self._request.jobs[index]
-        return {"id": job.id, **self._place(int(self._places.jobs[index])), "type": "job",
-                **_described(job.description)}
+        task = self._tasks[index]
+        return {"id": task.id, **self._place(int(self._places.jobs[index])), "type": task.kind,
+                **_described(task.stated.description)}
 
     def _place(self, site: int) -> Data:
         point, index = self._places.coordinates[site], self._places.indices[site]
@@ -150,16 +180,17 @@ class Writer:
     def _amounts(self, jobs: Iterable[int]) -> Data:
         if not self._num_amounts:
             return {}
-        jobs = list(jobs)
-        delivery = self._sum(jobs, "delivery")
-        return {"delivery": delivery, "amount": delivery, "pickup": self._sum(jobs, "pickup")}
+        tasks = [self._tasks[job] for job in jobs]
+        delivery = self._sum(task.delivery for task in tasks)
+        return {"delivery": delivery, "amount": delivery,
+                "pickup": self._sum(task.pickup for task in tasks)}
 
-    def _sum(self, jobs: Iterable[int], side: str) -> list[int]:
-        amounts = [self._amount(self._request.jobs[job], side) for job in jobs]
-        return [sum(column) for column in zip([0] * self._num_amounts, *amounts, strict=True)]
+    def _sum(self, amounts: Iterable[Sequence[int]]) -> list[int]:
+        return [sum(column) for column in
+                zip([0] * self._num_amounts, *map(self._amount, amounts), strict=True)]
 
-    def _amount(self, job: VroomJobInput, side: str) -> Sequence[int]:
-        return amount_of(job, side) or [0] * self._num_amounts
+    def _amount(self, stated: Sequence[int]) -> Sequence[int]:
+        return stated or [0] * self._num_amounts
 
     def _distance(self, metres: int) -> Data:
         return {"distance": metres} if self._places.tells_distances else {}
@@ -169,7 +200,7 @@ class Writer:
         if not self._request.options.g:
             return {}
         points = [(latitude, longitude) for longitude, latitude
-                  in (step["location"] for step in steps)]
+                  in (step["location"] for step in steps if "location" in step)]
         return {"geometry": polyline.encode(points)}
 
 

@@ -56,7 +56,7 @@ def add_lines(reply: Mapping[str, Any], profiles: Mapping[int, str], roads: Road
         profile = profiles.get(route["vehicle"])
         if profile is None:
             continue
-        points = np.array([step["location"] for step in route["steps"]])
+        points = np.array([step["location"] for step in route["steps"] if "location" in step])
         try:
             line = roads.route(profile, points, until).geometry
         except RoadsError as error:

@@ -19,11 +19,13 @@ class _Reply(BaseModel):
 class VroomStepReply(_Reply):
     """A place on a route."""
 
-    type: Literal["start", "job", "end"] = Field(description="What happens there.")
+    type: Literal["start", "job", "pickup", "delivery", "break", "end"] = Field(
+        description="What happens there.")
     description: str | None = Field(None, description="Of the job, if stated.")
     location: Coordinates | None = Field(None, description="`[longitude, latitude]`, if stated.")
     location_index: int | None = Field(None, description="Row in `matrices`, if stated.")
-    id: int | None = Field(None, description="Number of the job.")
+    id: int | None = Field(
+        None, description="Number of the job, the shipment's end or the break.")
     setup: int = Field(description="Time for setup.")
     service: int = Field(description="Time for service.")
     waiting_time: int = Field(description="Wait for a time window.")
@@ -90,7 +92,7 @@ class VroomUnassignedReply(_Reply):
     id: int = Field(description="Number of the job.")
     location: Coordinates | None = Field(None, description="`[longitude, latitude]`, if stated.")
     location_index: int | None = Field(None, description="Row in `matrices`, if stated.")
-    type: Literal["job"] = Field(description="What was left out.")
+    type: Literal["job", "pickup", "delivery"] = Field(description="What was left out.")
     description: str | None = Field(None, description="Of the job, if stated.")
 
 

@@ -2,37 +2,42 @@
 
 from collections.abc import Mapping
 
-from app.formats.vroom.schemas import VroomJobInput, VroomRequest, VroomVehicleInput
-from model.dialects.vroom.request import Costs, Job, Request, Vehicle
+from app.formats.vroom.schemas import (
+    MAX_UINT, VroomBreakInput, VroomRequest, VroomVehicleInput, Windows,
+)
+from app.formats.vroom.tasks import Task, tasks_of
+from model.dialects.vroom.request import Break, Costs, Job, Request, Vehicle, Window
 
 
 def translate(stated: VroomRequest) -> Request:
     """Return the jobs and vehicles of a valid request."""
-    index_of = {job.id: index for index, job in enumerate(stated.jobs)}
-    return Request(tuple(_job(job) for job in stated.jobs),
+    tasks = tasks_of(stated)
+    index_of: dict[tuple[str, int], int] = {(task.kind, task.id): index
+                                            for index, task in enumerate(tasks)}
+    return Request(tuple(map(_job, tasks)),
                    tuple(_vehicle(vehicle, index_of) for vehicle in stated.vehicles))
 
 
-def amount_of(job: VroomJobInput, side: str) -> tuple[int, ...]:
-    """Return what a job takes (`pickup`) or is brought (`delivery`); empty: nothing."""
-    if side == "pickup":
-        return tuple(job.pickup or ())
-    if job.delivery is None and job.pickup is None:
-        return tuple(job.amount or ())
-    return tuple(job.delivery or ())
-
-
-def _job(stated: VroomJobInput) -> Job:
-    windows = stated.time_windows
+def _job(task: Task) -> Job:
+    stated = task.stated
     return Job(
         id=stated.id, setup=stated.setup, service=stated.service,
         setup_per_type=stated.setup_per_type, service_per_type=stated.service_per_type,
-        delivery=amount_of(stated, "delivery"), pickup=amount_of(stated, "pickup"),
-        skills=frozenset(stated.skills), priority=stated.priority,
-        time_windows=None if windows is None else tuple(windows))
+        delivery=task.delivery, pickup=task.pickup, skills=frozenset(task.skills),
+        priority=task.priority, time_windows=_windows(stated.time_windows), kind=task.kind,
+        mate=task.mate)
 
 
-def _vehicle(stated: VroomVehicleInput, index_of: Mapping[int, int]) -> Vehicle:
+def _windows(stated: Windows | None) -> tuple[Window, ...] | None:
+    return None if stated is None else tuple(sorted(stated))
+
+
+def breaks_of(stated: VroomVehicleInput) -> list[VroomBreakInput]:
+    """Return the breaks of a vehicle in the order in which they are taken."""
+    return sorted(stated.breaks, key=lambda each: min(each.time_windows or [(0, MAX_UINT)]))
+
+
+def _vehicle(stated: VroomVehicleInput, index_of: Mapping[tuple[str, int], int]) -> Vehicle:
     costs = stated.costs
     return Vehicle(
         id=stated.id, profile=stated.profile, capacity=tuple(stated.capacity or ()),
@@ -40,4 +45,8 @@ def _vehicle(stated: VroomVehicleInput, index_of: Mapping[int, int]) -> Vehicle:
         skills=frozenset(stated.skills), type=stated.type, time_window=stated.time_window,
         speed_factor=stated.speed_factor, max_tasks=stated.max_tasks,
         max_travel_time=stated.max_travel_time, max_distance=stated.max_distance,
-        steps=tuple(index_of[step.id] for step in stated.steps if step.id is not None))
+        steps=tuple(index_of[step.type, step.id] for step in stated.steps
+                    if step.id is not None and (step.type, step.id) in index_of),
+        breaks=tuple(Break(each.id, each.service, _windows(each.time_windows),
+                           None if each.max_load is None else tuple(each.max_load))
+                     for each in breaks_of(stated)))

@@ -8,7 +8,8 @@ import numpy as np
 from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Request, Window
-from model.dialects.vroom.timing import TIME_SCALE, service_of, setup_of
+from model.dialects.vroom.timing import service_of, setup_of
+from model.dialects.vroom.windows import MISSED, TIME_SCALE, slots_of, start_in
 from model.problem import IntArray
 
 
@@ -30,10 +31,26 @@ def windows_bind(request: Request, places: Places, kinds: Sequence[Kind]) -> boo
 
 
 def _binds(longest: "_Longest", kind: Kind, opens: int, closes: int | None) -> bool:
-    shift = kind.stated.time_window
+    if any(each.max_load is not None for each in kind.stated.breaks):
+        return True
+    shift, rested = kind.stated.time_window, _rested(kind)
+    if rested is None:
+        return True
+    opens = max(opens, rested)
     begin = opens if shift is None else max(opens, shift[0])
     ends = [end for end in (closes, None if shift is None else shift[1]) if end is not None]
     return bool(ends) and (begin * TIME_SCALE + longest.route(kind) > min(ends) * TIME_SCALE)
+
+
+def _rested(kind: Kind) -> int | None:
+    """Return when a kind's breaks can be over before anything else is done; None: not at all."""
+    time, closes = (0, None) if kind.stated.time_window is None else kind.stated.time_window
+    for each in kind.stated.breaks:
+        start = start_in(time * TIME_SCALE, slots_of(each.time_windows))
+        if start == MISSED:
+            return None
+        time = start // TIME_SCALE + each.service
+    return time if closes is None or time <= closes else None
 
 
 class _Longest:

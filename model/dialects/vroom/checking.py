@@ -1,11 +1,11 @@
 """Whether a route keeps VROOM's rules, told in VROOM's words, whatever the planner says."""
 
 from collections.abc import Iterator, Sequence
-from itertools import accumulate
 
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Job, Request
-from model.dialects.vroom.timing import NO_WAY, TIME_SCALE, Driver, TimedRoute
+from model.dialects.vroom.timing import NO_WAY, Driver, TimedRoute, loads_on
+from model.dialects.vroom.windows import TIME_SCALE
 from model.planner import PlanCheckError
 
 
@@ -24,7 +24,10 @@ def route_faults(request: Request, places: Places, vehicle: int,
     visited = [request.jobs[job] for job in jobs]
     for job in visited:
         if not job.skills <= stated.skills:
-            yield f"Missing skill or step out of reach for vehicle {stated.id} and job {job.id}."
+            yield (f"Missing skill or step out of reach for vehicle {stated.id} and "
+                   f"{job.kind} {job.id}.")
+    for end in _unpaired(request, jobs):
+        yield f"Shipment out of order for vehicle {stated.id} and {end.kind} {end.id}."
     if not _fits(visited, stated.capacity):
         yield f"Route over capacity for vehicle {stated.id}."
     if stated.max_tasks is not None and len(jobs) > stated.max_tasks:
@@ -60,10 +63,14 @@ def drive(request: Request, places: Places, vehicle: int, jobs: Sequence[int]) -
 
 def _fits(jobs: Sequence[Job], capacity: Sequence[int]) -> bool:
     """Tell whether the load stays within the capacity all the way."""
-    for index, most in enumerate(capacity):
-        brought = [job.delivery[index] if job.delivery else 0 for job in jobs]
-        taken = [job.pickup[index] if job.pickup else 0 for job in jobs]
-        changes = (more - less for more, less in zip(taken, brought, strict=True))
-        if max(accumulate(changes, initial=sum(brought))) > most:
-            return False
-    return True
+    return all(load <= most for loads in loads_on(jobs, len(capacity))
+               for load, most in zip(loads, capacity, strict=True))
+
+
+def _unpaired(request: Request, jobs: Sequence[int]) -> Iterator[Job]:
+    """Yield the ends of shipments whose other end isn't on the route, in its order."""
+    place = {job: index for index, job in enumerate(jobs)}
+    for job, index in place.items():
+        mate, kind = request.jobs[job].mate, request.jobs[job].kind
+        if mate is not None and (mate not in place or (index < place[mate]) != (kind == "pickup")):
+            yield request.jobs[job]

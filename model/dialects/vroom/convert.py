@@ -14,14 +14,16 @@ from model.dialects.vroom.kinds import Kind, find_kinds, find_loads
 from model.dialects.vroom.models import Model
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes
 from model.dialects.vroom.places import NOWHERE, Places
-from model.dialects.vroom.request import Job, Request, Window
-from model.dialects.vroom.timing import NO_WAY, TIME_SCALE
+from model.dialects.vroom.request import Job, Request, Vehicle, Window
+from model.dialects.vroom.rests import Rests
+from model.dialects.vroom.timing import NO_WAY, Driver
+from model.dialects.vroom.windows import TIME_SCALE
 from model.dialects.vroom.work import (
     UNHURRIED, LegLimit, Pause, Preparing, attempt_seconds, model_seconds,
 )
 from model.problem import (
-    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, Depot, FloatArray,
-    IntArray, Problem, Travel, VehicleType,
+    MAX_QUANTITY, MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, Break, Customer, Depot, FloatArray,
+    IntArray, Problem, Shipment, Travel, VehicleType,
 )
 
 EARLIER = 2 * 10**8
@@ -48,6 +50,7 @@ class Converter:
         self._places = places
         self.kinds = find_kinds(request, places)
         self._is_timed = windows_bind(request, places, self.kinds)
+        self._rests = Rests(self.kinds, self._is_timed)
         self._origin = self._find_origin()
         self._shifts = {self._shift(kind) for kind in self.kinds}
         self._windows = [self._reachable(self._stated(job)) for job in request.jobs]
@@ -76,15 +79,16 @@ class Converter:
         self._require_room(drives, ways, number)
         once = model_seconds(number, ways) + attempt_seconds(number, ways)
         preparing.expect(once)
-        relaxes = drives.is_compromise and preparing.allows(2 * once)
+        relaxes = (drives.is_compromise or self._rests.differ) and preparing.allows(2 * once)
         if relaxes:
             self._require_room(drives, 2 * ways, number)
-        problem = self._problem(nodes, drives)
+        problem = self._problem(nodes, drives, relaxed=False)
         relaxed: tuple[Problem, ...] = ()
         if relaxes:
             looser = self._drives(nodes, relaxed=True, pause=preparing.pause)
-            relaxed = (self._problem(nodes, looser),)
-        return Model(problem, nodes, relaxed, has_longest=self._has_longest)
+            relaxed = (self._problem(nodes, looser, relaxed=True),)
+        return Model(problem, nodes, relaxed, self._gaps,
+                     is_wide=self._has_longest or not self._rests.are_exact)
 
     def _drives(self, nodes: Nodes, relaxed: bool, pause: Pause) -> Drives:
         return Drives(self._request, self._places, self.kinds, nodes, self._is_timed, relaxed,
@@ -100,14 +104,14 @@ class Converter:
                                 f"{services} to serve there, maximum is {self._max_legs.legs} legs "
                                 f"({self._max_legs.setting}).")
 
-    def _problem(self, nodes: Nodes, drives: Drives) -> Problem:
+    def _problem(self, nodes: Nodes, drives: Drives, relaxed: bool) -> Problem:
         """Return the problem by given drives."""
         depots = {site: node for node, site in enumerate(nodes.depots)}
         actions = drives.actions
         unlike = {kind.type: self._unlike(nodes.jobs, actions, kind.type) for kind in self.kinds}
         vehicle_types = tuple(
             self._vehicle_type(number, depots[kind.start], depots[kind.end], drives.drive(kind),
-                               unlike[kind.type])
+                               unlike[kind.type], self._breaks(number, relaxed))
             for number, kind in enumerate(self.kinds))
         customers = tuple(
             self._customer(job, int(site), service, setup)
@@ -123,13 +127,38 @@ class Converter:
             vehicle_types=vehicle_types, travel=travels,
             coordinates=self._coordinates(nodes, travels),
             unassigned_cost=dearest_plan(vehicle_types, travels, len(depots), drives.pause),
-            may_serve=self._startable(nodes.jobs))
+            may_serve=self._startable(nodes.jobs),
+            shipments=tuple(self._shipments(nodes)))
+
+    def _shipments(self, nodes: Nodes) -> Iterator[Shipment]:
+        """Yield the shipments whose ends are among the nodes."""
+        node_of = nodes.of_job()
+        for job, node in node_of.items():
+            stated = self._request.jobs[job]
+            if stated.kind == "pickup" and stated.mate in node_of:
+                yield Shipment(str(stated.id), node, node_of[stated.mate],
+                               tuple(self._loads.moved[job].tolist()))
+
+    def _gaps(self, kind: int, jobs: Sequence[int]) -> Sequence[tuple[int, int]]:
+        """Return the breaks of a route, each with the gap in which it is taken."""
+        stated = self.kinds[kind]
+        if not stated.stated.breaks or not self._is_timed:
+            return ()
+        route = Driver(self._request, self._places, stated.vehicles[0]).drive(jobs)
+        return () if route is None else [(rest.number, rest.gap) for rest in route.rests]
+
+    def _breaks(self, kind: int, relaxed: bool) -> tuple[Break, ...]:
+        """Return the breaks of a kind on the planner's clock."""
+        return tuple([
+            Break(str(number), seconds * PARTS, self._instant(begin), self._last_instant(end),
+                  anywhere=True)
+            for number, (seconds, (begin, end)) in enumerate(self._rests.of(kind, relaxed))])
 
     def _unlike(self, jobs: Sequence[int], actions: Actions, name: str) -> dict[str, int]:
         """Return how long vehicles of a type serve jobs, by id, where the first ones don't."""
         service = actions.service(name)
         differs = service != actions.service(self.kinds[0].type)
-        return {str(self._request.jobs[job].id): seconds * PARTS
+        return {name_of(self._request.jobs[job]): seconds * PARTS
                 for job, seconds, is_own in zip(jobs, service.tolist(), differs.tolist(),
                                                 strict=True) if is_own}
 
@@ -156,6 +185,7 @@ class Converter:
         begins = [window[0] for window in windows if window is not None]
         if len(begins) < len(windows):
             begins += [window[0] for job in self._request.jobs for window in self._stated(job)]
+            begins += self._rests.begins()
             return max(0, min(begins, default=0) - EARLIER)
         return min(begins)
 
@@ -171,20 +201,22 @@ class Converter:
         return min(UNLIMITED, (seconds - self._origin) * PARTS)
 
     def _vehicle_type(self, number: int, start: int, end: int, drive: Drive,
-                      service_durations: Mapping[str, int]) -> VehicleType:
+                      service_durations: Mapping[str, int],
+                      breaks: tuple[Break, ...]) -> VehicleType:
         kind = self.kinds[number]
         window, most = self._shift(kind), kind.stated.max_tasks
         return VehicleType(
             id=str(kind.stated.id), count=len(kind.vehicles),
             capacity=tuple(self._loads.capacity[number].tolist()), travel=drive.travel, depot=start,
             end=end,
-            fixed_cost=float(kind.stated.costs.fixed), cost_per_km=drive.cost_per_km,
+            fixed_cost=fixed_cost_of(kind.stated), cost_per_km=drive.cost_per_km,
             cost_per_hour=drive.cost_per_hour,
             earliest=0 if window is None else self._instant(window[0]),
             latest=self._latest(window),
             max_working_duration=drive.max_working, max_trip_distance=drive.max_distance,
             max_stops=None if most is None else min(most, len(self._request.jobs)),
-            skills=frozenset(map(str, kind.stated.skills)), service_durations=service_durations)
+            skills=frozenset(map(str, kind.stated.skills)), service_durations=service_durations,
+            breaks=breaks)
 
     def _latest(self, window: Window | None) -> int:
         """Return when a vehicle's work has to end: before the end of any leg that isn't there."""
@@ -198,16 +230,19 @@ class Converter:
         ends = [self._last_instant(end) for _, end in windows] or [UNLIMITED]
         pickup = tuple(self._loads.pickup[job].tolist())
         return Customer(
-            str(stated.id), tuple(self._loads.delivery[job].tolist()), service * PARTS, begins[0],
+            name_of(stated), tuple(self._loads.delivery[job].tolist()), service * PARTS, begins[0],
             ends[-1], skills=frozenset(map(str, stated.skills)), setup_duration=setup * PARTS,
             site=site, gaps=tuple(zip(ends[:-1], begins[1:], strict=True)),
             pickup=pickup if any(pickup) else ())
 
     def _startable(self, jobs: Sequence[int]) -> BoolArray:
-        """Return (kind, node) that nobody serves a job in whose windows nobody works."""
+        """Return (kind, node) that nobody serves a job in whose windows nobody works, nor who can't
+        take breaks.
+        """
         startable = [not self._stated(self._request.jobs[job]) or bool(self._windows[job])
                      for job in jobs]
-        return np.tile(np.array(startable, np.bool_), (len(self.kinds), 1))
+        return np.array(startable, np.bool_) & np.array(
+            [[self._rests.can_be_taken(kind)] for kind in range(len(self.kinds))], np.bool_)
 
     def _reachable(self, windows: Sequence[Window]) -> list[Window]:
         """Return those windows in which any vehicle works, in order."""
@@ -227,6 +262,17 @@ class Converter:
             points[is_nowhere] = points[~is_nowhere].mean(axis=0)
             return points
         return np.vstack([placed, placed.mean(axis=0)])[nodes.sites]
+
+
+def name_of(job: Job) -> str:
+    """Return the name of a job, or of a shipment's end, among the planner's customers."""
+    return str(job.id) if job.kind == "job" else f"{job.kind} {job.id}"
+
+
+def fixed_cost_of(vehicle: Vehicle) -> float:
+    """Return what using a vehicle costs: breaks count as tasks do."""
+    rests = sum([each.service for each in vehicle.breaks])
+    return vehicle.costs.fixed + vehicle.costs.per_task_hour * rests / 3600
 
 
 def _by_landmarks(duration: IntArray) -> FloatArray:

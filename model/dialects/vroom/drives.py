@@ -18,7 +18,8 @@ from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.nodes import LONGEST, PARTS, Nodes, at_most_longest
 from model.dialects.vroom.places import Legs, Places
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.timing import COST_SCALE, NO_WAY, TIME_SCALE
+from model.dialects.vroom.timing import COST_SCALE, NO_WAY
+from model.dialects.vroom.windows import TIME_SCALE
 from model.dialects.vroom.work import UNHURRIED, Pause
 from model.problem import MAX_QUANTITY, IntArray, Travel
 

@@ -98,7 +98,7 @@ def _tours(request: Request, driver: Driver,
         longer: dict[tuple[int, int], list[Beginning]] = {}
         for (taken, _), beginnings in begun.items():
             for index, job in enumerate(jobs):
-                if not taken >> index & 1:
+                if not taken >> index & 1 and _may_come(request, jobs, taken, job):
                     known = longer.setdefault((taken | 1 << index, index), [])
                     for beginning in beginnings:
                         _go_on(driver, beginning, job, known)
@@ -111,13 +111,22 @@ def _tours(request: Request, driver: Driver,
     return best
 
 
+def _may_come(request: Request, jobs: Sequence[int], taken: int, job: int) -> bool:
+    """Tell whether a job may come behind those taken, as deliveries do behind their pickups."""
+    stated = request.jobs[job]
+    return stated.kind != "delivery" or stated.mate is None or bool(
+        taken >> jobs.index(stated.mate) & 1)
+
+
 def _go_on(driver: Driver, beginning: Beginning, job: int, known: list[Beginning]) -> None:
     """Add a beginning that goes on to a job, unless it can't or another is as good. In place."""
     visit = driver.visit(beginning.visit, job)
     if visit is None:
         return
     longer = Beginning((*beginning.jobs, job), visit)
-    if not any(longer.is_beaten_by(other) for other in known):
+    if driver.load_decides:
+        known.append(longer)
+    elif not any(longer.is_beaten_by(other) for other in known):
         known[:] = [other for other in known if not other.is_beaten_by(longer)]
         known.append(longer)
 

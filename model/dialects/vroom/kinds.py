@@ -27,8 +27,9 @@ class Kind:
 class Loads:
     """What counts against capacity, one column for each dimension."""
 
-    delivery: IntArray  # (job, dimension)
+    delivery: IntArray  # (job, dimension); none of shipments
     pickup: IntArray
+    moved: IntArray  # by the shipment of which it is an end
     capacity: IntArray  # (kind, dimension)
 
 
@@ -43,7 +44,8 @@ def find_kinds(request: Request, places: Places) -> tuple[Kind, ...]:
             vehicle.capacity, vehicle.skills,
             vehicle.type if vehicle.type in named else "", vehicle.time_window,
             vehicle.speed_factor, vehicle.max_tasks, vehicle.max_travel_time,
-            vehicle.max_distance)
+            vehicle.max_distance,
+            tuple((each.service, each.time_windows, each.max_load) for each in vehicle.breaks))
         groups.setdefault(key, []).append(index)
     return tuple(_kind(request, places, members, named) for members in groups.values())
 
@@ -66,13 +68,17 @@ def find_loads(request: Request, kinds: tuple[Kind, ...]) -> Loads:
     """
     capacities = np.array([kind.stated.capacity for kind in kinds], np.int64)
     nothing = (0,) * capacities.shape[1]
+    is_job = np.array([[job.kind == "job"] for job in request.jobs], np.bool_)
     brought = np.array([job.delivery or nothing for job in request.jobs], np.int64)
     taken = np.array([job.pickup or nothing for job in request.jobs], np.int64)
-    fills = np.flatnonzero((brought + taken).sum(axis=0) > capacities.min(axis=0))
+    moved = np.where(is_job, 0, brought + taken)
+    brought, taken = brought * is_job, taken * is_job
+    # Of a shipment, both ends count: that is more than there ever is aboard.
+    fills = np.flatnonzero((brought + taken + moved).sum(axis=0) > capacities.min(axis=0))
     if len(fills) > MAX_DIMENSIONS:
         raise RefusedError(f"capacity: {len(fills)} amounts may fill a vehicle, and "
                            f"{MAX_DIMENSIONS} can be planned here.")
     if not len(fills):
         none = np.zeros((len(request.jobs), 1), np.int64)
-        return Loads(none, none, np.zeros((len(kinds), 1), np.int64))
-    return Loads(brought[:, fills], taken[:, fills], capacities[:, fills])
+        return Loads(none, none, none, np.zeros((len(kinds), 1), np.int64))
+    return Loads(brought[:, fills], taken[:, fills], moved[:, fills], capacities[:, fills])

@@ -1,11 +1,12 @@
 """Problems for the planner, and its plans as routes of jobs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from model.dialects.vroom.nodes import Nodes
+from model.judge.breaks import BreakDecision
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import MAX_QUANTITY, UNLIMITED, BoolArray, Customer, IntArray, Problem
 from model.solution import Route, Solution
@@ -23,12 +24,14 @@ class Model:
     relaxed: tuple[Problem, ...] = ()
     """Where `problem` is stricter or costs otherwise than it should: the same by true costs, whose
     plans may break rules. At most one."""
-    has_longest: bool = False  # whether legs are longer than `problem` can tell
+    rests: Callable[[int, Sequence[int]], Sequence[tuple[int, int]]] = lambda _kind, _jobs: ()
+    """Return the breaks of a route by its kind and jobs, each with the gap in which it is taken."""
+    is_wide: bool = False  # whether legs are longer, or breaks tighter, than `problem` can tell
 
     @property
     def is_loose(self) -> bool:
         """Whether its plans may break a rule of the request."""
-        return bool(self.relaxed) or self.has_longest
+        return bool(self.relaxed) or self.is_wide
 
     def routes(self, solution: Solution) -> Routes:
         """Return the routes of a plan."""
@@ -45,7 +48,9 @@ class Model:
         writer = _Writer(self.problem)
         for kind, its_routes in routes.items():
             for jobs in its_routes:
-                writer.add(kind, [node_of[job] for job in jobs if job in node_of])
+                known = [job for job in jobs if job in node_of]
+                if known:
+                    writer.add(kind, [node_of[job] for job in known], self.rests(kind, known))
         return writer.solution()
 
     def servable(self) -> list[int]:
@@ -57,7 +62,7 @@ class Model:
         problem = self.relaxed[0] if self.relaxed else self.problem
         customers, first = problem.customers, problem.num_depots
         latest = np.array([customer.latest for customer in customers], np.int64)
-        most = np.array([np.maximum(customer.demand, customer.taken_in) for customer in customers])
+        most = np.array([problem.asked_at(first + index) for index in range(len(customers))])
         servable: BoolArray = np.zeros(len(customers), np.bool_)
         shortest = {travel: _shortest_legs(problem.travel[travel].duration[:], first)
                     for travel in {kind.travel for kind in problem.vehicle_types}}
@@ -71,6 +76,10 @@ class Model:
                          & (end <= kind.latest)
                          & [customer.skills <= kind.skills for customer in customers]
                          & (True if problem.may_serve is None else problem.may_serve[number]))
+        # Of a shipment, both ends are or none.
+        for each in problem.shipments:
+            ends = [each.pickup - first, each.delivery - first]
+            servable[ends] = servable[ends].all()
         return [self.nodes.jobs[index] for index in np.flatnonzero(servable)]
 
 
@@ -110,14 +119,15 @@ class _Writer:
         self._used: dict[int, int] = {}
         self._missing = set(range(problem.num_depots, problem.num_nodes))
 
-    def add(self, kind: int, nodes: Sequence[int]) -> None:
-        """Add a route, unless it is empty. In place."""
-        if not nodes:
-            return
+    def add(self, kind: int, nodes: Sequence[int], rests: Sequence[tuple[int, int]]) -> None:
+        """Add a route with its breaks, each with the index of the stop before it. In place."""
         number = self._used.get(kind, 0)
         self._used[kind] = number + 1
         vehicle_type = self._problem.vehicle_types[kind]
-        trip = TripDecision((vehicle_type.begins_at, *nodes, vehicle_type.ends_at))
+        breaks = [BreakDecision(number, gap, "way") for number, gap in rests
+                  if number < len(vehicle_type.breaks)]
+        trip = TripDecision((vehicle_type.begins_at, *nodes, vehicle_type.ends_at),
+                            breaks=tuple(breaks))
         self._routes.append(schedule(self._problem, RouteDecision(kind, number, (trip,))))
         self._missing.difference_update(nodes)
 

@@ -5,16 +5,15 @@ to hundredths once, and all else is exact.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import accumulate, pairwise
 
+from model.dialects.vroom.breaks import Pause, Rest, Way, after_job, arrivals
 from model.dialects.vroom.places import NOWHERE, Legs, Places
 from model.dialects.vroom.request import Job, Request, Vehicle
-
-TIME_SCALE = 100
-"""Hundredths of a second."""
+from model.dialects.vroom.windows import MISSED, TIME_SCALE, scaled, slots_of, start_in
 
 COST_SCALE = 360_000
 """Parts of a unit of cost: an hour's seconds times `TIME_SCALE`."""
@@ -22,14 +21,8 @@ COST_SCALE = 360_000
 DISTANCE_COST_SCALE = COST_SCALE // 1000
 """Parts of a unit of cost that a metre costs at 1 a kilometre."""
 
-ENDLESS = 2**62
-"""Stands for no end of a time window."""
-
 NO_WAY = 10**9
 """Seconds of a leg that isn't there: no other takes 31 years."""
-
-MISSED = 2**63
-"""Start at a job whose last window is over: later than any end."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +76,7 @@ class TimedRoute:
     distances: tuple[int, ...]  # likewise
     travel_cost: int
     cost: int  # of travel, of setup and service, and for being used
+    rests: tuple[Rest, ...] = ()
 
     @property
     def jobs(self) -> tuple[int, ...]:
@@ -95,7 +89,7 @@ class Visit:
     """The earliest that a vehicle can be done with some jobs, and what it has used up by then."""
 
     site: int  # where it stands, perhaps NOWHERE
-    end: int
+    ends: tuple[int, ...]  # by the number of breaks that are over
     travel: int
     distance: int
     cost: int
@@ -106,7 +100,7 @@ class Visit:
     @property
     def used(self) -> tuple[int, ...]:
         """What may keep it from more, or costs: the less, the better."""
-        return (self.end, self.travel, self.distance, self.cost, *self.highest)
+        return (*self.ends, self.travel, self.distance, self.cost, *self.highest)
 
 
 @dataclass(frozen=True)
@@ -129,24 +123,39 @@ class Driver:
         if max(times) >= self._endless:
             return None
         actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
-        windows = [_windows(self.request.jobs[job]) for job in jobs]
-        begin, end = _scaled(self._stated.time_window)
-        earliest_end = _earliest_end(begin, times, actions, windows)
-        if earliest_end > end:
+        slots = [slots_of(self.request.jobs[job].time_windows) for job in jobs]
+        way = Way(times, [sum(action) for action in actions], slots, self._pauses,
+                  self._allowing(jobs))
+        timed = self._timed(way, actions, jobs)
+        if timed is None:
             return None
-        time = departure = _latest_start(earliest_end, times, actions, windows)
-        halts = []
-        for job, travel, (setup, service), slots in zip(jobs, times, actions, windows,
-                                                        strict=False):
-            arrival = time + travel
-            start = _start(arrival, slots)
-            halts.append(Halt(job, arrival, start, setup, service))
-            time = start + setup + service
+        departure, halts, rests, end = timed
         travel, rates = sum([cost for _, _, cost in legs]), self.rates
-        cost = rates.fixed_cost + travel + rates.task_cost * sum(map(sum, actions))
-        return TimedRoute(self.vehicle, departure, tuple(halts), time + times[-1],
+        cost = rates.fixed_cost + travel + rates.task_cost * (
+            sum(way.actions) + sum([pause.duration for pause in self._pauses]))
+        return TimedRoute(self.vehicle, departure, tuple(halts), end,
                           tuple(accumulate(times)),
-                          tuple(accumulate([metres for _, metres, _ in legs])), travel, cost)
+                          tuple(accumulate([metres for _, metres, _ in legs])), travel, cost,
+                          tuple(rests))
+
+    def _timed(self, way: Way, actions: Sequence[tuple[int, int]],
+               jobs: Sequence[int]) -> tuple[int, list[Halt], list[Rest], int] | None:
+        """Return departure, jobs, breaks and end of a route; None if it misses a window."""
+        begin, end = scaled(self._stated.time_window)
+        earliest = way.earliest_end(begin)
+        if earliest > end:
+            return None
+        departure, counts = way.latest_departure(earliest)
+        time, over, halts, rests = departure, 0, list[Halt](), list[Rest]()
+        for gap, count in enumerate(counts):
+            arrival, taken = way.drive(gap, time, range(over, count))
+            over, time = count, arrival
+            rests += taken
+            if gap < len(jobs):
+                start = start_in(arrival, way.slots[gap])
+                halts.append(Halt(jobs[gap], arrival, start, *actions[gap]))
+                time = start + way.actions[gap]
+        return departure, halts, rests, time
 
     def missing_leg(self, jobs: Sequence[int]) -> str | None:
         """Tell in words to where on a route through `jobs` there is no way; None if there is."""
@@ -157,34 +166,39 @@ class Driver:
     def begin(self) -> Visit:
         """Return how the vehicle begins."""
         nothing = (0,) * len(self._stated.capacity)
-        begin, _ = _scaled(self._stated.time_window)
-        return Visit(int(self.places.starts[self.vehicle]), begin, 0, 0, 0, nothing, nothing,
+        begin, _ = scaled(self._stated.time_window)
+        ends = (begin, *[MISSED] * len(self._pauses))
+        return Visit(int(self.places.starts[self.vehicle]), ends, 0, 0, 0, nothing, nothing,
                      nothing)
 
     def visit(self, before: Visit, job: int) -> Visit | None:
-        """Return how the vehicle goes on to a job; None if that breaks a rule, whatever follows."""
+        """Return how the vehicle goes on to a job; None if that breaks a rule, whatever follows.
+
+        What breaks say of loads, and shipments of who is first, is not looked at.
+        """
         stated, site = self.request.jobs[job], int(self.places.jobs[job])
         travel, distance, cost = self._leg(before.site, site)
         setup, service = self._action(before.site, site, job)
-        start = _start(before.end + travel, _windows(stated))
+        reached = arrivals(before.ends, travel, self._pauses, lambda _: True)
         nothing = (0,) * len(before.load)
         change = _added(stated.pickup or nothing, stated.delivery or nothing, -1)
         load = _added(before.load, change)
         visit = Visit(
-            site, start + setup + service, before.travel + travel, before.distance + distance,
+            site, after_job(reached, setup + service, slots_of(stated.time_windows)),
+            before.travel + travel, before.distance + distance,
             before.cost + cost + self.rates.task_cost * (setup + service), load,
             tuple(map(max, before.highest, load)),
-            _added(before.brought, stated.delivery or nothing))
+            _added(before.brought, loaded_for(stated) or nothing))
         can = travel < self._endless and stated.skills <= self._stated.skills
         return visit if can and self._is_allowed(visit) else None
 
     def _is_allowed(self, visit: Visit) -> bool:
         """Tell whether a vehicle that comes from a visit can keep its limits."""
         stated = self._stated
-        _, latest = _scaled(stated.time_window)
+        _, latest = scaled(stated.time_window)
         fits = all(most <= capacity for most, capacity in zip(
             _added(visit.highest, visit.brought), stated.capacity, strict=True))
-        return (fits and visit.end <= latest
+        return (fits and min(visit.ends) <= latest
                 and (stated.max_distance is None or visit.distance <= stated.max_distance)
                 and (stated.max_travel_time is None
                      or visit.travel <= stated.max_travel_time * TIME_SCALE))
@@ -193,6 +207,25 @@ class Driver:
     def rates(self) -> Rates:
         """What the vehicle makes of its matrices."""
         return Rates.of(self._stated, self._legs.costs is not None)
+
+    @cached_property
+    def _pauses(self) -> Sequence[Pause]:
+        return [Pause(each.service * TIME_SCALE, slots_of(each.time_windows))
+                for each in self._stated.breaks]
+
+    @property
+    def load_decides(self) -> bool:
+        """Whether where breaks may be taken hangs on what is aboard."""
+        return any(each.max_load is not None for each in self._stated.breaks)
+
+    def _allowing(self, jobs: Sequence[int]) -> Callable[[int, int], bool]:
+        """Return what tells whether the load in a gap of a route allows a break."""
+        if not self.load_decides:
+            return lambda _gap, _number: True
+        most = [each.max_load for each in self._stated.breaks]
+        loads = loads_on([self.request.jobs[job] for job in jobs], len(self._stated.capacity))
+        return lambda gap, number: all(
+            load <= limit for load, limit in zip(loads[gap], most[number] or (), strict=False))
 
     @cached_property
     def _endless(self) -> int:
@@ -241,39 +274,22 @@ def service_of(job: Job, kind: str) -> int:
     return job.service_per_type.get(kind, job.service) if kind else job.service
 
 
-def _scaled(window: tuple[int, int] | None) -> tuple[int, int]:
-    return (0, ENDLESS) if window is None else (window[0] * TIME_SCALE, window[1] * TIME_SCALE)
+def loaded_for(job: Job) -> tuple[int, ...]:
+    """Return what is brought to a job from the start of its route; empty: nothing."""
+    return job.delivery if job.kind == "job" else ()
 
 
-def _windows(job: Job) -> list[tuple[int, int]]:
-    if job.time_windows is None:
-        return [(0, ENDLESS)]
-    return [_scaled(window) for window in sorted(job.time_windows)]
+def loads_on(jobs: Sequence[Job], dimensions: int) -> list[tuple[int, ...]]:
+    """Return what is aboard in each gap of a route: before its first job, and behind each."""
+    nothing = (0,) * dimensions
+    load = tuple(map(sum, zip(nothing, *(loaded_for(job) or nothing for job in jobs),
+                              strict=True)))
+    loads = [load]
+    for job in jobs:
+        loads.append(_added(_added(loads[-1], job.pickup or nothing), job.delivery or nothing, -1))
+    return loads
 
 
 def _added(amounts: Sequence[int], more: Sequence[int], times: int = 1) -> tuple[int, ...]:
     """Return amounts and others, taken so many times, together."""
     return tuple(amount + times * each for amount, each in zip(amounts, more, strict=True))
-
-
-def _start(arrival: int, windows: list[tuple[int, int]]) -> int:
-    """Return when setup starts, `MISSED` after the last window."""
-    return next((max(arrival, begin) for begin, end in windows if arrival <= end), MISSED)
-
-
-def _earliest_end(time: int, times: list[int], actions: list[tuple[int, int]],
-                  windows: list[list[tuple[int, int]]]) -> int:
-    for travel, action, slots in zip(times, actions, windows, strict=False):
-        time = _start(time + travel, slots) + sum(action)
-    return time + times[-1]
-
-
-def _latest_start(time: int, times: list[int], actions: list[tuple[int, int]],
-                  windows: list[list[tuple[int, int]]]) -> int:
-    """Return the latest departure after which all can be done by `time`."""
-    time -= times[-1]
-    for travel, action, slots in zip(times[-2::-1], actions[::-1], windows[::-1], strict=True):
-        latest = time - sum(action)
-        time = max(min(latest, end) for begin, end in slots if begin <= latest) - travel
-    return time
-

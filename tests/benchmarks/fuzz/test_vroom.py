@@ -30,7 +30,7 @@ def solution(**changes: Any) -> dict[str, Any]:
     steps = [{"type": "start", "arrival": 0, "load": [4]},
              {"type": "job", "id": 1, "arrival": 5, "waiting_time": 5, "load": [2]} | changes,
              {"type": "end", "arrival": 30, "load": [0]}]
-    return {"routes": [{"vehicle": 5, "steps": steps}], "unassigned": [{"id": 2}]}
+    return {"routes": [{"vehicle": 5, "steps": steps}], "unassigned": [{"type": "job", "id": 2}]}
 
 
 def test_wild_requests_are_planned_soundly_or_refused(client: httpx.Client) -> None:

@@ -13,11 +13,11 @@ FOREVER = 10**12
 
 def judge(request: Data, reply: Data) -> None:
     """Assert that a reply keeps all rules of the request and adds up."""
-    jobs = {job["id"]: job for job in request["jobs"]}
+    jobs = tasks_of(request)
     vehicles = {vehicle["id"]: vehicle for vehicle in request["vehicles"]}
-    served = [step["id"] for route in reply["routes"] for step in route["steps"]
-              if step["type"] == "job"]
-    left_out = [job["id"] for job in reply["unassigned"]]
+    served = [(step["type"], step["id"]) for route in reply["routes"] for step in route["steps"]
+              if step["type"] not in ("start", "break", "end")]
+    left_out = [(job["type"], job["id"]) for job in reply["unassigned"]]
     assert sorted(served + left_out) == sorted(jobs)
     used = [route["vehicle"] for route in reply["routes"]]
     assert len(set(used)) == len(used)
@@ -29,10 +29,30 @@ def judge(request: Data, reply: Data) -> None:
     assert (summary["routes"], summary["unassigned"]) == (len(used), len(left_out))
 
 
-def _judge_route(request: Data, vehicle: Data, jobs: dict[int, Data], route: Data) -> None:
-    start, *halts, end = route["steps"]
+def tasks_of(request: Data) -> dict[tuple[str, int], Data]:
+    """Return jobs and the ends of shipments, as jobs, by kind and id."""
+    tasks = {("job", job["id"]): {"kind": "job", **job} for job in request["jobs"]}
+    for each in request.get("shipments", ()):
+        shared = {name: value for name, value in each.items()
+                  if name not in ("pickup", "delivery", "amount")}
+        for kind, other in (("pickup", "delivery"), ("delivery", "pickup")):
+            tasks[kind, each[kind]["id"]] = {
+                "kind": kind, "mate": (other, each[other]["id"]), **shared, **each[kind]}
+            if "amount" in each:
+                tasks[kind, each[kind]["id"]][kind] = each["amount"]
+    return tasks
+
+
+def _judge_route(request: Data, vehicle: Data, jobs: dict[tuple[str, int], Data],
+                 route: Data) -> None:
+    start, *steps, end = route["steps"]
     assert (start["type"], end["type"]) == ("start", "end")
-    visited = [jobs[step["id"]] for step in halts]
+    halts = [step for step in steps if step["type"] != "break"]
+    names = [(step["type"], step["id"]) for step in halts]
+    visited = [jobs[name] for name in names]
+    for place, job in enumerate(visited):
+        if "mate" in job:
+            assert (names.index(job["mate"]) > place) == (job["kind"] == "pickup")
     assert 1 <= len(visited) <= vehicle.get("max_tasks", FOREVER)
     for job in visited:
         assert set(job.get("skills", ())) <= set(vehicle.get("skills", ()))
@@ -50,6 +70,8 @@ def _judge_route(request: Data, vehicle: Data, jobs: dict[int, Data], route: Dat
     travel = duration * costs["per_hour"] / 3600 + distance * costs["per_km"] / 1000
     if "costs" in matrices:
         travel = sum(matrices["costs"][i][j] for i, j in _legs(vehicle, visited))
+    tasks += sum(each.get("service", 0) for each in vehicle.get("breaks", ()))
+    assert route["setup"] + route["service"] == tasks
     cost = costs["fixed"] + travel + tasks * costs["per_task_hour"] / 3600
     assert abs(route["cost"] - cost) < 2  # each term is rounded
     assert route["priority"] == sum(job.get("priority", 0) for job in visited)
@@ -60,15 +82,23 @@ def _judge_times(request: Data, vehicle: Data, visited: list[Data], steps: list[
     begin, finish = vehicle.get("time_window", (0, FOREVER))
     assert begin <= steps[0]["arrival"] <= steps[-1]["arrival"] <= finish
     durations = _matrices(request, vehicle)["durations"]
-    legs = iter(_legs(vehicle, visited))
+    gaps = [durations[i][j] for i, j in _legs(vehicle, visited)]
+    gaps = [*([] if "start_index" in vehicle else [0]), *gaps,
+            *([] if "end_index" in vehicle else [0])]
     time, place = steps[0]["arrival"], vehicle.get("start_index")
-    tasks = 0
-    for job, step in zip(visited, steps[1:-1], strict=True):
-        if place is not None:
-            i, j = next(legs)
-            time += durations[i][j]
-        assert step["arrival"] == time
-        time += step["waiting_time"]
+    tasks, left, halts, rests = 0, gaps.pop(0), iter(visited), []
+    for step in steps[1:]:
+        driven = step["arrival"] - time
+        if step["type"] == "break":
+            rests.append(step["id"])
+            assert 0 <= driven <= left
+            time, left = _judge_rest(vehicle, step), left - driven
+            continue
+        assert driven == left
+        time += driven
+        if step["type"] == "end":
+            break
+        job, left, time = next(halts), gaps.pop(0), time + step["waiting_time"]
         assert any(first <= time <= last for first, last
                    in job.get("time_windows", [(0, FOREVER)]))
         setup, service = (job.get(f"{name}_per_type", {}).get(vehicle.get("type"), job.get(name, 0))
@@ -78,28 +108,36 @@ def _judge_times(request: Data, vehicle: Data, visited: list[Data], steps: list[
         place = job["location_index"]
         time += setup + service
         tasks += setup + service
-    if "end_index" in vehicle:
-        i, j = next(legs)
-        time += durations[i][j]
-    assert steps[-1]["arrival"] == time
-    assert next(legs, None) is None
+    assert not gaps
+    assert next(halts, None) is None
+    assert sorted(rests) == sorted(each["id"] for each in vehicle.get("breaks", ()))
     return tasks
+
+
+def _judge_rest(vehicle: Data, step: Data) -> int:
+    """Return when a break is over."""
+    (stated,) = (each for each in vehicle["breaks"] if each["id"] == step["id"])
+    start: int = step["arrival"] + step["waiting_time"]
+    assert any(first <= start <= last for first, last
+               in stated.get("time_windows", [(0, FOREVER)]))
+    assert step["service"] == stated.get("service", 0)
+    if "max_load" in stated:
+        assert all(load <= most for load, most in zip(step["load"], stated["max_load"],
+                                                      strict=True))
+    return start + int(step["service"])
 
 
 def _judge_loads(vehicle: Data, visited: list[Data], steps: list[Data]) -> None:
     capacity = vehicle.get("capacity", [])
     none = [0] * len(capacity)
     for index, most in enumerate(capacity):
-        brought = [_delivery(job, none)[index] for job in visited]
-        taken = [job.get("pickup", none)[index] for job in visited]
-        load = sum(brought)
-        loads = [load]
-        for less, more in zip(brought, taken, strict=True):
-            load += more - less
-            loads.append(load)
-        loads.append(load)
-        assert max(loads) <= most
-        assert [step["load"][index] for step in steps] == loads
+        load = sum(_delivery(job, none)[index] for job in visited if job["kind"] == "job")
+        halts = iter(visited)
+        for step in steps:
+            if step["type"] not in ("start", "break", "end"):
+                job = next(halts)
+                load += job.get("pickup", none)[index] - _delivery(job, none)[index]
+            assert step["load"][index] == load <= most
 
 
 def _delivery(job: Data, none: list[int]) -> list[int]:

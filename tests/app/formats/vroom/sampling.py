@@ -24,7 +24,17 @@ def sample_request(draw: random.Random, most_jobs: int = 9) -> Data:
                 for number in range(draw.randint(1, 3))]
     jobs = [{"id": 3 * number + 1, "location_index": draw.randrange(places),
              **_job(draw, sizes, has_windows)} for number in range(num_jobs)]
-    return {"vehicles": vehicles, "jobs": jobs, "matrices": matrices}
+    request: Data = {"vehicles": vehicles, "jobs": jobs, "matrices": matrices}
+    if draw.random() < 0.4:
+        request["shipments"] = [_shipment(draw, places, sizes, has_windows)
+                                for _ in range(draw.randint(1, 3))]
+        for number, each in enumerate(request["shipments"]):
+            each["pickup"]["id"], each["delivery"]["id"] = number, number
+    if draw.random() < 0.4:
+        for vehicle in vehicles:
+            vehicle["breaks"] = [_break(draw, number, sizes)
+                                 for number in range(draw.randint(0, 2))]
+    return request
 
 
 def _matrix(draw: random.Random, places: int, least: int, most: int) -> list[list[int]]:
@@ -61,6 +71,28 @@ def _vehicle(draw: random.Random, sizes: int, has_windows: bool, has_distances: 
         if "costs" in vehicle:
             vehicle["costs"] |= _some(draw, 0.5, per_km=draw.randint(0, 900))
     return vehicle
+
+
+def _shipment(draw: random.Random, places: int, sizes: int, has_windows: bool) -> Data:
+    shipment: Data = _some(draw, 0.3, priority=draw.randint(0, 10), skills=[draw.randint(1, 3)])
+    if sizes:
+        shipment["amount"] = [draw.randint(0, 6) for _ in range(sizes)]
+    for kind in ("pickup", "delivery"):
+        end = _job(draw, 0, has_windows)
+        shipment[kind] = {"location_index": draw.randrange(places), **{
+            name: value for name, value in end.items() if name not in ("priority", "skills")}}
+    return shipment
+
+
+def _break(draw: random.Random, number: int, sizes: int) -> Data:
+    begin = draw.randint(0, 900)
+    each: Data = {"id": number, "time_windows": [[begin, begin + draw.randint(50, 900)]],
+            "service": draw.randint(10, 120)}
+    if draw.random() < 0.2:
+        begin = each["time_windows"][0][1] + draw.randint(50, 300)
+        each["time_windows"].append([begin, begin + 200])
+    return each | (_some(draw, 0.2, max_load=[draw.randint(2, 15) for _ in range(sizes)])
+                   if sizes else {})
 
 
 def _job(draw: random.Random, sizes: int, has_windows: bool) -> Data:

@@ -20,6 +20,8 @@ ROUTE = ["vehicle", "cost", "delivery", "amount", "pickup", "setup", "service", 
          "waiting_time", "priority", "steps", "violations"]
 END = ["type", "location", "setup", "service", "waiting_time", "load", "arrival", "duration",
        "violations"]
+BREAK = ["type", "id", "setup", "service", "waiting_time", "load", "arrival", "duration",
+         "violations"]
 JOB = ["type", "location", "id", "setup", "service", "waiting_time", "job", "load", "arrival",
        "duration", "violations"]
 
@@ -81,44 +83,40 @@ def refused(client: httpx.Client, request: Data) -> str:
     return str(reply.json()["error"])
 
 
-def test_breaks_and_shipments_are_refused_by_name(searching: httpx.Client,
-                                                  two_shifts: Data) -> None:
-    reason = refused(searching, two_shifts)
-    for named in ("shipments", "breaks of vehicle 1", "breaks of vehicle 2"):
-        assert f"{named}:" in reason
-
-
 @pytest.mark.parametrize("geometry", [False, True])
 def test_jobs_by_coordinates_are_served_in_vrooms_shape(
         searching: httpx.Client, two_shifts: Data, geometry: bool) -> None:
-    del two_shifts["shipments"]
-    for vehicle in two_shifts["vehicles"]:
-        del vehicle["breaks"]
     reply = solved(searching, two_shifts | {"options": {"g": geometry}})
     way = ["distance"] if geometry else []
     assert list(reply) == ["code", "summary", "unassigned", "routes"]
     assert list(reply["summary"]) == SUMMARY[:-2] + way + SUMMARY[-2:]
     assert list(reply["summary"]["computing_times"]) == ["loading", "solving", "routing"]
     assert (reply["summary"]["unassigned"], reply["unassigned"]) == (0, [])
-    assert reply["summary"]["delivery"] == reply["summary"]["amount"] == [3]
-    assert reply["summary"]["pickup"] == [1]
+    assert reply["summary"]["delivery"] == reply["summary"]["amount"] == [4]
+    assert reply["summary"]["pickup"] == [2]
     for route in reply["routes"]:
         assert list(route) == (ROUTE[:-2] + way + ROUTE[-2:]
                                + (["geometry"] if geometry else []))
-        first, *jobs, last = route["steps"]
+        first, *others, last = route["steps"]
+        jobs = [step for step in others if step["type"] != "break"]
+        (rest,) = (step for step in others if step["type"] == "break")
+        assert list(rest) == BREAK + way
+        assert 32400 <= rest["arrival"] + rest["waiting_time"] <= 34200
         assert (first["type"], last["type"]) == ("start", "end")
         assert list(first) == list(last) == END + way
         assert all(list(step) == JOB + way for step in jobs)
         assert all(step["id"] == step["job"] for step in jobs)
         if geometry:
             assert [[x, y] for y, x in polyline.decode(route["geometry"])] == [
-                step["location"] for step in route["steps"]]
+                step["location"] for step in [first, *jobs, last]]
     (arrival,) = (step["arrival"] + step["waiting_time"] for route in reply["routes"]
-                  for step in route["steps"] if step.get("id") == 1)
+                  for step in route["steps"] if (step["type"], step.get("id")) == ("job", 1))
     assert 28800 <= arrival <= 32400
-    vehicle_of = {step["id"]: route["vehicle"] for route in reply["routes"]
+    vehicle_of = {(step["type"], step["id"]): route["vehicle"] for route in reply["routes"]
                   for step in route["steps"] if "id" in step}
-    assert (vehicle_of[1], vehicle_of[2], vehicle_of[6]) == (1, 1, 2)
+    assert vehicle_of == {("job", 1): 1, ("job", 2): 1, ("job", 5): vehicle_of["job", 5],
+                          ("job", 6): 2, ("pickup", 4): 2, ("delivery", 3): 2,
+                          ("break", 1): 1, ("break", 2): 2}
 
 
 @pytest.mark.parametrize("matrix", ["matrix", "matrices"])
@@ -151,11 +149,12 @@ def test_routes_by_steps_are_where_the_search_begins(searching: httpx.Client,
     assert refused(searching, with_steps) == "Route over capacity for vehicle 1."
 
 
-@pytest.mark.parametrize("forced", ["service_at", "service_after", "service_before"])
-def test_times_forced_in_steps_are_refused_by_name(
-        searching: httpx.Client, with_steps: Data, forced: str) -> None:
-    with_steps["vehicles"][1]["steps"][0][forced] = 1_790_000_600
-    assert f"{forced} in steps for vehicle 2" in refused(searching, with_steps)
+def test_times_forced_in_steps_are_left_out_of_a_search_as_by_vroom(
+        searching: httpx.Client, with_steps: Data) -> None:
+    plain = solved(searching, with_steps)
+    for step, forced in enumerate(("service_at", "service_after", "service_before")):
+        with_steps["vehicles"][1]["steps"][step][forced] = 1_790_000_600
+    assert solved(searching, with_steps)["routes"] == plain["routes"]
 
 
 def test_mode_that_only_times_routes_is_refused_by_name(searching: httpx.Client,

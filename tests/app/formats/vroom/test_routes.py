@@ -55,11 +55,11 @@ def test_request_without_matrices_reports_distances_and_geometry_on_demand(
 
 
 def test_input_errors_are_code_2_and_status_400(client: httpx.Client, matrix_request: Data) -> None:
-    matrix_request["shipments"] = [{}]
+    matrix_request["vehicles"][0]["steps"] = [{"type": "pickup", "id": 7}]
     reply = client.post("/vroom", json=matrix_request)
     assert reply.status_code == 400
     assert reply.json()["code"] == 2
-    assert reply.json()["error"].startswith("shipments")
+    assert reply.json()["error"].startswith("Invalid pickup id 7")
 
 
 def test_too_many_jobs_are_code_4_and_status_413(serve: Callable[..., httpx.Client],
