@@ -933,6 +933,15 @@ typedef struct tandem_sights {
     tandem_f64_1d duration; /* (entry,) seconds, infinite where the wind is too strong */
 } tandem_sights;
 
+/* On which sides of ways to corners their areas may lie, as bits: 1 left, 2 right. The entries of a
+   corner, in `between`, are those with the area on the left alone, on either, on the right alone. */
+typedef struct tandem_turns {
+    tandem_i32_1d reached;          /* (entry of `outward`,) */
+    tandem_i32_1d arrived;          /* (entry of `between`,) at its end */
+    tandem_i64_1d only_left_end;    /* (corner,) */
+    tandem_i64_1d only_right_begin; /* (corner,) */
+} tandem_turns;
+
 typedef struct tandem_legs {
     tandem_i32_4d stated; /* (travel, origin, to, 2); null where some are computed */
     tandem_i64_5d
@@ -1187,9 +1196,11 @@ int tandem_write_sights(const tandem_f64_2d* corners, const tandem_f64_2d* befor
                         bool is_east, int64_t first, int64_t last, const tandem_i32_2d* pairs,
                         int64_t* written, int64_t* next);
 
-/* Write the quickest flights that bend at least once. */
+/* Write the quickest flights that bend at least once, from some of the nodes in an order; mutual,
+   to those alone that come later. */
 int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between,
-                      const tandem_sights* inward, const tandem_bool_2d* wanted, bool mutual,
+                      const tandem_sights* inward, const tandem_turns* turns,
+                      const tandem_bool_2d* wanted, const tandem_i64_1d* order, bool mutual,
                       int64_t first, int64_t last, const tandem_f64_2d* distance,
                       const tandem_f64_2d* duration);
 

@@ -28,6 +28,7 @@ struct Network {
     Sights outward;  // from each node to corners
     Sights between;  // from each corner to others
     Sights inward;   // to each node from corners
+    Turns turns;
 };
 
 struct FlightLegs {
@@ -152,12 +153,17 @@ private:
 
 // The quickest flights from a node that bend at least once.
 //
+// A shortest way has the area of a corner on one side, before and behind it: else it could be cut
+// short there. So a corner is left on the side on which it was reached soonest, or on both if they
+// are as soon but for rounding.
+//
 // Dijkstra (1959), a note on two problems in connexion with graphs, Numer. Math. 1:269-271.
 class Reach {
 public:
     explicit Reach(const Network& network)
         : network_(network),
           flown_(static_cast<std::size_t>(network.between.begin.size() - 1)),
+          sides_(flown_.size()),
           least_(static_cast<std::size_t>(network.inward.begin.size() - 1)),
           beholders_(network.inward, flown_.size()),
           ahead_(std::max(longest(network.outward.duration), longest(network.between.duration))) {}
@@ -168,16 +174,15 @@ public:
         std::fill(least_.begin(), least_.end(), Flown{});
         const Sights& outward = network_.outward;
         for (Int entry = outward.begin[node]; entry < outward.begin[node + 1]; ++entry) {
-            Flown& there = to(outward.place[entry]);
-            there = {outward.distance[entry], outward.duration[entry]};
-            if (there.duration < nowhere) ahead_.push(there.duration, outward.place[entry]);
+            const Flown flown{outward.distance[entry], outward.duration[entry]};
+            reach(outward.place[entry], flown, network_.turns.reached[entry]);
         }
         Ahead::Arrival arrival{};
         for (Int number = 0; ahead_.pop(arrival); ++number) {
             if (number % looks_back == 0 && arrival.time > longest_to(targets)) break;
             if (arrival.time > to(arrival.corner).duration) continue;
             land_from(arrival.corner);
-            go_on_from(arrival.corner, arrival.time);
+            go_on_from(arrival.corner);
         }
         ahead_.clear();
     }
@@ -185,7 +190,8 @@ public:
     const Flown& flown_to(Int target) const { return least_[static_cast<std::size_t>(target)]; }
 
 private:
-    static constexpr Int looks_back = 64;  // arrivals until it is looked whether all are reached
+    static constexpr Int looks_back = 64;     // arrivals until it is looked whether all are reached
+    static constexpr double rounding = 1e-9;  // seconds within which ways take as long
 
     Flown& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
 
@@ -209,41 +215,71 @@ private:
         }
     }
 
-    void go_on_from(Int corner, double reached) {
+    void go_on_from(Int corner) {
         const Sights& between = network_.between;
-        for (Int entry = between.begin[corner]; entry < between.begin[corner + 1]; ++entry) {
-            const double total = reached + between.duration[entry];
-            Flown& there = to(between.place[entry]);
-            if (!(total < there.duration)) continue;
-            there = {to(corner).distance + between.distance[entry], total};
-            ahead_.push(total, between.place[entry]);
+        const Turns& turns = network_.turns;
+        const Flown here = to(corner);
+        const auto sides = sides_[static_cast<std::size_t>(corner)];
+        const Int first =
+            (sides & Turns::left) != 0 ? between.begin[corner] : turns.only_left_end[corner];
+        const Int last = (sides & Turns::right) != 0 ? between.begin[corner + 1]
+                                                     : turns.only_right_begin[corner];
+        for (Int entry = first; entry < last; ++entry) {
+            const double total = here.duration + between.duration[entry];
+            const Int next = between.place[entry];
+            if (total > to(next).duration + rounding) continue;
+            reach(next, {here.distance + between.distance[entry], total}, turns.arrived[entry]);
         }
     }
 
+    // Come to a corner with its area on some sides.
+    void reach(Int corner, const Flown& flown, std::int32_t sides) {
+        if (!(flown.duration < nowhere)) return;
+        Flown& there = to(corner);
+        std::int32_t& kept = sides_[static_cast<std::size_t>(corner)];
+        if (flown.duration < there.duration) {
+            kept = there.duration - flown.duration <= rounding ? kept | sides : sides;
+            there = flown;
+        } else if (flown.duration <= there.duration + rounding && (sides & ~kept) != 0) {
+            kept |= sides;
+        } else {
+            return;
+        }
+        ahead_.push(there.duration, corner);
+    }
+
     const Network& network_;
-    std::vector<Flown> flown_;  // (corner,)
-    std::vector<Flown> least_;  // (node,)
+    std::vector<Flown> flown_;         // (corner,)
+    std::vector<std::int32_t> sides_;  // (corner,) on which its area may lie
+    std::vector<Flown> least_;         // (node,)
     Beholders beholders_;
     Ahead ahead_;
 };
 
-// Write the quickest flights that bend at least once, those wanted of some rows. Where a flight
-// back is as long as the flight there (`mutual`), each is worked out once.
-void fly_around(const Network& network, View<const bool, 2> wanted, bool mutual, Int first,
-                Int last, const FlightLegs& legs) {
+// Which flights are looked for: those wanted from some places of an order.
+struct Asked {
+    View<const bool, 2> wanted;
+    View<const std::int64_t, 1> order;  // (node,)
+    bool mutual;                        // a flight back is as long as the flight there
+    Int first, last;
+};
+
+// Write the quickest flights that bend at least once, those back with them if they are mutual.
+void fly_around(const Network& network, const Asked& asked, const FlightLegs& legs) {
     Reach reach(network);
     std::vector<Int> targets;
-    for (Int node = first; node < last; ++node) {
-        const View<const bool, 1> row = wanted[node];
+    for (Int place = asked.first; place < asked.last; ++place) {
+        const Int node = asked.order[place];
+        const View<const bool, 1> row = asked.wanted[node];
         targets.clear();
-        for (Int target = mutual ? node : 0; target < row.size(); ++target) {
-            if (row[target]) targets.push_back(target);
+        for (Int other = asked.mutual ? place : 0; other < asked.order.size(); ++other) {
+            if (row[asked.order[other]]) targets.push_back(asked.order[other]);
         }
         if (targets.empty()) continue;
         reach.fly_from(node, targets);
         for (const Int target : targets) {
             legs.write(node, target, reach.flown_to(target));
-            if (mutual) legs.write(target, node, reach.flown_to(target));
+            if (asked.mutual) legs.write(target, node, reach.flown_to(target));
         }
     }
 }
@@ -252,12 +288,13 @@ void fly_around(const Network& network, View<const bool, 2> wanted, bool mutual,
 }  // namespace tandem
 
 extern "C" int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between,
-                                 const tandem_sights* inward, const tandem_bool_2d* wanted,
+                                 const tandem_sights* inward, const tandem_turns* turns,
+                                 const tandem_bool_2d* wanted, const tandem_i64_1d* order,
                                  bool mutual, int64_t first, int64_t last,
                                  const tandem_f64_2d* distance, const tandem_f64_2d* duration) {
     return tandem::guarded([&] {
         const tandem::Network network{tandem::sights_of(*outward), tandem::sights_of(*between),
-                                      tandem::sights_of(*inward)};
-        tandem::fly_around(network, *wanted, mutual, first, last, {*distance, *duration});
+                                      tandem::sights_of(*inward), tandem::turns_of(*turns)};
+        tandem::fly_around(network, {*wanted, *order, mutual, first, last}, {*distance, *duration});
     });
 }

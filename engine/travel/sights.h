@@ -31,4 +31,18 @@ inline Sights sights_of(const tandem_sights& from) {
     return {from.begin, from.place, from.distance, from.duration};
 }
 
+// On which sides of ways to corners areas may lie, as bits.
+struct Turns {
+    static constexpr std::int32_t left = 1, right = 2;
+
+    View<const std::int32_t, 1> reached;           // (entry from a node,)
+    View<const std::int32_t, 1> arrived;           // (entry from a corner,)
+    View<const std::int64_t, 1> only_left_end;     // (corner,)
+    View<const std::int64_t, 1> only_right_begin;  // (corner,)
+};
+
+inline Turns turns_of(const tandem_turns& from) {
+    return {from.reached, from.arrived, from.only_left_end, from.only_right_begin};
+}
+
 }  // namespace tandem

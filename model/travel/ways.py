@@ -1,5 +1,6 @@
 """Ways around obstacles: who sees whom, whatever the speed, and what flights come of it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -14,16 +15,19 @@ from model.travel.wind import Wind
 SLACK_M = 2 * TOUCH_M
 """How far a corner's neighbour may be on the wrong side of a flight that bends there."""
 
+LEFT, RIGHT = 1, 2
+"""Bits that tell on which sides of a way an area may lie."""
+
 LOOKS_AT_ONCE = 200_000
 """Lines of sight between two pauses: some milliseconds' work."""
 
-CORNERS_AT_ONCE = 5000
+CORNERS_AT_ONCE = 12_000
 """Corners between two pauses whose ways to others are looked for."""
 
 ROOM_FOR_SIGHTS = 100_000
 """Pairs of corners that are found at once, beside those of one with all others."""
 
-FLIGHTS_AT_ONCE = 2_000_000
+FLIGHTS_AT_ONCE = 6_000_000
 """Flights from or to corners put together between two pauses."""
 
 
@@ -69,6 +73,19 @@ class Pairs(NamedTuple):
         return self.column[entries], durations
 
 
+class Turns(NamedTuple):
+    """On which sides of ways to corners their areas may lie, as bits: 1 left, 2 right.
+
+    The flights between corners, row by row, are those with the row's area on the left alone, those
+    with it on either side, and those with it on the right alone.
+    """
+
+    reached: IntArray  # (entry,) of flights from nodes to corners
+    arrived: IntArray  # (entry,) of flights between corners, at their end
+    only_left_end: IntArray  # (corner,)
+    only_right_begin: IntArray  # (corner,)
+
+
 @dataclass(frozen=True)
 class Ways:
     """Flights that are not straight."""
@@ -76,6 +93,8 @@ class Ways:
     blocked: BoolArray  # (node, node) straight flights that meet an obstacle
     outward: Pairs  # nodes and the corners that they see
     between: Pairs  # corners and the corners that they see
+    turns: Turns
+    order: IntArray  # (node,) all nodes, the outermost first, so that searches become shorter
 
     def replace_blocked(self, legs: Legs, wind: Wind, pause: Pause) -> None:
         """Fly around where there is no straight flight. In place.
@@ -86,8 +105,8 @@ class Ways:
         between = self.between.flown(wind)
         size = 1 + FLIGHTS_AT_ONCE // (1 + len(outward.place) + 4 * len(between.place))
         for rows in row_blocks(len(self.blocked), size, pause):
-            call("tandem_fly_around", outward, between, inward, self.blocked, wind.is_calm,
-                 rows.start, rows.stop, legs.distance, legs.duration)
+            call("tandem_fly_around", outward, between, inward, self.turns, self.blocked,
+                 self.order, wind.is_calm, rows.start, rows.stop, legs.distance, legs.duration)
 
     def bends(self, start: int, end: int, wind: Wind) -> IntArray:
         """Return the corners, in their order, where the quickest flight between two nodes bends.
@@ -148,8 +167,11 @@ def find_ways(points: FloatArray, obstacles: Obstacles, pause: Pause) -> Ways:
     hidden[inside] = True
     _look(points, corners.place, obstacles, hidden, pause)
     row, column = np.nonzero(~hidden)
-    return Ways(blocked, _pairs(points, corners.place, row, column),
-                _pairs(corners.place, corners.place, *_sights(corners, obstacles, pause)))
+    outward = _pairs(points, corners.place, row, column)
+    between, turns = _turning(corners, outward, *_sights(corners, obstacles, pause))
+    middle = points.mean(axis=0) if len(points) else 0.0
+    order = np.argsort(-np.hypot(*(points - middle).T), kind="stable")
+    return Ways(blocked, outward, between, turns, order)
 
 
 def _look_around(points: FloatArray, obstacles: Obstacles, hidden: BoolArray,
@@ -165,8 +187,8 @@ def _look(starts: FloatArray, ends: FloatArray, obstacles: Obstacles, hidden: Bo
     """Mark the ends that each start doesn't see; mutually, those behind it alone. In place."""
     if len(obstacles.edges) == 0:
         return
-    size = 1 + LOOKS_AT_ONCE // (1 + len(ends))
-    for rows in row_blocks(len(starts), size, pause):
+    looks = int(np.count_nonzero(~hidden)) // (1 + len(starts))
+    for rows in row_blocks(len(starts), 1 + LOOKS_AT_ONCE // (1 + looks), pause):
         call("tandem_mark_hidden", starts, ends, obstacles.edges, hidden, rows.start, rows.stop,
              mutual)
 
@@ -180,7 +202,7 @@ def _dead_ends(starts: FloatArray, corners: Corners, pause: Pause) -> BoolArray:
 
 
 def _sights(corners: Corners, obstacles: Obstacles, pause: Pause) -> tuple[IntArray, IntArray]:
-    """Return the rows and columns of corners that see one another, row after row."""
+    """Return the rows and columns of corners that see one another, each pair both ways."""
     count = len(corners.place)
     room = np.empty((count + ROOM_FOR_SIGHTS, 2), np.int32)
     found = [np.empty((0, 2), np.int32)]
@@ -192,9 +214,41 @@ def _sights(corners: Corners, obstacles: Obstacles, pause: Pause) -> tuple[IntAr
                                   is_east, first, min(first + CORNERS_AT_ONCE, count), room)
             found.append(room[:written].copy())
     one, other = np.concatenate(found).astype(np.int64).T
-    row, column = np.concatenate([one, other]), np.concatenate([other, one])
-    order = np.lexsort((column, row))
-    return row[order], column[order]
+    return np.concatenate([one, other]), np.concatenate([other, one])
+
+
+def _turning(corners: Corners, outward: Pairs, row: IntArray, column: IntArray
+             ) -> tuple[Pairs, Turns]:
+    """Return the flights between corners, and the sides on which their areas may lie."""
+    edges = [np.ascontiguousarray((neighbour - corners.place).T)
+             for neighbour in (corners.before, corners.after)]
+    place = np.ascontiguousarray(corners.place.T)
+    leaving = _sides(edges, row, *(axis[column] - axis[row] for axis in place))
+    # Those on the left alone first, those on either side, those on the right alone.
+    order = np.argsort(3 * row + np.array((0, 0, 2, 1))[leaving], kind="stable")
+    row, column, leaving = row[order], column[order], leaving[order]
+    between = _pairs(corners.place, corners.place, row, column)
+    count = len(corners.place)
+    return between, Turns(
+        _sides(edges, outward.column, outward.x, outward.y),
+        _sides(edges, column, between.x, between.y),
+        between.begin[:-1] + np.bincount(row[leaving == LEFT], minlength=count),
+        between.begin[1:] - np.bincount(row[leaving == RIGHT], minlength=count))
+
+
+def _sides(edges: Sequence[FloatArray], corner: IntArray, x: FloatArray, y: FloatArray
+           ) -> IntArray:
+    """Return on which sides of ways to or from a corner each its area may lie.
+
+    The two `edges` of each corner lead to its neighbours on the boundary.
+    """
+    slack = SLACK_M * np.hypot(x, y)
+    one, other = (x * edge[1, corner] - y * edge[0, corner] for edge in edges)
+    is_right = np.minimum(one, other) < -slack
+    is_left = np.maximum(one, other) > slack
+    # Neither excludes both: that is so by rounding alone.
+    sides = (LEFT + RIGHT - RIGHT * (is_left & ~is_right) - LEFT * (is_right & ~is_left))
+    return sides.astype(np.int32)
 
 
 def _pairs(starts: FloatArray, ends: FloatArray, row: IntArray, column: IntArray) -> Pairs:

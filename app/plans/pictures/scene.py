@@ -79,12 +79,13 @@ class Scene:
                    len(evaluation.violations), roads.zones)
 
     @classmethod
-    def replied(cls, request: PlanRequest, reply: bytes) -> "Scene":
+    def replied(cls, request: PlanRequest, reply: bytes,
+                published: Sequence[Zone] = ()) -> "Scene":
         """Return a plan as the service replied it, which has been checked."""
         stated = from_json(reply)
         plan = read_body(PlanInput, reply)
         return cls(at_addresses(request, plan), plan, stated["cost"],
-                   stated["summary"])
+                   stated["summary"], published=published)
 
     @cached_property
     def customers(self) -> Mapping[str, CustomerInput]:

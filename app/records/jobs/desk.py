@@ -1,12 +1,13 @@
 """Where endpoints turn to about jobs: nothing here waits for the database on the event loop."""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 from anyio import CapacityLimiter, to_thread
 from sqlalchemy.exc import SQLAlchemyError
 
+from app.maps.airspace.zone import Zone
 from app.plans.pictures.scene import Scene
 from app.records.jobs.errors import JobsUnavailableError
 from app.records.jobs.events import Watcher
@@ -36,9 +37,12 @@ class JobDesk:
         Where they wait.
     service
         What answers.
+    zones
+        Those that hold for all requests, for pictures.
     """
 
-    def __init__(self, store: JobStore, queues: Queues, service: JobService) -> None:
+    def __init__(self, store: JobStore, queues: Queues, service: JobService,
+                 zones: Sequence[Zone]) -> None:
         def make_tables() -> None:
             store.prepare()
             queues.prepare()
@@ -47,6 +51,7 @@ class JobDesk:
         self.database = PreparedDatabase(threads, make_tables, store.find_misfit)
         self._store = store
         self._service = service
+        self._zones = zones
         self._drawing = CapacityLimiter(1)
         self.watcher = Watcher(lambda ids: self.ask(lambda service: service.find_all(ids)))
 
@@ -57,7 +62,8 @@ class JobDesk:
     async def picture(self, job_id: str, owner: str) -> bytes:
         """Draw a job's best plan so far as SVG, in a thread; raises as `ask` does."""
         request, plan = await self.ask(lambda service: service.plan(job_id, owner))
-        return await to_thread.run_sync(_drawn, request, plan, limiter=self._drawing)
+        return await to_thread.run_sync(_drawn, request, plan, self._zones,
+                                       limiter=self._drawing)
 
     def count(self) -> JobCounts:
         """Return the number of jobs by kind and state; none while they can't be counted."""
@@ -68,8 +74,8 @@ class JobDesk:
             return {}
 
 
-def _drawn(request: PlanRequest, plan: bytes) -> bytes:
+def _drawn(request: PlanRequest, plan: bytes, zones: Sequence[Zone]) -> bytes:
     # Imported here: the service needn't wait for matplotlib at its start.
     from app.plans.pictures.drawing import draw_svg
 
-    return draw_svg(Scene.replied(request, plan))
+    return draw_svg(Scene.replied(request, plan, zones))

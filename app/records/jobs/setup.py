@@ -90,7 +90,7 @@ def running_jobs(settings: Settings, planner: Planner, metrics: Metrics,
 
     housekeeper = Housekeeper(store, queues, also_expire, asking.forget_unused)
     worker = Worker(settings, store, plans, divided, studies, housekeeper, _caller(settings))
-    desk = JobDesk(store, queues, service)
+    desk = JobDesk(store, queues, service, roads.zones)
     metrics.watch_jobs(desk.count)
     stopping = threading.Event()
     starter = threading.Thread(target=_start, name="job-starter", daemon=True, args=(
