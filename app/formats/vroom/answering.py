@@ -6,13 +6,14 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from app.formats.vroom.errors import TOO_LARGE, VroomError, input_error, refused
+from app.formats.vroom.errors import INPUT, TOO_LARGE, VroomError, input_error, refused
 from app.formats.vroom.places import StatedPlaces, find_places
 from app.formats.vroom.reading import read_request
 from app.formats.vroom.reply import Writer
 from app.formats.vroom.roads import add_lines
 from app.formats.vroom.schemas import VroomOptionsInput, VroomRequest
-from app.formats.vroom.translate import translate
+from app.formats.vroom.translate import given_routes, translate
+from app.formats.vroom.violations import add_violations
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.requests.conversion.preparing import Preparing, patience
 from app.schemas.errors import InvalidRequestError
@@ -25,7 +26,7 @@ from model.dialects.vroom.models import Routes
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.planning import Planning
 from model.dialects.vroom.request import Request
-from model.dialects.vroom.timing import TimedRoute
+from model.dialects.vroom.timing import Driver, TimedRoute
 from model.dialects.vroom.work import LegLimit
 from model.engine.cores import num_cores
 from model.planner import Listener, Planner, PlanOptions, PlanResult, Progress
@@ -96,6 +97,8 @@ def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
 def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: ReceivedBody,
             settings: Settings, preparing: Preparing) -> Mapping[str, Any]:
     request = translate(stated)
+    if stated.options.c:
+        return timed(stated, request, places, body)
     options = PlanOptions(
         planner.policies[0],
         threads=min(stated.options.t or settings.search_threads, num_cores()))
@@ -116,6 +119,31 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
     return Writer(stated, places, request.is_timed).reply(
         routes, loading=int(1000 * (loaded - body.received_at)),
         solving=int(1000 * (solved - loaded)))
+
+
+def timed(stated: VroomRequest, request: Request, places: StatedPlaces,
+          body: ReceivedBody) -> Mapping[str, Any]:
+    """Return the reply that times the routes in `steps`, with what they violate.
+
+    Raises
+    ------
+    VroomError
+        If there is no way, or not at the times that are forced.
+    """
+    loaded = time.perf_counter()
+    routes = []
+    for given in given_routes(stated):
+        route = Driver(request, places, given.vehicle).drive_given(given)
+        if route is None:
+            raise VroomError(INPUT, "Infeasible route for vehicle "
+                                    f"{request.vehicles[given.vehicle].id}.")
+        routes.append(route)
+    solved = time.perf_counter()
+    reply = Writer(stated, places, is_timed=True).reply(
+        routes, loading=int(1000 * (loaded - body.received_at)),
+        solving=int(1000 * (solved - loaded)))
+    add_violations(stated, reply)
+    return reply
 
 
 def search_seconds(options: VroomOptionsInput, settings: Settings) -> float:

@@ -76,8 +76,6 @@ def _faults(request: VroomRequest, tasks: Sequence[Task]) -> Faults:
         return
     if not tasks:
         yield "No task defined."
-    if request.options.c:
-        yield "options.c: ETAs for given routes aren't computed here: leave it out."
     yield from _repeated("vehicle", [vehicle.id for vehicle in request.vehicles])
     for kind in ("job", "pickup", "delivery"):
         yield from _repeated(kind, [task.id for task in tasks if task.kind == kind])

@@ -96,10 +96,10 @@ class Writer:
     def _steps(self, route: TimedRoute) -> list[Data]:
         places, vehicle = self._places, route.vehicle
         sites = [int(places.jobs[job]) for job in route.jobs]
-        first, last = int(places.starts[vehicle]), int(places.ends[vehicle])
+        known = [site for site in (int(places.starts[vehicle]), *sites, int(places.ends[vehicle]))
+                 if site != NOWHERE]
         loads = self._loads(route.jobs)
-        start = self._step("start", sites[0] if first == NOWHERE else first, loads[0],
-                           route.departure // TIME_SCALE)
+        start = self._step("start", known[0], loads[0], route.departure // TIME_SCALE)
         steps = [{**start, "duration": 0, "violations": [], **self._distance(0)}]
         for gap, load in enumerate(loads):
             steps += self._rests(route, gap, load, steps[-1])
@@ -110,8 +110,7 @@ class Writer:
                 step = self._step(task.kind, sites[gap], loads[gap + 1], arrival, task.stated,
                                   times)
             else:
-                step = self._step("end", sites[-1] if last == NOWHERE else last, load,
-                                  route.end // TIME_SCALE)
+                step = self._step("end", known[-1], load, route.end // TIME_SCALE)
             steps.append({**step, "duration": self._duration(steps[-1], step, route.travels[gap]),
                           "violations": [], **self._distance(route.distances[gap])})
         return steps

@@ -3,17 +3,26 @@
 Replies are written by `app.formats.vroom.reply` as plain data; these classes document them.
 """
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.formats.vroom.schemas import Coordinates
 
-NO_VIOLATIONS = "Always empty: no rule is broken."
+VIOLATIONS = "What given routes violate, with `options.c`; else empty: no rule is broken."
 
 
 class _Reply(BaseModel):
     model_config = ConfigDict(extra="forbid")
+
+
+class VroomViolationReply(_Reply):
+    """A rule that a given route breaks."""
+
+    cause: Literal["lead_time", "delay", "load", "max_tasks", "skills", "precedence",
+                   "missing_break", "max_travel_time", "max_distance", "max_load"] = Field(
+        description="Which.")
+    duration: int | None = Field(None, description="Seconds of `lead_time` or `delay`.")
 
 
 class VroomStepReply(_Reply):
@@ -33,7 +42,7 @@ class VroomStepReply(_Reply):
     load: list[int] | None = Field(None, description="Load when the step is done.")
     arrival: int = Field(description="Arrival, in the terms of the request's time windows.")
     duration: int = Field(description="Travel time so far.")
-    violations: list[Any] = Field(description=NO_VIOLATIONS)
+    violations: list[VroomViolationReply] = Field(description=VIOLATIONS)
     distance: int | None = Field(None, description="Way so far.")
 
 
@@ -53,7 +62,7 @@ class VroomRouteReply(_Reply):
     priority: int = Field(description="Sum of the jobs' priorities.")
     distance: int | None = Field(None, description="Way, where distances count or are asked for.")
     steps: list[VroomStepReply] = Field(description="Places in order.")
-    violations: list[Any] = Field(description=NO_VIOLATIONS)
+    violations: list[VroomViolationReply] = Field(description=VIOLATIONS)
     geometry: str | None = Field(
         None, description="The drives on roads, or straight lines between the steps where the "
         "service has none, as an encoded polyline, with `options.g`.")
@@ -82,7 +91,7 @@ class VroomSummaryReply(_Reply):
     waiting_time: int = Field(description="Wait for time windows.")
     priority: int = Field(description="Sum of the priorities of jobs served.")
     distance: int | None = Field(None, description="Way, where distances count or are asked for.")
-    violations: list[Any] = Field(description=NO_VIOLATIONS)
+    violations: list[VroomViolationReply] = Field(description=VIOLATIONS)
     computing_times: VroomComputingTimesReply = Field(description="How long it took.")
 
 

@@ -3,10 +3,12 @@
 from collections.abc import Mapping
 
 from app.formats.vroom.schemas import (
-    MAX_UINT, VroomBreakInput, VroomRequest, VroomVehicleInput, Windows,
+    MAX_UINT, VroomBreakInput, VroomRequest, VroomStepInput, VroomVehicleInput, Windows,
 )
 from app.formats.vroom.tasks import Task, tasks_of
-from model.dialects.vroom.request import Break, Costs, Job, Request, Vehicle, Window
+from model.dialects.vroom.request import (
+    Bounds, Break, Costs, GivenRoute, Job, Request, Vehicle, Window,
+)
 
 
 def translate(stated: VroomRequest) -> Request:
@@ -16,6 +18,40 @@ def translate(stated: VroomRequest) -> Request:
                                             for index, task in enumerate(tasks)}
     return Request(tuple(map(_job, tasks)),
                    tuple(_vehicle(vehicle, index_of) for vehicle in stated.vehicles))
+
+
+def given_routes(stated: VroomRequest) -> list[GivenRoute]:
+    """Return the routes that are stated step by step, none that does nothing."""
+    index_of: dict[tuple[str, int], int] = {(task.kind, task.id): index
+                                            for index, task in enumerate(tasks_of(stated))}
+    routes = [_given(number, vehicle, index_of) for number, vehicle in enumerate(stated.vehicles)]
+    return [route for route in routes if route.jobs or route.rests]
+
+
+def _given(number: int, vehicle: VroomVehicleInput,
+           index_of: Mapping[tuple[str, int], int]) -> GivenRoute:
+    number_of = {each.id: index for index, each in enumerate(breaks_of(vehicle))}
+    jobs, rests = list[tuple[int, Bounds]](), list[tuple[tuple[int, int], Bounds]]()
+    ends = {"start": Bounds(), "end": Bounds()}
+    for step in vehicle.steps:
+        bounds = _bounds(step)
+        if step.type in ends or step.id is None:
+            ends[step.type] = bounds
+        elif step.type == "break":
+            rests.append(((number_of[step.id], len(jobs)), bounds))
+        else:
+            jobs.append((index_of[step.type, step.id], bounds))
+    return GivenRoute(
+        number, tuple(job for job, _ in jobs), tuple(rest for rest, _ in rests), ends["start"],
+        ends["end"], tuple(bounds for _, bounds in jobs), tuple(bounds for _, bounds in rests))
+
+
+def _bounds(step: VroomStepInput) -> Bounds:
+    """Return when a step has to start: then, or between two times."""
+    at = [] if step.service_at is None else [step.service_at]
+    after = [time for time in (*at, step.service_after) if time is not None]
+    before = [time for time in (*at, step.service_before) if time is not None]
+    return Bounds(max(after, default=None), min(before, default=None))
 
 
 def _job(task: Task) -> Job:

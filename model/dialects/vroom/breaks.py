@@ -107,12 +107,16 @@ class Way:
             left -= min(left, max(0, behind - time))
         return time - left
 
-    def drive(self, gap: int, leave: int, numbers: range) -> tuple[int, list[Rest]]:
-        """Return the arrival behind a gap in which some breaks are taken, and those."""
+    def drive(self, gap: int, leave: int, numbers: range,
+              starts: Sequence[int] = ()) -> tuple[int, list[Rest]]:
+        """Return the arrival behind a gap in which some breaks are taken, and those.
+
+        They start as soon as they may, or by `starts` of all breaks.
+        """
         time, left, rests = leave, self.times[gap], []
         for number in numbers:
             pause = self.pauses[number]
-            start = start_in(time, pause.slots)
+            start = starts[number] if starts else start_in(time, pause.slots)
             driven = min(left, start - time)
             left -= driven
             # Who waits for the last of the way has arrived before.

@@ -69,6 +69,27 @@ class Vehicle:
     breaks: tuple[Break, ...] = ()  # in the order in which they are taken
 
 
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """From and until when a step has to start, in seconds; None: any time."""
+
+    after: int | None = None
+    before: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class GivenRoute:
+    """A route that is stated step by step."""
+
+    vehicle: int  # index into the request's vehicles
+    jobs: tuple[int, ...]
+    rests: tuple[tuple[int, int], ...]  # index into the vehicle's breaks, and jobs before it
+    start: Bounds
+    end: Bounds
+    job_bounds: tuple[Bounds, ...]
+    rest_bounds: tuple[Bounds, ...]
+
+
 @dataclass(frozen=True)
 class Request:
     """Jobs, and vehicles that serve them."""

@@ -6,14 +6,15 @@ to hundredths once, and all else is exact.
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import accumulate, pairwise
 
 from model.dialects.vroom.breaks import Pause, Rest, Way, after_job, arrivals
+from model.dialects.vroom.given import GivenWay, Times, best_times
 from model.dialects.vroom.places import NOWHERE, Legs, Places
-from model.dialects.vroom.request import Job, Request, Vehicle
-from model.dialects.vroom.windows import MISSED, TIME_SCALE, scaled, slots_of, start_in
+from model.dialects.vroom.request import GivenRoute, Job, Request, Vehicle
+from model.dialects.vroom.windows import ENDLESS, MISSED, TIME_SCALE, scaled, slots_of, start_in
 
 COST_SCALE = 360_000
 """Parts of a unit of cost: an hour's seconds times `TIME_SCALE`."""
@@ -104,6 +105,17 @@ class Visit:
 
 
 @dataclass(frozen=True)
+class _Path:
+    """What is driven and done on a route."""
+
+    jobs: Sequence[int]
+    way: Way
+    actions: Sequence[tuple[int, int]]  # (job,) setup and service
+    metres: Sequence[int]  # (gap,)
+    travel_cost: int
+
+
+@dataclass(frozen=True)
 class Driver:
     """Times the routes of one vehicle."""
 
@@ -117,45 +129,75 @@ class Driver:
 
         It ends as early as possible, begins as late as that allows, and waits as late as possible.
         """
-        pairs = self._pairs(jobs)
-        legs = [self._leg(*pair) for pair in pairs]
-        times = [travel for travel, _, _ in legs]
-        if max(times) >= self._endless:
+        path = self._path(jobs, self._pauses)
+        if max(path.way.times) >= self._endless:
             return None
-        actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
-        slots = [slots_of(self.request.jobs[job].time_windows) for job in jobs]
-        way = Way(times, [sum(action) for action in actions], slots, self._pauses,
-                  self._allowing(jobs))
-        timed = self._timed(way, actions, jobs)
-        if timed is None:
-            return None
-        departure, halts, rests, end = timed
-        travel, rates = sum([cost for _, _, cost in legs]), self.rates
-        cost = rates.fixed_cost + travel + rates.task_cost * (
-            sum(way.actions) + sum([pause.duration for pause in self._pauses]))
-        return TimedRoute(self.vehicle, departure, tuple(halts), end,
-                          tuple(accumulate(times)),
-                          tuple(accumulate([metres for _, metres, _ in legs])), travel, cost,
-                          tuple(rests))
-
-    def _timed(self, way: Way, actions: Sequence[tuple[int, int]],
-               jobs: Sequence[int]) -> tuple[int, list[Halt], list[Rest], int] | None:
-        """Return departure, jobs, breaks and end of a route; None if it misses a window."""
         begin, end = scaled(self._stated.time_window)
-        earliest = way.earliest_end(begin)
+        earliest = path.way.earliest_end(begin)
         if earliest > end:
             return None
-        departure, counts = way.latest_departure(earliest)
+        departure, counts = path.way.latest_departure(earliest)
+        return self._timed(path, counts, departure)
+
+    def drive_given(self, given: GivenRoute) -> TimedRoute | None:
+        """Return a route that is given with the times that break the least of its windows; None if
+        there is no way, or not at the times that are forced.
+
+        Raises
+        ------
+        TooLargeError
+            If there are too many times to look at.
+        """
+        pauses = [self._pauses[number] for number, _ in given.rests]
+        path = self._path(given.jobs, pauses)
+        if max(path.way.times) >= self._endless:
+            return None
+        counts = [sum(before <= gap for _, before in given.rests)
+                  for gap in range(len(path.way.times))]
+        begin, end = scaled(self._stated.time_window)
+        times = best_times(GivenWay(
+            path.way, counts, ([(begin, ENDLESS)], [(0, end)]),
+            [given.start, *given.job_bounds, given.end], given.rest_bounds))
+        if times is None:
+            return None
+        route = self._timed(path, counts, times.nodes[0], times)
+        rests = [replace(rest, number=given.rests[rest.number][0]) for rest in route.rests]
+        return replace(route, rests=tuple(rests))
+
+    def _path(self, jobs: Sequence[int], pauses: Sequence[Pause]) -> "_Path":
+        """Return what is driven and done on a route."""
+        pairs = self._pairs(jobs)
+        legs = [self._leg(*pair) for pair in pairs]
+        actions = [self._action(*pair, job) for pair, job in zip(pairs, jobs, strict=False)]
+        slots = [slots_of(self.request.jobs[job].time_windows) for job in jobs]
+        way = Way([travel for travel, _, _ in legs], [sum(action) for action in actions], slots,
+                  pauses, self._allowing(jobs))
+        return _Path(jobs, way, actions, [metres for _, metres, _ in legs],
+                     sum([cost for _, _, cost in legs]))
+
+    def _timed(self, path: "_Path", counts: Sequence[int], departure: int,
+               times: Times | None = None) -> TimedRoute:
+        """Return a route that leaves then, with so many breaks over behind each gap.
+
+        All starts as soon as it may, or by `times`.
+        """
+        way = path.way
         time, over, halts, rests = departure, 0, list[Halt](), list[Rest]()
         for gap, count in enumerate(counts):
-            arrival, taken = way.drive(gap, time, range(over, count))
+            arrival, taken = way.drive(gap, time, range(over, count),
+                                       () if times is None else times.rests)
             over, time = count, arrival
             rests += taken
-            if gap < len(jobs):
-                start = start_in(arrival, way.slots[gap])
-                halts.append(Halt(jobs[gap], arrival, start, *actions[gap]))
+            if gap < len(path.jobs):
+                start = (start_in(arrival, way.slots[gap]) if times is None
+                         else times.nodes[gap + 1])
+                halts.append(Halt(path.jobs[gap], arrival, start, *path.actions[gap]))
                 time = start + way.actions[gap]
-        return departure, halts, rests, time
+        tasks = sum(way.actions) + sum([pause.duration for pause in way.pauses])
+        cost = self.rates.fixed_cost + path.travel_cost + self.rates.task_cost * tasks
+        return TimedRoute(self.vehicle, departure, tuple(halts), time,
+                          tuple(accumulate(way.times)), tuple(accumulate(path.metres)),
+                          path.travel_cost, cost, tuple(rests))
 
     def missing_leg(self, jobs: Sequence[int]) -> str | None:
         """Tell in words to where on a route through `jobs` there is no way; None if there is."""

@@ -27,3 +27,16 @@ def error(request: Data) -> str:
     with pytest.raises(vroom._vroom.VroomInputException) as caught:
         solve(request)
     return str(caught.value)
+
+
+def check(request: Data) -> Data | None:
+    """Return VROOM's reply that times the routes in `steps`; None if it finds no times."""
+    vroom = import_module("vroom")
+    problem = vroom.Input()
+    problem._from_json(json.dumps(request), False)
+    try:
+        solution = problem.check(1)
+    except vroom._vroom.VroomInputException:
+        return None
+    reply: Data = solution.to_dict()
+    return reply

@@ -157,9 +157,11 @@ def test_times_forced_in_steps_are_left_out_of_a_search_as_by_vroom(
     assert solved(searching, with_steps)["routes"] == plain["routes"]
 
 
-def test_mode_that_only_times_routes_is_refused_by_name(searching: httpx.Client,
-                                                        with_steps: Data) -> None:
-    assert "options.c" in refused(searching, with_steps | {"options": {"c": True}})
+def test_routes_that_are_given_are_timed_alone(searching: httpx.Client, with_steps: Data) -> None:
+    reply = solved(searching, with_steps | {"options": {"c": True}})
+    assert [[step["id"] for step in route["steps"][1:-1]] for route in reply["routes"]] == [
+        [1, 2, 5], [6, 4, 3]]
+    assert reply["summary"]["violations"] == []
 
 
 def test_job_that_nobody_can_serve_is_told_in_vrooms_shape(searching: httpx.Client,
