@@ -51,8 +51,16 @@ def vehicle_errors(draft: Draft) -> Errors:
         for index, name in enumerate(vehicles.names):
             if roster is not None and roster.find(name) is None:
                 yield error_at("UNKNOWN_VEHICLE", (*path, "vehicles", listed, index),
-                               f"The fleet has no type or vehicle {name!r}: use a type's id, or "
-                               "that, '-' and a number from 1 to its count.")
+                               _unknown(name))
+    for path, customer in draft.known_customers():
+        for name in customer.vehicle_costs:
+            if roster is not None and roster.find(name) is None:
+                yield error_at("UNKNOWN_VEHICLE", (*path, "vehicle_costs", name), _unknown(name))
+
+
+def _unknown(name: str) -> str:
+    return (f"The fleet has no type or vehicle {name!r}: use a type's id, or that, '-' and a "
+            "number from 1 to its count.")
 
 
 def group_errors(draft: Draft) -> Errors:

@@ -24,5 +24,6 @@ def stated_path(request: PlanRequest, path: str) -> str:
     shipment, end = divmod(index, len(ENDS))
     if inner.startswith(".demand"):
         return f"$.shipments[{shipment}].amount{inner.removeprefix('.demand')}"
-    own = inner.split("[")[0].split(".")[1:2] in (["id"], ["skills"], ["goods"], ["vehicles"])
+    own = inner.split("[")[0].split(".")[1:2] in (["id"], ["skills"], ["goods"], ["vehicles"],
+                                               ["vehicle_costs"])
     return f"$.shipments[{shipment}]{'' if own else f'.{ENDS[end]}'}{inner}"

@@ -21,6 +21,7 @@ from app.schemas.fields import (
     Opening,
     PlaceLocation,
     Skills,
+    VehicleCosts,
 )
 from model.problem import MAX_DIMENSIONS
 
@@ -143,6 +144,13 @@ class CustomerInput(Input):
     vehicles: VehiclesInput | None = Field(
         None, description="Vehicles that may serve the customer. Null: all. A name that is both a "
         "type's and a vehicle's means the type."
+    )
+    vehicle_costs: VehicleCosts = Field(
+        default_factory=dict,
+        json_schema_extra={"default": {}},
+        description="Cost of being served by vehicles of a type, or a single one such as `van-3`, "
+        "or their drones, on top of all else: a preference, no ban. What names a vehicle holds "
+        "instead of what names its type; others cost nothing.",
     )
     launch: bool = Field(True, description=LAUNCH_TEXT)
     info: Info = Field(

@@ -34,6 +34,7 @@ LocationIndex = Annotated[
 Rounding = Literal["exact", "round", "trunc", "dimacs", "thousandths"]
 Skills = Annotated[list[Name], Field(max_length=100)]
 Goods = Annotated[list[Name], Field(max_length=100)]
+VehicleCosts = Annotated[dict[Name, Money], Field(max_length=200)]
 DurationsByType = Annotated[dict[Name, Duration], Field(max_length=200)]
 MAX_INFO_ENTRIES = 20
 MAX_INFO_LENGTH = 500

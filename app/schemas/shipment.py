@@ -8,7 +8,7 @@ from pydantic import Field
 from app.schemas.customer import CustomerInput, TimeWindowInput, VehiclesInput, Windows
 from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, Demand, Duration, DurationsByType, Goods, Info,
-    Input, LocationIndex, Money, Name, PlaceLocation, Skills,
+    Input, LocationIndex, Money, Name, PlaceLocation, Skills, VehicleCosts,
 )
 
 EndKind = Literal["pickup", "delivery"]
@@ -63,6 +63,11 @@ class ShipmentInput(Input):
     vehicles: VehiclesInput | None = Field(
         None, description="Vehicles that may serve it, as a customer's. Null: all."
     )
+    vehicle_costs: VehicleCosts = Field(
+        default_factory=dict, json_schema_extra={"default": {}},
+        description="Cost of being brought by vehicles of a type, or a single one, once, as a "
+        "customer's.",
+    )
     goods: Goods = Field(
         default_factory=list, json_schema_extra={"default": []},
         description="What it is, by the names that `incompatible_goods` uses.",
@@ -78,6 +83,7 @@ class ShipmentInput(Input):
                 None, **dict(end), id=end_name(self.id, kind), demand=self.amount, pickup=None,
                 served_by="truck", skills=self.skills, max_time_aboard=None, goods=self.goods,
                 release_time=0.0, vehicles=self.vehicles,
+                vehicle_costs=self.vehicle_costs if kind == "pickup" else {},
                 unassigned_cost=self.unassigned_cost if kind == "pickup" else 0.0)
 
 

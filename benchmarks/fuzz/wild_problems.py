@@ -9,14 +9,13 @@ import random
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from benchmarks.fuzz.wild_choices import RICHEST, choose_vehicles, prefer_vehicles
+
 Data = dict[str, Any]
 Point = list[float]
 
 LONGEST = 10**9
 """Largest amount, duration and distance that the schema takes; some draws go up to there."""
-
-RICHEST = 1e12
-"""Largest cost of anything."""
 
 SIZES = (0, 1, 1, 2, 3, 5, 8, 13, 30)
 SKILLS = ("cold", "crane", "Führerschein", "")
@@ -46,7 +45,9 @@ def wild_request(rng: random.Random) -> Data:
         request["planar_rounding"] = rng.choice(
             ("exact", "round", "trunc", "dimacs", "thousandths"))
     if rng.random() < 0.3:
-        _choose_vehicles(rng, request)
+        choose_vehicles(rng, request)
+    if rng.random() < 0.2:
+        prefer_vehicles(rng, request)
     if rng.random() < 0.3:
         _keep_apart(rng, request)
     if rng.random() < 0.3:
@@ -301,19 +302,6 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
         drones = kind.get("drones") or []
         for each in drones if isinstance(drones, list) else [drones]:
             each["capacity"] = [4] * dimensions
-
-
-def _choose_vehicles(rng: random.Random, request: Data) -> None:
-    """Let some customers say who may serve them, now and then somebody unknown. In place."""
-    names = [kind["id"] for kind in request["fleet"]]
-    names += [f"{kind['id']}-{rng.randint(1, min(kind['count'], 5))}"
-              for kind in request["fleet"] for _ in range(2)]
-    if rng.random() < 0.02:
-        names.append(f"{names[0]}-0")
-    for customer in request["customers"]:
-        if rng.random() < 0.5:
-            which = rng.choice(("allowed", "forbidden"))
-            customer["vehicles"] = {which: rng.sample(names, rng.randint(1, min(3, len(names))))}
 
 
 def _keep_apart(rng: random.Random, request: Data) -> None:

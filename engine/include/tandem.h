@@ -963,6 +963,8 @@ typedef struct tandem_instance {
     tandem_pair_2d pair;           /* (problem, node), or (problem, 0) */
     tandem_i64_3d max_between;     /* (problem, type, node) ms from a pickup to its delivery, FAR
                                       without limit, or (problem, 0, 0) if none has one */
+    tandem_f64_3d vehicle_cost;    /* (problem, type, node) of being served by it, on top of all
+                                      else, or (problem, 0, 0) if nobody states any */
     tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
                                       (problem, 0) where any may */
     tandem_hub_2d hub;             /* (problem, depot), or (problem, 0) where all have enough */
@@ -1072,6 +1074,7 @@ typedef struct tandem_problem_data {
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
     tandem_pair_1d pair;           /* (node,) none where there are no shipments */
     tandem_i64_2d max_between; /* (type, node) ms from a pickup to its delivery, none likewise */
+    tandem_f64_2d vehicle_cost; /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
         no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */
     tandem_hub_1d hub; /* (depot,) none where all have enough */

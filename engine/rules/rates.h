@@ -29,6 +29,12 @@ inline double trip_cost(const Rate& rate, Int distance, Int stops) {
     return rate.fixed + drive_cost(rate, distance) + stops_cost(rate, stops);
 }
 
+// What it costs on top of all else that a vehicle of type `k`, or its drones, serves a customer.
+// The table is empty where nobody states any.
+inline double vehicle_cost_at(const View<const double, 2>& vehicle_cost, Int k, Int node) {
+    return vehicle_cost.empty() ? 0.0 : vehicle_cost(k, node);
+}
+
 // What loads cost, each in the first dimension times the way that it is driven.
 inline double load_cost(const Rate& rate, double carried, Units units = ms_and_mm) {
     return carried / units.distance * rate.load;

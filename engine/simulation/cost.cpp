@@ -16,6 +16,15 @@ void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Cos
     cost.earliness += waiting_cost(price, place, arrival, hours_and_km);
 }
 
+// Add what it costs by whom customers are served.
+void add_vehicle_cost(const Instance& instance, const VehicleLog& log, Int b, Int k, Cost& cost) {
+    const View<const double, 1> price = instance.vehicle_cost[b][k];
+    for (const LoggedStop& stop : log.stop.first(log.count.stops)) cost.stops += price[stop.node];
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        cost.stops += price[sortie.node];
+    }
+}
+
 // What of a customer's is on the truck when it leaves a stop, in the first dimension. The parcel
 // leaves it at stop `left`, what is picked up comes aboard at stop `came`.
 Int aboard_at(const Setting& setting, Int node, Int left, Int came, Int stop) {
@@ -94,6 +103,7 @@ void add_cost(const Instance& instance, const Setting& setting, const VehicleLog
         cost.distance += load_cost(rate, carried, hours_and_km);
     }
     cost.stops += stops_cost(rate, served);
+    if (!instance.vehicle_cost[b].empty()) add_vehicle_cost(instance, log, b, k, cost);
     add_work_cost(rate, paid_work(setting.type, end, working), hours_and_km, cost);
     for (Int row = first_drone_row(setting.types, k); row >= 0;
          row = next_drone_row(setting.types, row)) {

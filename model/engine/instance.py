@@ -21,6 +21,7 @@ from model.engine.pair_rows import (
 )
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
+from model.engine.serving import in_range, vehicle_costs
 from model.engine.variants import (
     Variant, Way, durations_of, index_of, variant_of, way_of, ways_of, weighed_variant_of,
     write_legs,
@@ -67,6 +68,7 @@ class Instance(NamedTuple):
     max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
     pair: Records  # (problem, node), or (problem, 0)
     max_between: IntArray  # (problem, type, node) ms, FAR without limit; (problem, 0, 0) where none
+    vehicle_cost: FloatArray  # (problem, type, node) of being served by it, or (problem, 0, 0)
     no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
     hub: Records  # (problem, depot), or (problem, 0) where all have enough
     type: Records  # (problem, row); trucks first, as many as `size` says
@@ -133,6 +135,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
         max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
         pair=empty_pairs(problems, nodes),
         max_between=empty_limits(problems, types, nodes, FAR),
+        vehicle_cost=vehicle_costs(problems, types, nodes),
         no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
         hub=np.zeros((rows, depots if any(problem.limits_hubs for problem in problems) else 0),
                      dtype_of("tandem_hub")),
@@ -344,14 +347,6 @@ def _itself(kind: VehicleType, travel: int) -> tuple[int, ...]:
             kind.recovery_duration, travel, UNLIMITED)
 
 
-def _in_range(problem: Problem, kind: VehicleType, limit: int) -> BoolArray:
-    """Mark the customers not too far from any place where trips of who flies begin or end."""
-    ends = {kind.begins_at, kind.ends_at, *(kind.reload_places if kind.max_trips > 1 else ())}
-    far = problem.travel[kind.straight].distance[np.array(sorted(ends)), problem.num_depots:]
-    near: BoolArray = np.max(far, axis=0) <= limit
-    return near
-
-
 def _storm_rows(drones: DroneType | None) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
     """Return how often it storms, from when, and until when."""
     storms = () if drones is None else drones.storms
@@ -384,7 +379,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem,
         if problem.may_serve is not None:
             fits &= problem.may_serve[part_of]
         if kind.max_range is not None:
-            fits &= _in_range(problem, kind, kind.max_range)
+            fits &= in_range(problem, kind, kind.max_range)
         if problem.incompatible_goods:
             goods = instance.goods[row, customers]
             fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0

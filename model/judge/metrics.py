@@ -103,15 +103,20 @@ def measure_trip(problem: Problem, vehicle_type: VehicleType, trip: Trip) -> Tri
     )
 
 
+def _customers_of(trip: Trip) -> list[Stop | Visit]:
+    """Return whom a trip serves, by truck and then by drone."""
+    halts: list[Stop | Visit] = [*trip.customer_stops]
+    for sortie in trip.sorties:
+        halts += sortie.visits
+    return halts
+
+
 def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
     """Return the costs of lateness and of earliness."""
     customers, first = problem.customers, len(problem.depots)
     lateness = earliness = 0.0
     for trip in route.trips:
-        halts: list[Stop | Visit] = [*trip.customer_stops]
-        for sortie in trip.sorties:
-            halts += sortie.visits
-        for halt in halts:
+        for halt in _customers_of(trip):
             customer = customers[halt.node - first]
             waiting = opening(customer, halt.ready) - halt.ready
             if waiting > 0:
@@ -168,6 +173,9 @@ def measure_route(
     if problem.launch_sites:
         stops += sum([problem.depots[stop.node].stop_cost for trip in route.trips
                       for stop in trip.stops if stop.is_launch_site])
+    if problem.vehicle_costs is not None:
+        stops += sum([problem.vehicle_cost(route.vehicle_type, halt.node)
+                      for trip in route.trips for halt in _customers_of(trip)])
     distance = sum([trip.distance for trip in trips]) * vehicle_type.cost_per_km
     time = working * vehicle_type.cost_per_hour
     if vehicle_type.cost_per_load_km:

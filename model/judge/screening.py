@@ -94,7 +94,10 @@ class Screen:
         for vehicle, number in self._own_trips(trips):
             for guess in self._alone(vehicle, number, is_new=vehicle not in trips):
                 found[vehicle, guess.place.by].append(guess)
-        for guesses in found.values():
+        for (vehicle, _), guesses in found.items():
+            price = self._problem.vehicle_cost(vehicle.type, self._node)
+            if price:
+                guesses[:] = [guess._replace(cost=guess.cost + price) for guess in guesses]
             guesses.sort(key=lambda guess: guess.rank)
         return found
 

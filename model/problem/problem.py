@@ -32,6 +32,7 @@ class Problem:
     unassigned_cost: float  # per customer left out who states no other
     amount_decimals: tuple[int, ...] = ()  # (dimension,) of demands and capacities; for people
     may_serve: BoolArray | None = None  # (vehicle type, customer); None: any type anyone
+    vehicle_costs: FloatArray | None = None  # (vehicle type, customer) of serving; None: nothing
     may_stop: BoolArray | None = None  # (vehicle type, depot) at launch sites; None: any at any
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
@@ -55,6 +56,7 @@ class Problem:
             require(self.may_serve.dtype == np.bool_, "may_serve dtype", self.may_serve.dtype)
             require(self.may_serve.shape == (len(self.vehicle_types), self.num_customers),
                      "may_serve shape", self.may_serve.shape)
+        self._require_vehicle_costs()
         if self.may_stop is not None:
             require(self.may_stop.dtype == np.bool_, "may_stop dtype", self.may_stop.dtype)
             require(self.may_stop.shape == (len(self.vehicle_types), self.num_depots),
@@ -75,6 +77,14 @@ class Problem:
         points = [each.straight.points.at for each in self.travel if each.straight is not None]
         require(all(np.array_equal(each, points[0], equal_nan=True) for each in points), "travel",
                  "places differ")
+
+    def _require_vehicle_costs(self) -> None:
+        costs = self.vehicle_costs
+        if costs is not None:
+            require(costs.shape == (len(self.vehicle_types), self.num_customers),
+                     "vehicle_costs shape", costs.shape)
+            require_rate("vehicle_costs", float(costs.min(initial=0.0)))
+            require_rate("vehicle_costs", float(costs.max(initial=0.0)))
 
     def _require_pairs(self) -> None:
         ends = [node for each in self.shipments for node in (each.pickup, each.delivery)]
@@ -137,6 +147,19 @@ class Problem:
     def allows(self, vehicle_type: int, node: int) -> bool:
         """Tell whether the table lets vehicles of a type serve the customer at a node."""
         return self.may_serve is None or bool(self.may_serve[vehicle_type, node - self.num_depots])
+
+    def vehicle_cost(self, vehicle_type: int, node: int) -> float:
+        """Return what it costs on top that vehicles of a type serve the customer at a node."""
+        table = self.vehicle_costs
+        return 0.0 if table is None else float(table[vehicle_type, node - self.num_depots])
+
+    def vehicle_costs_of(self, kinds: Sequence[int],
+                         nodes: Sequence[int]) -> FloatArray | None:
+        """Return `vehicle_costs` of some types and of the customers at some nodes alone."""
+        if self.vehicle_costs is None:
+            return None
+        columns = np.array(nodes, np.int64) - self.num_depots
+        return self.vehicle_costs[np.ix_(np.array(kinds, np.int64), columns)]
 
     @cached_property
     def launch_sites(self) -> tuple[int, ...]:

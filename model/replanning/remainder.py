@@ -96,7 +96,8 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
         travel=tuple(each.among(np.array(source)) for each in problem.travel),
         may_serve=_table(problem, past, kinds, owners, nodes)
-        & _goods_table(problem, kept, kinds, owners, nodes))
+        & _goods_table(problem, kept, kinds, owners, nodes),
+        vehicle_costs=problem.vehicle_costs_of(kinds, nodes))
     return Remainder(left, tuple(source), kinds, owners)
 
 

@@ -43,7 +43,8 @@ def evaluate(instance: Instance) -> Records:
     apart = instance.goods.shape[1] > 0
     farther = types["max_trip_distance"] < UNLIMITED
     paired = instance.pair.shape[1] > 0
-    by_distance = (by_detour & ~(timed | release | apart | farther | paired)
+    differ = instance.vehicle_cost.shape[2] > 0
+    by_distance = (by_detour & ~(timed | release | apart | farther | paired | differ)
                    & (types["max_trips"] == 1) & (types["drones"] == 0) & ~flies)
     evaluation = np.zeros(len(types), dtype_of("tandem_evaluation"))
     for name, told in (("timed", timed), ("priced", priced), ("held_back", held_back),

@@ -49,6 +49,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
         setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
         pair=instance.pair[0], max_between=instance.max_between[0],
+        vehicle_cost=instance.vehicle_cost[0],
         no_launch=instance.no_launch[0], hub=instance.hub[0], **halts._asdict(),
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),
         evaluation=evaluation, reload=instance.reload[0], visits=visits,
@@ -142,6 +143,8 @@ def _must_serve(problem: Problem, instance: Instance) -> BoolArray:
             longest[ends] = float(distance[kind.begins_at].max() + distance[:, kind.ends_at].max())
         dearest = max(dearest, kind.fixed_cost + kind.cost_per_stop
                       + longest[ends] / MM_PER_KM * kind.cost_per_km)
+    if problem.vehicle_costs is not None:
+        dearest += float(problem.vehicle_costs.max(initial=0.0))
     must_serve: BoolArray = instance.unassigned_cost[0] + instance.unassigned_more[0] > dearest
     return must_serve
 
@@ -171,11 +174,12 @@ def _splices(problem: Problem, rates: Records, swap: BoolArray) -> BoolArray:
 
     They hold and cost the same, so that distance tells what that saves.
     """
-    kinds = problem.vehicle_types
+    kinds, priced = problem.vehicle_types, problem.vehicle_costs
     # What a vehicle has worked before it may begin costs as if it were fixed.
     names = [name for name in rates.dtype.names or () if name != "fixed"]
     group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.pickups,
-                        tuple(rates[names][index].tolist()))
+                        tuple(rates[names][index].tolist()),
+                        None if priced is None else priced[index].tobytes())
                        for index, kind in enumerate(kinds)])
     plain = np.array([kind.drones is None and kind.max_trips == 1 for kind in kinds])
     splices: BoolArray = (group[:, None] == group) & plain & plain[:, None]

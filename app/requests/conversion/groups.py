@@ -8,10 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from app.requests.conversion.names import number_in
-from app.schemas.customer import CustomerInput
+from app.schemas.customer import CustomerInput, VehiclesInput
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.vehicle import VehicleTypeInput
-from model.problem import BoolArray, VehicleType
+from model.problem import BoolArray, FloatArray, VehicleType
 
 MOST_NAMED = 3
 """Vehicles of a group that its name tells."""
@@ -27,6 +27,7 @@ class Group(NamedTuple):
     numbers: tuple[int, ...] | None  # from 0, ascending; None: all of the type
     is_named: bool  # customers name them: one more vehicle of the type would be none of them
     serves: BoolArray  # (customer,), then (launch site,)
+    costs: FloatArray  # likewise, of serving; none if nobody states any
 
 
 class Roster:
@@ -34,9 +35,15 @@ class Roster:
 
     def __init__(self, fleet: Sequence[VehicleTypeInput]) -> None:
         self._types = {kind.id: (index, kind.count) for index, kind in enumerate(fleet)}
+        self._found: dict[str, Place | None] = {}  # thousands may name the same thousand
 
     def find(self, name: str) -> Place | None:
         """Return the type that a name means, else the vehicle; None if there is none."""
+        if name not in self._found:
+            self._found[name] = self._look_up(name)
+        return self._found[name]
+
+    def _look_up(self, name: str) -> Place | None:
         if name in self._types:
             return self._types[name][0], None
         stem = name.rpartition("-")[0]
@@ -45,49 +52,86 @@ class Roster:
         return None if number is None or number >= count else (index, number)
 
 
+class _Terms(NamedTuple):
+    """How vehicles are treated, by type: most of them, and those that aren't treated so."""
+
+    serves: BoolArray  # (type, customer)
+    costs: FloatArray  # likewise
+    barred: list[dict[int, list[int]]]  # by vehicle: who treats it otherwise than `serves` says
+    priced: list[dict[int, list[tuple[int, float]]]]  # by vehicle: who states another cost
+
+
 def groups_of(fleet: Sequence[VehicleTypeInput],
               customers: Sequence[CustomerInput | LaunchSiteInput]) -> Iterator[Group]:
-    """Yield vehicles by whom they may serve, as few groups as need be; none if anybody anyone.
+    """Yield vehicles by whom they may serve at what cost, as few groups as need be.
 
-    Launch sites come behind customers. What they name is there. A type's groups follow one another,
-    unnamed vehicles first.
+    None if anybody serves anyone at none. Launch sites come behind customers. What they name is
+    there. A type's groups follow one another, unnamed vehicles first.
     """
     choosy = [(column, customer.vehicles) for column, customer in enumerate(customers)
               if customer.vehicles is not None and customer.vehicles.names]
-    if not choosy:
+    priced = [(column, customer.vehicle_costs) for column, customer in enumerate(customers)
+              if isinstance(customer, CustomerInput) and customer.vehicle_costs]
+    if not choosy and not priced:
         return
     roster = Roster(fleet)
-    places = {name: roster.find(name)
-              for name in {name for _, vehicles in choosy for name in vehicles.names}}
-    usual: BoolArray = np.ones((len(fleet), len(customers)), np.bool_)
-    unusual: list[dict[int, list[int]]] = [defaultdict(list) for _ in fleet]
+    width = len(customers)
+    terms = _Terms(np.ones((len(fleet), width), np.bool_),
+                   np.zeros((len(fleet), width if priced else 0)),
+                   [defaultdict(list) for _ in fleet], [defaultdict(list) for _ in fleet])
+    _let_serve(terms, roster, choosy)
+    _let_cost(terms, roster, priced)
+    for kind, stated in enumerate(fleet):
+        yield from _groups(kind, stated.count, terms)
+
+
+def _let_serve(terms: _Terms, roster: Roster,
+               choosy: Sequence[tuple[int, VehiclesInput]]) -> None:
+    """Note who lets only some vehicles serve him. In place."""
     for column, vehicles in choosy:
         is_allowed = vehicles.allowed is not None
-        named = {place for name in vehicles.names if (place := places[name]) is not None}
-        usual[:, column] = not is_allowed
-        usual[[kind for kind, number in named if number is None], column] = is_allowed
+        named = set(filter(None, map(roster.find, vehicles.names)))
+        terms.serves[:, column] = not is_allowed
+        terms.serves[[kind for kind, number in named if number is None], column] = is_allowed
         for kind, number in named:
-            if number is not None and usual[kind, column] != is_allowed:
-                unusual[kind][number].append(column)
-    for kind, stated in enumerate(fleet):
-        yield from _groups(kind, stated.count, usual[kind], unusual[kind])
+            if number is not None and terms.serves[kind, column] != is_allowed:
+                terms.barred[kind][number].append(column)
 
 
-def _groups(kind: int, count: int, usual: BoolArray,
-            unusual: Mapping[int, Sequence[int]]) -> Iterator[Group]:
-    """Yield a type's groups by the customers whom single vehicles don't treat as usual."""
-    alike: dict[tuple[int, ...], list[int]] = defaultdict(list)
+def _let_cost(terms: _Terms, roster: Roster,
+              priced: Sequence[tuple[int, Mapping[str, float]]]) -> None:
+    """Note who costs more by some vehicles. In place."""
+    for column, costs in priced:
+        places = {place: cost for name, cost in costs.items()
+                  if (place := roster.find(name)) is not None}
+        for (kind, number), cost in places.items():
+            if number is None:
+                terms.costs[kind, column] = cost
+        for (kind, number), cost in places.items():
+            if number is not None and terms.costs[kind, column] != cost:
+                terms.priced[kind][number].append((column, cost))
+
+
+def _groups(kind: int, count: int, terms: _Terms) -> Iterator[Group]:
+    """Yield a type's groups by the customers who don't treat single vehicles as usual."""
+    alike: dict[tuple[tuple[int, ...], tuple[tuple[int, float], ...]], list[int]]
+    alike = defaultdict(list)
+    usual, cost = terms.serves[kind], terms.costs[kind]
+    barred, priced = terms.barred[kind], terms.priced[kind]
+    unusual = barred.keys() | priced.keys()
     for number in sorted(unusual):
-        alike[tuple(unusual[number])].append(number)
+        alike[tuple(barred.get(number, ())), tuple(priced.get(number, ()))].append(number)
     if not alike:
-        yield Group(kind, None, False, usual)
+        yield Group(kind, None, False, usual, cost)
     elif len(unusual) < count:
         rest = tuple([number for number in range(count) if number not in unusual])
-        yield Group(kind, rest, False, usual)
-    for columns, numbers in alike.items():
-        serves = usual.copy()
+        yield Group(kind, rest, False, usual, cost)
+    for (columns, prices), numbers in alike.items():
+        serves, costs = usual.copy(), cost.copy()
         serves[list(columns)] ^= True
-        yield Group(kind, tuple(numbers), True, serves)
+        for column, price in prices:
+            costs[column] = price
+        yield Group(kind, tuple(numbers), True, serves, costs)
 
 
 def part_of(kind: VehicleType, group: Group) -> VehicleType:

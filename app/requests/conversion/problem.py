@@ -1,5 +1,6 @@
 """`PlanRequest` -> `Problem` and planning options; quantities are rounded here, once."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -7,7 +8,7 @@ import numpy as np
 from app.requests.conversion.amounts import decimals_of
 from app.requests.conversion.customer import to_customer
 from app.requests.conversion.ground import Ground
-from app.requests.conversion.groups import groups_of, part_of
+from app.requests.conversion.groups import Group, groups_of, part_of
 from app.requests.conversion.leaving_out import default_unassigned_cost
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
@@ -17,7 +18,7 @@ from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
-from model.problem import Customer, IncompatibleGoods, Problem, Shipment
+from model.problem import Customer, FloatArray, IncompatibleGoods, Problem, Shipment
 
 
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
@@ -43,12 +44,13 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     groups = list(groups_of(request.fleet, [*request.customers, *request.launch_sites]))
     kinds = [group.type for group in groups] or list(range(len(request.fleet)))
     serves = np.array([group.serves for group in groups]) if groups else None
+    costs = _vehicle_costs(groups, len(customers))
     if groups:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
     unassigned_cost = request.unassigned_cost
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
-                                                  decimals)
+                                                  decimals) + _dearest(costs)
     return Problem(
         depots=tuple([
             replace(depot, site=site, launch=launch, batteries=batteries, chargers=chargers)
@@ -61,12 +63,25 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         unassigned_cost=unassigned_cost,
         amount_decimals=decimals,
         may_serve=None if serves is None else serves[:, :len(customers)],
+        vehicle_costs=costs,
         may_stop=placed.may_stop(kinds, None if serves is None else serves[:, len(customers):]),
         must_serve=request.unassigned_cost is None,
         incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
                                  for each in request.incompatible_goods),
         shipments=shipments,
     )
+
+
+def _vehicle_costs(groups: Sequence[Group], num_customers: int) -> FloatArray | None:
+    """Return what it costs to be served by each group; None if nobody states anything."""
+    if not groups or not any(group.costs.any() for group in groups):
+        return None
+    return np.array([group.costs[:num_customers] for group in groups])
+
+
+def _dearest(costs: FloatArray | None) -> float:
+    """Return what a vehicle costs most to serve somebody, on top."""
+    return 0.0 if costs is None else float(costs.max(initial=0.0))
 
 
 def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],

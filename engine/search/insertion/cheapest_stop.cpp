@@ -33,7 +33,8 @@ bool may_join(const Insertion& insertion, Int slot, Int index, Joining& joins) {
     const Int k = fleet.route[slot].type;
     if (!goods_may_join(data, fleet, slot, index, node)) return false;
     if (takes(data, fleet, slot, index, k, node)) {
-        joins = {slot, k, data.rate[k].distance, data.rate[k].stop};
+        joins = {slot, k, data.rate[k].distance,
+                 data.rate[k].stop + vehicle_cost_at(data.vehicle_cost, k, node)};
         return true;
     }
     if (!enlarge) return false;

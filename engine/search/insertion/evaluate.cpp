@@ -327,7 +327,8 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int skipped = copy_part(fleet, slot, part, to);
     apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node, partner);
     give_releases(fleet, to, alone, trip, release);
-    double cost = price_part(data, fleet, slot, part, to);
+    double cost =
+        price_part(data, fleet, slot, part, to) + vehicle_cost_at(data.vehicle_cost, k, node);
     if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
         cost += data.rate[k].stop;
     } else if (uses_halt(move) || kind == halt_trip) {
@@ -390,6 +391,7 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
     }
     const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
     if (!may_work(type, working)) return infeasible;
+    cost += vehicle_cost_at(data.vehicle_cost, k, node);
     return cost + data.rate[k].stop + longer_cost(type, data.rate[k], route, finish, working);
 }
 

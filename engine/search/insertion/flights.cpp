@@ -57,7 +57,7 @@ public:
           crosses_(data_.strategy.crossings &&
                    !waits_for_drones(data_.type[searcher_.now.route[slot].type])),
           best_(insertion.best.cost),
-          early_(searcher_.now.early[slot]),
+          saved_(most_saved(data_, searcher_.now, slot, node_)),
           idle_(idle_time(searcher_.now.route[slot])),
           priced_(data_.evaluation[searcher_.now.route[slot].type].priced),
           loaded_(loads_cost(data_, searcher_.now.route[slot].type)) {}
@@ -68,11 +68,11 @@ public:
         if (!is_launch_place(data_.no_launch, from.node)) return;
         const Leg out = leg_from(inward_, from.node);
         // Most stops are so far away that nothing else needs to be looked at.
-        if (flown_cost(rate_, out.distance) - early_ >= best_) return;
+        if (flown_cost(rate_, out.distance) - saved_ >= best_) return;
         if (!in_range(data_, type_, from.node, node_)) return;
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
         const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
-        if (flown_cost(rate_, out.distance) + late - early_ >= best_) return;
+        if (flown_cost(rate_, out.distance) + late - saved_ >= best_) return;
         if (place_.too_late(from.arrival + out.duration)) return;
         const Int served = place_.end_of_service(from.arrival + out.duration);
         const Int left = gone_by(type_, from.leave);
@@ -85,7 +85,7 @@ public:
             const Stop& to = stops_[recovery];
             const Leg home = leg_to(onward_, to.node);
             const double flown = flown_cost(rate_, out.distance + home.distance);
-            if (flown + late - early_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
+            if (flown + late - saved_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
             if (!is_launch_place(data_.no_launch, to.node)) continue;
             if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
                                               stops_[recovery + 1].latest) {
@@ -101,7 +101,7 @@ public:
             }
             // The truck leaves no sooner than the drone is aboard, whatever else it has time for.
             const Int longer = std::max(Int{0}, begun + flight.duration() - to.leave);
-            double cost = flown + usual_work_cost(rate_, longer) + late - early_;
+            double cost = flown + usual_work_cost(rate_, longer) + late - saved_;
             if (loaded_) {
                 cost += load_more(data_, searcher_.now, slot_, launch, recovery, node_);
             }
@@ -129,7 +129,7 @@ private:
     Room room_;
     bool crosses_;
     double best_;
-    double early_;  // what the route's waiting costs, which may become less
+    double saved_;  // at most, beside what is flown and worked
     Int idle_;      // how long the route could work longer at no cost
     bool priced_;
     bool loaded_;

@@ -46,7 +46,7 @@ public:
           onward_(legs_from(data_.leg, type_.home_travel, node_)),
           crossing_(data_.strategy.crossings && !waits_for_drones(data_.type[k_])),
           best_(insertion.best.cost),
-          early_(searcher_.now.early[slot]),
+          saved_(most_saved(data_, searcher_.now, slot, node_)),
           idle_(idle_time(searcher_.now.route[slot])) {}
 
     // Lists those for which the truck stops at a launch site behind stop `p`.
@@ -62,7 +62,7 @@ public:
         const Trip& trip = searcher_.now.trip(slot_, here.trip);
         const Int distance = there.distance + on.distance - here.leg;
         if (distance > longest_trip(data_.type[k_]) - trip.distance) return;
-        const double driven = drive_cost(data_.rate[k_], distance) + data_.halt_cost[halt] - early_;
+        const double driven = drive_cost(data_.rate[k_], distance) + data_.halt_cost[halt] - saved_;
         if (driven + flown_cost(rate_, std::min(out.distance, home.distance)) >= best_) return;
         // While drones fly, the truck may have time before they are back.
         const Int detour = there.duration + on.duration - here.gap;
@@ -174,7 +174,7 @@ private:
     LegRow onward_;
     bool crossing_;  // drones may be recovered elsewhere than they are launched
     double best_;
-    double early_;  // what the route's waiting costs, which may become less
+    double saved_;  // at most, beside what is driven, flown and worked
     Int idle_;      // how long the route could work longer at no cost
 };
 
@@ -219,7 +219,7 @@ void offer_halt_trips(const Insertion& insertion, Int slot) {
             const Int driven = leg(legs, depot, halt).distance + leg(legs, halt, depot).distance;
             const double cost = drive_cost(data.rate[k], driven) + data.halt_cost[halt] +
                                 flown_cost(data.rate[row], out.distance + home.distance) -
-                                now.early[slot];
+                                most_saved(data, now, slot, node);
             if (cost >= best.cost || !flight.can_serve()) continue;
             for (Int p = -1; p < route.length; ++p) {
                 if (p >= 0 && now.stop(slot, p).kind != end_stop) continue;

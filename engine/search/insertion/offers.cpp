@@ -34,12 +34,12 @@ struct LeastCost {
     const Newcomer& newcomer;
     Int k;
     Int spare;     // how long the route could work longer at no cost
-    double early;  // what its waiting costs, which may become less
+    double saved;  // at most, beside all that
 
     // Returns that between two stops; `best` if it is no less, or not allowed.
     double between(const Stop& here, const Stop& behind, const Detour& detour, double best) const {
         const Rate& rate = data.rate[k];
-        double cost = drive_cost(rate, detour.distance) - early;
+        double cost = drive_cost(rate, detour.distance) - saved;
         cost += rate.stop;
         const Evaluation& evaluation = data.evaluation[k];
         if (evaluation.timed) {
@@ -146,7 +146,8 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const View<const Stop, 1> stops = now.stop[slot];
     const Newcomer newcomer = newcomer_for(data, data.type[k], node);
     const Room room = room_on(data, now, slot, k, node);
-    const LeastCost least{data, newcomer, k, idle_time(now.route[slot]), now.early[slot]};
+    const LeastCost least{data, newcomer, k, idle_time(now.route[slot]),
+                          most_saved(data, now, slot, node)};
     const Int most = longest_trip(data.type[k]) - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
         const Stop &here = stops[p], &behind = stops[p + 1];
@@ -189,7 +190,8 @@ void offer_joining(const Insertion& insertion, Int slot) {
             const Int further = leg(flights, here, node).distance +
                                 leg(flights, node, there).distance -
                                 leg(flights, here, there).distance;
-            const double cost = flown_cost(data.rate[row], further) - now.early[slot];
+            const double cost =
+                flown_cost(data.rate[row], further) - most_saved(data, now, slot, node);
             here = there;
             if (cost >= best) continue;
             if (place > 0 && tiers_of(data) > 0) {
@@ -211,7 +213,7 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
         const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
         const Leg out = leg(flights, depot, node), home = leg(flights, node, depot);
         double cost = flown_cost(data.rate[row], out.distance + home.distance);
-        cost -= now.early[slot];
+        cost -= most_saved(data, now, slot, node);
         if (unreachable(std::max(out.duration, home.duration)) || cost >= best.cost ||
             !data.can(row, 1, node) || !may_begin(data, k, node) ||
             !in_range(data, data.type[row], depot, node) ||
@@ -260,7 +262,7 @@ void offer_trips(const Insertion& insertion, Int slot) {
             }
             if (cost < best && !part_fits(data, now, slot, p, node, kind == trip_until)) continue;
         }
-        cost += data.rate[k].stop - now.early[slot];
+        cost += data.rate[k].stop - most_saved(data, now, slot, node);
         // Each of two trips carries less, at best next to nothing.
         if (kind != new_trip && loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;
@@ -306,7 +308,7 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
                 cost = behind;
             }
         }
-        cost += data.rate[k].stop - now.early[slot];
+        cost += data.rate[k].stop - most_saved(data, now, slot, node);
         // Whoever was served may be carried less far, at best next to nowhere.
         if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
         if (kind == new_trip && !may_begin(data, k, node)) continue;

@@ -55,7 +55,9 @@ public:
           pickup_(newcomer_for(data_, type_, insertion.node)),
           delivery_(newcomer_for(data_, type_, data_.pair[insertion.node].partner)),
           fits_(insertion.searcher.scratch->fits),
-          stops_cost_(double(ends_of_pair) * rate_.stop) {
+          stops_cost_(double(ends_of_pair) * rate_.stop +
+                      vehicle_cost_at(data_.vehicle_cost, route_.type, pickup_.node) +
+                      vehicle_cost_at(data_.vehicle_cost, route_.type, delivery_.node)) {
         mark_fits(data_, fleet_, slot, trip, insertion.node, fits_);
     }
 

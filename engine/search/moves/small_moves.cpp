@@ -428,6 +428,12 @@ double SmallMoves::cost(Int k, const OperationRow& row) const {
         sum += std::min(across, waiting);
         begin = end;
     }
+    if (data_.vehicle_cost.empty()) return sum;
+    for (Int place = 0; place < row.length(); ++place) {
+        const OperationStop& stop = row[place];
+        sum += data_.vehicle_cost(k, stop.node);
+        if (stop.flown != nobody) sum += data_.vehicle_cost(k, stop.flown);
+    }
     return sum;
 }
 

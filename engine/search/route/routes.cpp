@@ -41,6 +41,18 @@ bool halts_in_order(const ProblemData& data, const Route& route, View<const Stop
     return true;
 }
 
+// Return what it costs on top by which vehicle a route's customers are served.
+double vehicle_cost_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                       View<const Sortie, 1> sorties) {
+    const View<const double, 1> price = data.vehicle_cost[route.type];
+    double cost = 0.0;
+    for (const Stop& stop : stops.first(route.length)) cost += price[stop.node];
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        for (Int visit = 0; visit < sortie.count; ++visit) cost += price[sortie.nodes[visit]];
+    }
+    return cost;
+}
+
 }  // namespace
 
 bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
@@ -277,6 +289,7 @@ RoutePrice price_route(const ProblemData& data, const Route& route, View<Stop, 1
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         price.cost += sortie_cost(data, k, stops, sortie);
     }
+    if (!data.vehicle_cost.empty()) price.cost += vehicle_cost_on(data, route, stops, sorties);
     if (data.evaluation[k].priced) {
         const auto [late, early] = price_windows(data, route, stops, sorties);
         price.cost += late + early;

@@ -50,4 +50,6 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
         pair["partner"][paired] = numbering.number[pair["partner"][paired]]
     if instance.max_between.shape[2]:
         by_node["max_between"] = np.take(instance.max_between, node, 2)
+    if instance.vehicle_cost.shape[2]:
+        by_node["vehicle_cost"] = np.take(instance.vehicle_cost, node, 2)
     return instance._replace(**by_node)

@@ -70,7 +70,8 @@ def part_of(problem: Problem, region: Region) -> Part:
                             for kind, all_of_it in zip(kinds, vehicles, strict=True)),
         travel=tuple(legs.among(chosen) for legs in problem.travel),
         coordinates=problem.coordinates[chosen],
-        may_serve=may_serve, may_stop=may_stop, shipments=problem.shipments_among(nodes),
+        may_serve=may_serve, vehicle_costs=problem.vehicle_costs_of(kinds, customers),
+        may_stop=may_stop, shipments=problem.shipments_among(nodes),
     ), nodes, vehicles)
 
 

@@ -71,6 +71,7 @@ class ProblemData(NamedTuple):
     max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
     pair: Records  # (node,), none where there are no shipments
     max_between: IntArray  # (type, node) ms from a pickup to its delivery, none where unlimited
+    vehicle_cost: FloatArray  # (type, node) of being served by it, none where nobody states any
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
     hub: Records  # (depot,), none where all have enough
     halts: BoolArray  # (type, depot) launch sites where it may stop; (0, 0) if there are none

@@ -133,6 +133,35 @@ def test_one_customer_has_one_kind_of_window(client: httpx.Client, smallest: Req
         "TWO_KINDS_OF_WINDOWS", "$.customers[0].time_windows")
 
 
+def test_who_is_preferred_serves_unless_it_costs_more(
+        client: httpx.Client, searching: httpx.Client, smallest: Request) -> None:
+    smallest["fleet"][0] |= {"count": 2, "max_stops": 1}
+    first, second = smallest["customers"]
+    first["vehicle_costs"] = {"truck": 5, "truck-2": 1}
+    smallest["customers"].append(second | {"id": "C", "vehicle_costs": {"truck-1": 2}})
+    second |= {"vehicles": {"forbidden": ["truck"]}, "unassigned_cost": 1}
+    smallest["options"] = {"search_iterations": 300, "time_limit": 60}
+    plan = client.post("/plan", json=smallest).json()
+    assert plan["cost"]["stops"] == 5
+    plan = searching.post("/plan", json=smallest | {"replan": {"plan": plan}}).json()
+    served = {route["vehicle"]: [stop["id"] for stop in route["trips"][0]["stops"][1:-1]]
+              for route in plan["routes"]}
+    assert (served, plan["cost"]["stops"]) == ({"truck-2": ["A"], "truck-1": ["C"]}, 3)
+    checked = client.post("/check", json={"problem": smallest, "plan": plan}).json()
+    assert checked["feasible"]
+    assert checked["cost"] == plan["cost"]
+    told = client.post("/explain", json={"problem": smallest, "plan": plan, "customer": "A"}).json()
+    (other,) = [each for each in told["alternatives"] if each["kind"] == "vehicle"]
+    assert other["cost"]["stops"] == 5 - 1
+    again = client.post("/plan", json=smallest | {
+        "replan": {"plan": plan, "freeze_before": 60}}).json()
+    assert again["cost"]["stops"] == 3
+    first["vehicle_costs"] = {"lorry": 5}
+    (error,) = client.post("/plan", json=smallest).json()["errors"]
+    assert (error["code"], error["path"]) == (
+        "UNKNOWN_VEHICLE", "$.customers[0].vehicle_costs.lorry")
+
+
 def test_whoever_comes_between_two_windows_waits(client: httpx.Client, smallest: Request) -> None:
     # 5 km at 40 km/h: from 600 on it is reached at 1050, after the first window.
     smallest["fleet"][0]["shift"] = {"earliest": 600}

@@ -13,6 +13,7 @@ from tests.model.tiny import (
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
 )
+from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
 
 
@@ -143,6 +144,10 @@ def all_rules_own_durations(rng: np.random.Generator) -> Problem:
 
 def all_rules_goods_apart(rng: np.random.Generator) -> Problem:
     return with_goods(rng, all_rules(rng))
+
+
+def all_rules_vehicle_costs(rng: np.random.Generator) -> Problem:
+    return with_vehicle_costs(rng, all_rules(rng))
 
 
 def all_rules_setups(rng: np.random.Generator) -> Problem:

@@ -23,9 +23,10 @@ from tests.model.search.mixed_rules import (
     all_rules_on_batteries, all_rules_open,
     all_rules_open_reloading, all_rules_own_durations, all_rules_reloading, all_rules_revisits,
     all_rules_setups, all_rules_shipments,
-    all_rules_several_windows, all_rules_swapping,
+    all_rules_several_windows, all_rules_swapping, all_rules_vehicle_costs,
 )
 from tests.model.tiny import with_dimensions, with_places
+from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
@@ -189,6 +190,25 @@ def two_types_by_table(rng: np.random.Generator) -> Problem:
     return replace(problem, may_serve=rng.random((2, problem.num_customers)) < 0.7)
 
 
+def priced_types(rng: np.random.Generator) -> Problem:
+    return with_vehicle_costs(rng, two_types(rng))
+
+
+def priced_trips(rng: np.random.Generator) -> Problem:
+    """Two equal vehicles make two trips each, and customers prefer one of them."""
+    problem = two_trips(rng)
+    kind = replace(problem.vehicle_types[0], count=1)
+    return with_vehicle_costs(rng, replace(problem, vehicle_types=(kind, replace(kind, id="b"))))
+
+
+def priced_trucks(rng: np.random.Generator) -> Problem:
+    """Two equal trucks carry a drone each, and customers prefer one of them."""
+    problem = one_drone(rng)
+    kind = replace(problem.vehicle_types[0], count=1)
+    return with_vehicle_costs(rng, replace(
+        problem, vehicle_types=(kind, replace(kind, id="b")), customers=problem.customers))
+
+
 def unequal_customers(rng: np.random.Generator) -> Problem:
     """Leaving out some costs little, others much, and not all can be served."""
     cost = (None, 1.0, 4.0, 500.0, 2000.0)
@@ -313,7 +333,7 @@ KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
     timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries,
     small_and_large_drones, near_sorties, one_of_two_airborne, few_launch_places, shipments,
-    timed_shipments)
+    timed_shipments, priced_types, priced_trips, priced_trucks)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:
@@ -363,7 +383,7 @@ def test_search_finds_the_cheapest_plan_from_place_to_place(
     all_rules_setups, all_rules_shipments, all_rules_limits_aboard, all_rules_at_once,
     all_rules_swapping, all_rules_in_range, all_rules_few_airborne, all_rules_few_launch_places,
     all_rules_fliers, all_rules_few_at_hubs, all_rules_in_storms, all_rules_launch_sites,
-    all_rules_revisits],
+    all_rules_revisits, all_rules_vehicle_costs],
     ids=lambda draw: draw.__name__)
 def test_search_finds_the_cheapest_plan_whatever_else_is_stated(
         draw: Callable[[np.random.Generator], Problem]) -> None:

@@ -15,21 +15,22 @@ from model.search.regions.region import Region, customers_of, put_back, vehicle_
 from model.solution import Solution
 from tests.model.street import NO_POLICY
 from tests.model.tiny import (
-    with_dimensions, with_goods, with_own_costs, with_pickups, with_reloads,
-    with_setups, with_table,
+    with_dimensions, with_goods, with_own_costs, with_pickups, with_reloads, with_setups,
+    with_table,
 )
 from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
 )
+from tests.model.tiny_prices import with_vehicle_costs
 from training.instances import VARIANTS, generate
 
 OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=30)
 PLANNER = Planner(NO_POLICY)
-SEEDS = range(12)
+SEEDS = range(14)
 MORE_RULES = (with_own_costs, with_pickups, with_dimensions, with_goods,
               with_table, with_reloads, with_setups, with_hours, with_few_launch_places,
-              with_launch_sites, with_some_revisits)
+              with_launch_sites, with_some_revisits, with_vehicle_costs)
 
 
 def drawn(seed: int, customers: int = 24) -> Problem:

@@ -22,12 +22,13 @@ from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
     with_duty,
-    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends,
-    with_open_reloads, with_own_costs, with_own_durations, with_pickups, with_places, with_reloads,
-    with_setups, with_table, with_turnaround,
+    with_energy, with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
+    with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
+    with_table, with_turnaround,
 )
 from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
+from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
@@ -175,7 +176,8 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
     few_at_hubs_among_all, with_storms,
-    storms_among_all, fliers_in_range, with_launch_sites, few_airborne_in_no_time])
+    storms_among_all, fliers_in_range, with_launch_sites, few_airborne_in_no_time,
+    with_vehicle_costs])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):

@@ -324,6 +324,7 @@ export default {
     parcel: 'Paket da',
     onlyBy: 'Nur mit',
     notBy: 'Nicht mit',
+    costsBy: 'Kosten mit',
     leftOut: 'Nicht eingeplant',
     costs: 'kostet {{price}}',
     served: 'Bedient',
@@ -1061,6 +1062,7 @@ export default {
     up_w: 'Steigflug',
     up_w_per_kg: 'Steigflug je kg',
     vehicles: 'Fahrzeuge',
+    vehicle_costs: 'Kosten je Fahrzeug',
     weight_dimension: 'Gewicht steht in',
     matrices: 'Wegetabellen',
     roads: 'Straßen',
@@ -1157,6 +1159,7 @@ export default {
       unassigned_cost:
         'Was es kostet, diesen Kunden auszulassen. Leer: wie für alle, siehe „Flotte“.',
       vehicles: 'Welche Fahrzeuge kommen dürfen. Leer: alle.',
+      vehicle_costs: 'Was es mehr kostet, mit einem Typ oder Fahrzeug zu kommen: van-3.',
       launch: 'Ob Drohnen dort von einem Fahrzeug starten und wieder landen dürfen.',
       info: 'Was der Fahrer wissen soll, je eine Zeile: Adresse, Telefon, Hinweise.',
     },

@@ -71,3 +71,17 @@ def test_a_name_of_a_type_and_of_a_vehicle_means_the_type(request_of: Request) -
     problem = problem_of(request_of, {"allowed": ["truck-2"]}, None, None)
     assert problem.may_serve is not None
     assert problem.may_serve.tolist() == [[False, True, True], [True, True, True]]
+
+
+def test_customers_tell_vehicles_apart_by_what_they_cost(request_of: Request) -> None:
+    a, b, c = request_of["customers"]
+    a["vehicle_costs"] = {"truck": 5, "truck-1": 0, "van": 3}
+    b["vehicle_costs"] = {"truck-2": 4, "truck-1": 0}
+    c["vehicles"] = {"forbidden": ["truck-2"]}
+    problem = to_problem(read_request(json.dumps(request_of).encode(), policies=None))
+    assert problem.vehicle_costs is not None
+    assert problem.may_serve is not None
+    assert [(kind.id, kind.numbers) for kind in problem.vehicle_types] == [
+        ("truck", (2, 3, 4, 5)), ("truck-1", (0,)), ("truck-2", (1,)), ("van", ())]
+    assert problem.vehicle_costs.tolist() == [[5, 0, 0], [0, 0, 0], [5, 4, 0], [3, 0, 0]]
+    assert problem.may_serve[:, 2].tolist() == [True, True, False, True]

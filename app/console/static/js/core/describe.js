@@ -64,6 +64,9 @@ function customerFacts(customer) {
   const { allowed, forbidden } = customer.vehicles ?? {};
   if (allowed) facts.push([t('about.onlyBy'), allowed.join(', ')]);
   if (forbidden) facts.push([t('about.notBy'), forbidden.join(', ')]);
+  for (const [name, price] of Object.entries(customer.vehicle_costs ?? {})) {
+    facts.push([`${t('about.costsBy')} ${name}`, money(price)]);
+  }
   facts.push(...Object.entries(customer.info ?? {}));
   const price = customer.unassigned_cost;
   if (price !== null && price !== undefined) {

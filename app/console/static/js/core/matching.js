@@ -69,8 +69,11 @@ function pairing(formerRequest, request, departed) {
 export function withFormerNames(former, entry) {
   const { request, plan } = entry;
   if (plan.replan) return plan;
-  const wanted = new Set(request.customers.flatMap(({ vehicles }) => vehicles
-    ? [vehicles.allowed ?? [], vehicles.forbidden ?? []].flat() : []));
+  const wanted = new Set(request.customers.flatMap(({ vehicles, vehicle_costs: costs }) => [
+    ...(vehicles?.allowed ?? []),
+    ...(vehicles?.forbidden ?? []),
+    ...Object.keys(costs ?? {}),
+  ]));
   const matched = new Map(matchVehicles(former, entry).map(({ before, now }) => [now, before]));
   const names = new Map();
   for (const { id, count } of request.fleet) {
