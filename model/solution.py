@@ -65,7 +65,7 @@ class TakenBreak:
     at the next.
     """
 
-    number: int  # index into VehicleType.breaks
+    number: int  # index into VehicleType.breaks; `REST` of one that is asked by driving rules
     stop: int  # index into Trip.stops of the first of both
     place: BreakPlace
     arrival: int  # when the truck stands there

@@ -8,12 +8,13 @@ from typing import Any
 
 from app.plans.energy import energy_models, energy_wh, left_by_sorties, left_by_trips
 from app.requests.conversion.units import money, whole
+from app.schemas.driving import REST_ID
 from model.judge.check import Evaluation
 from model.judge.hubs import taken_at_hubs
 from model.judge.explain import Reason, explain
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
-from model.problem import MM_PER_KM, Problem
+from model.problem import MM_PER_KM, REST, Problem
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Stop, Trip, Visit
 
 Data = dict[str, Any]
@@ -144,7 +145,8 @@ def _breaks_behind(problem: Problem, kind: int, trip: Trip, stop: int,
     """Return the breaks between a stop of a trip and the next."""
     return [{
         "kind": "break",
-        "id": problem.vehicle_types[kind].breaks[taken.number].id,
+        "id": (REST_ID if taken.number == REST
+               else problem.vehicle_types[kind].breaks[taken.number].id),
         "arrival": taken.arrival / 1000,
         "service_start": taken.start / 1000,
         "departure": taken.end / 1000,

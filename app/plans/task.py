@@ -28,7 +28,7 @@ from app.requests.conversion.problem import problem_of
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.work import replanning_seconds
-from app.plans.rulebook import rules_named
+from app.plans.rulebook import laws_named, rules_named
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
 from app.requests.warnings.addresses import address_warnings
 from app.requests.warnings.finding import warnings_of
@@ -75,6 +75,7 @@ class Task:
     closures: Closures | None = None
     storms: Storms = field(default_factory=Storms)
     rules: list[Data] = field(default_factory=list)  # that drones name
+    laws: list[Data] = field(default_factory=list)  # that drivers keep
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -151,6 +152,8 @@ class Task:
         reply["warnings"] = warning_replies(self.warnings)
         if self.rules:
             reply["rules"] = self.rules
+        if self.laws:
+            reply["driving_rules"] = self.laws
         if self.places is not None and self.places.found:
             reply["addresses"] = self.places.replies()
         self._complete(reply, LEAST_GEOMETRY + MOST_GEOMETRY * options.time_limit)
@@ -212,18 +215,19 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     warnings = (*warnings_of(request, roads.profiles), *address_warnings(places.found))
     beside = (info_of(request), legs, geometry, warnings, Telling.of(request))
     replan, permits, closures = request.replan, Permits.of(request), Closures(placed, ground)
-    rules, storms = rules_named(request), Storms.of(request)
+    rules, laws, storms = rules_named(request), laws_named(request), Storms.of(request)
     if replan is None:
         estimates = travels.estimates()
         far = None if estimates is None else FarPlans(problem, estimates)
-        return Task(problem, None, *beside, far, places, permits, closures, storms, rules)
+        return Task(problem, None, *beside, far, places, permits, closures, storms, rules,
+                    laws)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
-                    closures=closures, storms=storms, rules=rules)
+                    closures=closures, storms=storms, rules=rules, laws=laws)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",

@@ -95,6 +95,27 @@ def break_errors(draft: Draft) -> Errors:
                                f"breaks[{seen[each.id]}] has the same id: give each its own.")
 
 
+def driving_errors(draft: Draft) -> Errors:
+    """Say which driving rules lack a number, or can't be kept beside what else is stated."""
+    for path, kind in draft.vehicle_types():
+        rules = kind.driving_rules
+        if rules is None:
+            continue
+        if rules.break_duration is None:
+            yield error_at("MISSING_BREAK_DURATION", (*path, "driving_rules", "break_duration"),
+                           "Nothing says how long a rest is: state break_duration, or a preset.")
+        stated = [("breaks", bool(kind.breaks)), ("speed_profile", bool(kind.speed_profile)),
+                  ("drones", any(drones.count > 0 for drones in kind.drone_types))]
+        for name in [name for name, is_stated in stated if is_stated]:
+            yield error_at("DRIVING_RULES_WITH", (*path, name),
+                           "Rests by driving_rules can't be planned beside it yet: leave "
+                           f"{name} out, or driving_rules.")
+        if draft.replan is not None and draft.replan.freeze_before is not None:
+            yield error_at("BREAKS_REPLANNED", (*path, "driving_rules"),
+                           "Which rests were taken before is not known: leave driving_rules out, "
+                           "or freeze_before.")
+
+
 def depot_errors(draft: Draft) -> Errors:
     """Say which types name a depot that isn't there."""
     if draft.depots is None or None in draft.depots:
@@ -178,8 +199,8 @@ def _is_countable(draft: Draft, drones: Flyer, energy: EnergyInput) -> bool:
     return is_countable(drones, energy, decimals, [counted(each, decimals) for each in asked])
 
 
-TRUCKS = ("breaks", "drones", "speed_profile", "start_location", "start_location_index",
-          "max_sorties", "max_airborne", "truck_waits", "revisits")
+TRUCKS = ("breaks", "driving_rules", "drones", "speed_profile", "start_location",
+          "start_location_index", "max_sorties", "max_airborne", "truck_waits", "revisits")
 """Fields of a vehicle type that nothing has which flies by itself."""
 
 FLYING = ("altitude", "endurance", "max_range", "max_wind_kmh", "preset", "launch_duration",

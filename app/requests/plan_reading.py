@@ -11,6 +11,7 @@ from app.requests.conversion.places import revisits, stands_of
 from app.requests.conversion.units import thousandths
 from app.requests.reading import read_json
 from app.schemas.customer import CustomerInput
+from app.schemas.driving import REST_ID
 from app.schemas.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
 from app.schemas.hints import with_hints
 from app.schemas.launch_site import LaunchSiteInput
@@ -18,7 +19,7 @@ from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, Trip
 from app.schemas.request import DepotInput
 from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
-from model.problem import Problem, VehicleType
+from model.problem import REST, Problem, VehicleType
 from model.solution import BreakPlace, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
 
 NO_MORE = -1
@@ -266,7 +267,10 @@ class _PlanReader:
             if stop.kind != "break":
                 before += 1
                 continue
-            number = self._find((*path, "stops", index, "id"), "break", known, stop.id, stop.id, 0)
+            number = REST
+            if kind.kind is None or kind.kind.driving is None or stop.id != REST_ID:
+                number = self._find((*path, "stops", index, "id"), "break", known, stop.id,
+                                    stop.id, 0)
             yield TakenBreak(number, before, _break_place(trip.stops, index),
                              thousandths(stop.arrival), thousandths(stop.service_start),
                              thousandths(stop.departure))

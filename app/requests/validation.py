@@ -11,8 +11,8 @@ from app.requests.customer_validation import (
 )
 from app.requests.draft import Draft, Errors, Path, are_right, error_at, point_errors
 from app.requests.fleet_validation import (
-    break_errors, depot_errors, drone_errors, energy_errors, flight_errors, hours_errors,
-    shift_errors, speed_errors, turnaround_errors,
+    break_errors, depot_errors, driving_errors, drone_errors, energy_errors, flight_errors,
+    hours_errors, shift_errors, speed_errors, turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
 from app.requests.site_validation import site_errors
@@ -48,6 +48,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *shift_errors(draft),
         *hours_errors(draft),
         *break_errors(draft),
+        *driving_errors(draft),
         *_dimension_errors(draft),
         *amount_errors(draft.customers or (), draft.fleet or ()),
         *depot_errors(draft),

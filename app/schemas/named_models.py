@@ -41,6 +41,30 @@ class RuleNumbersReply(_Reply):
     altitude: float = Field(description="Metres above the ground.")
 
 
+class LawReply(_Reply):
+    """The numbers of driving rules, in seconds."""
+
+    max_driving: float | None = Field(description="At the wheel without a rest. Null: no limit.")
+    break_duration: float = Field(description="Length of a rest.")
+    split: list[float] | None = Field(
+        description="Lengths of two rests that are as good as one. Null: none are.")
+    max_driving_per_day: float | None = Field(
+        description="At the wheel of one vehicle. Null: no limit.")
+    max_work_before_break: float | None = Field(
+        description="At work without a rest. Null: no limit.")
+    max_working_duration: float | None = Field(
+        description="From first departure to last return. Null: no limit.")
+
+
+class DrivingLawReply(LawReply):
+    """The numbers of published driving rules that a vehicle type names."""
+
+    vehicle_type: str = Field(description="Id of the vehicle type.")
+    preset: str = Field(description="Name of the rule.")
+    source: str = Field(description="Where the rule stands, with its paragraphs.")
+    planned: LawReply = Field(description="What the plan keeps.")
+
+
 class PublishedRuleReply(_Reply):
     """The numbers of a published rule that a vehicle type's drones name. No permission to fly."""
 

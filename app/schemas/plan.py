@@ -174,6 +174,7 @@ class PlanInput(_Plan):
     energy_models: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     hubs: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    driving_rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     replan: Details = None
     plan_start: PlanStart | None = Field(
         None,

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.hub import HubReply
-from app.schemas.named_models import EnergyModelReply, PublishedRuleReply
+from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import STOP_ID_TEXT, STOP_KIND_TEXT, StopKind
 from app.schemas.replanned import ReplanReply
 from app.schemas.times import InstantReply, WordsReply
@@ -350,6 +350,9 @@ class PlanReply(_Reply):
     )
     rules: list[PublishedRuleReply] | None = Field(
         None, description="Published rules that drones name. Left out if none was named."
+    )
+    driving_rules: list[DrivingLawReply] | None = Field(
+        None, description="Published driving rules that are named. Left out if none was."
     )
     replan: ReplanReply | None = Field(
         None, description="What became of the plan given. Left out if none was."

@@ -12,6 +12,7 @@ from app.schemas.drones import (
     Flyer,
     TurnaroundInput,
 )
+from app.schemas.driving import LAWS, DrivingRulesInput
 from app.schemas.energy import EnergyInput
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
@@ -212,6 +213,9 @@ class VehicleTypeInput(Input):
     breaks: Annotated[list[BreakInput], Field(max_length=MAX_BREAKS)] = Field(
         [], description="Breaks of each vehicle's driver, in the order in which they are taken."
     )
+    driving_rules: DrivingRulesInput | None = Field(
+        None, description="Rests that each driver has to take, beside `breaks`. Null: none."
+    )
     max_trip_distance: Metres | None = Field(
         None, description="Longest drive of one trip in metres. Null: no limit."
     )
@@ -312,6 +316,16 @@ class VehicleTypeInput(Input):
     def _keep_own_rule(self) -> Self:
         """Fill in what the rule of who flies has and the request doesn't state."""
         fill_in(self, self.preset)
+        return self
+
+    @model_validator(mode="after")
+    def _keep_driving_rules(self) -> Self:
+        """Fill in how long the rule that drivers keep lets them work."""
+        rules = self.driving_rules
+        if (rules is not None and rules.preset is not None
+                and "max_working_duration" not in self.model_fields_set):
+            limit = LAWS[rules.preset].max_working_duration
+            object.__setattr__(self, "max_working_duration", limit)
         return self
 
     @model_validator(mode="after")

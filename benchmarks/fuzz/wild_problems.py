@@ -10,6 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from benchmarks.fuzz.wild_choices import RICHEST, choose_vehicles, prefer_vehicles
+from benchmarks.fuzz.wild_rests import let_rest
 
 Data = dict[str, Any]
 Point = list[float]
@@ -26,8 +27,7 @@ NAMES = ("#", "kunde #", "顧客-#", "Ünïcødé #", "🚚#", "a/b?#&=", "'\"#\
 
 def wild_request(rng: random.Random) -> Data:
     """Return a request."""
-    dimensions = rng.choice((1, 1, 2, 2, 3, 3, 8))
-    name = rng.choice(NAMES)
+    dimensions, name = rng.choice((1, 1, 2, 2, 3, 3, 8)), rng.choice(NAMES)
     system, unit, place = _geography(rng)
     depots: list[Data] = [{"id": f"D{number}", "location": place(),
                            **_maybe(rng, 0.1, time_window=_shift(rng))}
@@ -44,18 +44,12 @@ def wild_request(rng: random.Random) -> Data:
     if system == "planar" and rng.random() < 0.2:
         request["planar_rounding"] = rng.choice(
             ("exact", "round", "trunc", "dimacs", "thousandths"))
-    if rng.random() < 0.3:
-        choose_vehicles(rng, request)
-    if rng.random() < 0.2:
-        prefer_vehicles(rng, request)
-    if rng.random() < 0.3:
-        _keep_apart(rng, request)
-    if rng.random() < 0.3:
-        _serve_by_type(rng, request)
+    for share, change in ((0.25, let_rest), (0.3, choose_vehicles), (0.2, prefer_vehicles),
+                          (0.3, _keep_apart), (0.3, _serve_by_type), (0.2, _bar_launches)):
+        if rng.random() < share:
+            change(rng, request)
     if rng.random() < 0.3 and customers:
         _share_places(rng, request)
-    if rng.random() < 0.2:
-        _bar_launches(rng, request)
     if rng.random() < 0.2:
         _let_stop(rng, request, place)
     if rng.random() < 0.25:
@@ -318,9 +312,9 @@ def _serve_by_type(rng: random.Random, request: Data) -> None:
     """Let service take some vehicles longer than others, now and then unknown ones. In place."""
     names = [kind["id"] for kind in request["fleet"]]
     for kind in request["fleet"]:
-        drones = kind.get("drones")
-        types = drones if isinstance(drones, list) else [{"id": "drone"}]
-        names += [f"{kind['id']}/{each['id']}" for each in types]
+        types = kind.get("drones")
+        names += [f"{kind['id']}/{each['id']}" for each in (
+            types if isinstance(types, list) else [{"id": "drone"}])]
     if rng.random() < 0.02:
         names.append("nobody")
     for customer in request["customers"]:

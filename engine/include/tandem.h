@@ -86,7 +86,7 @@ typedef struct tandem_pair {
    trips; its legs hold launches and recoveries. Each of its trips takes a battery of the depot
    where it begins, or all beyond so many `trips_uncharged` together a place to charge at its own.
    Its driver has so many breaks, in order, of a route that began at `breaks_since` if that isn't
-   before all. */
+   before all. Whose driver `must_rest`, does as `rules/driving.h` says. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -152,6 +152,13 @@ typedef struct tandem_vehicle_type {
     int64_t break_after_departure[8]; /* whether both count from when the route begins */
     int64_t break_anywhere[8];
     int64_t break_unpaid[8];
+    int64_t must_rest;
+    int64_t rest_durations[3]; /* of a whole rest, and of the first and the second part of one */
+    int64_t max_driving;
+    int64_t max_driving_per_day;
+    int64_t max_work;
+    int64_t driven_before;
+    int64_t worked_before;
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
@@ -469,6 +476,14 @@ typedef struct tandem_broken_leg {
     int64_t leave;    /* of the leg */
     int64_t duration; /* at full speed, without setup */
 } tandem_broken_leg;
+
+/* What is counted of a driver since the last rest: how long it has driven, since when it has
+   worked, and whether it has taken the first part of a rest. */
+typedef struct tandem_driver {
+    int64_t driven;
+    int64_t since;
+    int64_t half_rested;
+} tandem_driver;
 
 /* A drone's way from a stop to its customers, and back at another or the same. */
 typedef struct tandem_sortie {
@@ -1371,6 +1386,10 @@ int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* sear
 /* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
    it. */
 int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot);
+/* Write when a driver stands for each rest on a leg, and for how long; who has driven it then. */
+int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k, const tandem_broken_leg* leg,
+                      tandem_driver* driver, const tandem_i64_2d* times);
+
 /* Write when a vehicle of a type stands for each break on a leg, and when that begins. */
 int tandem_break_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
                        const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "rules/breaks.h"
+#include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
@@ -196,9 +197,12 @@ struct Ride {
     Rests rests;
 };
 
-Ride ride(const Setting& setting, const Vehicle& vehicle, Int begin, Int to, Int leave) {
+Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle, Int to,
+          Int leave) {
     const Int here = vehicle.node;
-    if (!has_breaks(setting.type)) return {travel_arrival(setting, here, to, leave), {}};
+    const bool asks = has_driving_rules(setting.type);
+    if (!has_breaks(setting.type) && !asks) return {travel_arrival(setting, here, to, leave), {}};
+    const Int begin = log.trip[0].start;
     const Int setup = setup_after(setting.setup, here, to);
     const auto travel = travel_without_setup(setting, here, to);
     const bool is_customer = to >= setting.num_depots;
@@ -208,6 +212,15 @@ Ride ride(const Setting& setting, const Vehicle& vehicle, Int begin, Int to, Int
     const auto leaves = [&](Int arrival) {
         return is_customer ? setting.node[to].end_of_service(arrival + setup) : arrival;
     };
+    if (asks) {
+        Int driven = 0;
+        const std::optional<Driver> driver = driver_of(setting, log, driven);
+        if (!driver) return {-1, {}};
+        const std::optional<Rests> rests = rests_as_needed(
+            setting.type, *driver, leave, setting.drive(here, to) - setup, opens, leaves);
+        if (!rests) return {-1, {}};
+        return {come(setting, *rests, begin, here, to, leave), *rests};
+    }
     const std::optional<Rests> rests =
         rests_on_leg(setting.type, vehicle.rested, begin, leave, travel, leaves, opens);
     if (!rests) return {-1, {}};
@@ -280,14 +293,14 @@ Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const Vehicl
     return take_off(type, vehicle.crew, vehicle.launched);
 }
 
-Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int begin,
-                  Int to) {
+Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
+                  View<Drone, 1> drones, Int to) {
     const Leaving impossible{-1, -1, -1, {}};
     const Int here = vehicle.node;
     mark_places(setting, drones, here, to);
     if (vehicle.flying == 0) {
         const Int leave = std::max(vehicle.service_end, vehicle.free);
-        const auto [arrival, rests] = ride(setting, vehicle, begin, to, leave);
+        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave);
         return {vehicle.free, arrival, arrival, rests};
     }
     // Who can't be met loops, of which the others may be launched later, and so on.
@@ -295,7 +308,7 @@ Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1>
         const Int left = operate(setting, vehicle, drones, to);
         if (left < 0) return impossible;
         const Int leave = std::max(vehicle.service_end, left);
-        const auto [arrival, rests] = ride(setting, vehicle, begin, to, leave);
+        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave);
         if (arrival < 0) return impossible;
         const Int free = meet(setting, drones, here, arrival);
         if (free < 0) continue;

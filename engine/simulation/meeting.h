@@ -54,8 +54,8 @@ struct Leaving {
 };
 
 // Decide what the sorties in flight do if the truck drives to `to` next, and mark each as met or
-// looping, with its times. The route begins at `begin`.
-Leaving leave_for(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drones, Int begin,
-                  Int to);
+// looping, with its times.
+Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
+                  View<Drone, 1> drones, Int to);
 
 }  // namespace tandem

@@ -7,6 +7,7 @@
 #include "guard.h"
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/driving.h"
 #include "rules/flight.h"
 #include "rules/load.h"
 #include "rules/pair.h"
@@ -48,7 +49,7 @@ Verdict judge_drive(const OpenVehicle& open, std::optional<Int> earliest, Int no
         arrival = travel_arrival(setting, vehicle.node, node, leaves_first(setting.type, leave));
         free = arrival;
     } else {
-        const Leaving leaving = leave_for(setting, vehicle, drones, 0, node);
+        const Leaving leaving = leave_for(setting, log, vehicle, drones, node);
         if (leaving.arrival < 0) return Verdict::no;
         arrival = leaving.arrival;
         free = leaving.free;
@@ -90,7 +91,7 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     const Int delivered = given_by_flight(setting, node);
     board(open, drone, 0, node, takeoff);
     vehicle.given += delivered;
-    const Leaving leaving = leave_for(setting, vehicle, drones, 0, home);
+    const Leaving leaving = leave_for(setting, log, vehicle, drones, home);
     const bool is_held = leaving.arrival >= 0 && holds_all(setting, vehicle, drones, home, false);
     drone.sortie = in_flight;
     vehicle.given -= delivered;
@@ -143,7 +144,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
     const bool laden = carries_parcels(open);
     const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
-                        has_breaks(setting.type);
+                        has_breaks(setting.type) || has_driving_rules(setting.type);
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "rules/breaks.h"
+#include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/load.h"
@@ -257,8 +258,7 @@ bool drive(OpenVehicle& open, Int node) {
     } else if (is_customer && !hold_trip(open, release_of(place))) {
         return false;
     }
-    const auto [left, arrival, free, rests] =
-        leave_for(setting, vehicle, drones, log.trip[0].start, node);
+    const auto [left, arrival, free, rests] = leave_for(setting, log, vehicle, drones, node);
     if (arrival < 0 || (is_customer && place.too_late(arrival))) return false;
     if (!holds_all(setting, vehicle, drones, node, is_customer)) return false;
     log.stop[log.count.stops - 1].rests = rests.packed();
@@ -312,6 +312,8 @@ void close_vehicle(const Instance& instance, State& state, Int r) {
     OpenVehicle open = open_vehicle_of(instance, b, state, r);
     auto& [setting, vehicle, log, drones] = open;
     for (Int trip = 0; trip < log.count.trips; ++trip) {
+        // Who begins a later trip later has worked longer before its rests.
+        if (trip > 0 && has_driving_rules(setting.type)) continue;
         Int known = log.trip[trip].start;
         if (trip == 0) known = std::max(known, vehicle.start_best);
         Int start = latest_start(setting, log, trip, known);

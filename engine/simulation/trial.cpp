@@ -121,7 +121,7 @@ bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Int distance, con
     }
     return drive(open, setting.type.ends_at) && may_end(setting.type, vehicle.free) &&
            none_due(setting.type, vehicle.rested, log.trip[0].start, vehicle.free) &&
-           works_within(open);
+           has_rested(setting, log) && works_within(open);
 }
 
 // Do an action on a scratch row, after the end of the trip before if that is at a node.

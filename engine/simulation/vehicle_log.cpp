@@ -402,6 +402,33 @@ Int excess_in_air(const Setting& setting, const VehicleLog& log) {
 
 }  // namespace
 
+std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, Int& driven) {
+    Driver driver = driver_from(setting.type, log.trip[0].start);
+    driven = 0;
+    for (Int trip = 0; trip < log.count.trips; ++trip) {
+        const Int behind = stops_of(log, trip).behind;
+        for (Int index = log.trip[trip].first_stop + 1; index < behind; ++index) {
+            const LoggedStop& before = log.stop[index - 1];
+            const Int to = log.stop[index].node;
+            const Int duration =
+                setting.drive(before.node, to) - setup_after(setting.setup, before.node, to);
+            if (!drive_rested(setting.type, Rests(before.rests), before.leave, duration, driver)) {
+                return std::nullopt;
+            }
+            driven += duration;
+        }
+    }
+    return driver;
+}
+
+bool has_rested(const Setting& setting, const VehicleLog& log) {
+    if (!has_driving_rules(setting.type)) return true;
+    Int driven = 0;
+    const std::optional<Driver> driver = driver_of(setting, log, driven);
+    return driver && may_drive_in_a_day(setting.type, driven) &&
+           may_still_work(setting.type, *driver, log.stop[log.count.stops - 1].leave);
+}
+
 Int most_excess(const Setting& setting, const VehicleLog& log) {
     Int most = -far;
     if (some_limited(setting.max_time_aboard)) most = excess_of_parcels(setting, log);

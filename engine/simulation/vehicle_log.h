@@ -7,6 +7,7 @@
 
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/driving.h"
 #include "rules/flown_trip.h"
 #include "rules/pair.h"
 #include "rules/window.h"
@@ -71,10 +72,20 @@ inline auto travel_without_setup(const Setting& setting, Int origin, Int to) {
 // As `travel_arrival`, with breaks on a route that begins at `begin`; -1 if one can't be taken.
 inline Int come(const Setting& setting, Rests rests, Int begin, Int origin, Int to, Int leave) {
     if (rests.count() == 0) return travel_arrival(setting, origin, to, leave);
+    if (has_driving_rules(setting.type)) {
+        return travel_arrival(setting, origin, to, leave) + duration_of(setting.type, rests);
+    }
     const std::optional<Int> arrival =
         arrival_after(setting.type, rests, begin, leave, travel_without_setup(setting, origin, to));
     return arrival ? *arrival + setup_after(setting.setup, origin, to) : -1;
 }
+
+// What is counted of the driver once the last stop is reached; `driven` takes how long it has been
+// at the wheel on the way. Nothing if it lacks a rest.
+std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, Int& driven);
+
+// Whether the driver of a route that ends at its last stop has rested as rules ask.
+bool has_rested(const Setting& setting, const VehicleLog& log);
 
 // How long the breaks are that a vehicle has taken and that don't count in its working duration.
 inline Int unpaid_in(const Setting& setting, const VehicleLog& log) {

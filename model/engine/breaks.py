@@ -7,7 +7,7 @@ import numpy as np
 
 from model.engine.library import call, dtype_of
 from model.engine.records import Records, one
-from model.problem import MAX_BREAKS, IntArray, VehicleType
+from model.problem import MAX_BREAKS, REST, UNLIMITED, DrivingRules, IntArray, VehicleType
 
 NONE = -2**58
 """An instant earlier than any that occurs."""
@@ -24,6 +24,15 @@ class BreakTimes(NamedTuple):
     start: int
 
 
+class RestTimes(NamedTuple):
+    """A rest between two stops; times in ms."""
+
+    number: int
+    place: int  # index into PLACES
+    start: int
+    end: int
+
+
 def break_row(kind: VehicleType) -> tuple[int | tuple[int, ...], ...]:
     """Return how many breaks a driver has, since when, and what `tandem_vehicle_type` says of them.
     """
@@ -35,6 +44,35 @@ def break_row(kind: VehicleType) -> tuple[int | tuple[int, ...], ...]:
     rest = (0,) * (MAX_BREAKS - len(breaks))
     since = NONE if kind.works_since is None else kind.works_since
     return len(breaks), since, *((*map(int, column), *rest) for column in columns)
+
+
+def driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
+    """Return whether a driver has to rest, and what `tandem_vehicle_type` says of that."""
+    if rules is None:
+        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, UNLIMITED, 0, 0
+    return (1, (rules.rest, *(rules.split or (0, 0))), rules.max_driving,
+            rules.max_driving_per_day, rules.max_work, rules.driven_before, rules.worked_before)
+
+
+class RestingDriver:
+    """The driver of a route, from leg to leg, who rests by rules."""
+
+    def __init__(self, types: Records, k: int, begin: int) -> None:
+        self._types, self._k = types, k
+        self._driver = one(dtype_of("tandem_driver"))
+        self._driver.driven = types[k].driven_before
+        self._driver.since = begin - types[k].worked_before
+
+    def drive(self, rests: int, leave: int, arrival: int) -> list[RestTimes]:
+        """Return the rests on a leg that lasts from then until then."""
+        leg, count = one(dtype_of("tandem_broken_leg")), rests & 15
+        lengths = self._types[self._k].rest_durations
+        resting = sum([int(lengths[rests >> (4 + 5 * index) & 7]) for index in range(count)])
+        leg.rests, leg.leave, leg.duration = rests, leave, arrival - leave - resting
+        times = np.zeros((count, 2), np.int64)
+        call("tandem_rest_times", self._types, self._k, leg, self._driver, times)
+        return [RestTimes(REST, rests >> (7 + 5 * index) & 3, begin, begin + length)
+                for index, (begin, length) in enumerate(times.tolist())]
 
 
 def break_times(types: Records, profile: tuple[IntArray, IntArray], k: int, rests: int, begin: int,

@@ -12,7 +12,7 @@ import numpy as np
 from model.engine.amount_rows import padded, write_amounts
 from model.engine.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
 from model.engine.battery_rows import battery_row, full_row, powers_row
-from model.engine.breaks import break_row
+from model.engine.breaks import break_row, driving_row
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
@@ -287,7 +287,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         kind.trips_uncharged, _pickup_order(kind), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
-        *_storm_rows(drones), *break_row(kind))
+        *_storm_rows(drones), *break_row(kind), *driving_row(kind.driving))
 
 
 def _overtime_rate(kind: VehicleType) -> float:

@@ -9,21 +9,29 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from model.judge.clock import work_between, work_end
-from model.problem import FULL_SPEED, Break, VehicleType
+from model.problem import FULL_SPEED, REST, Break, VehicleType
 from model.solution import BreakPlace, TakenBreak, Trip
 
 
 class BreakDecision(NamedTuple):
     """Which break is taken between which stops."""
 
-    number: int  # index into VehicleType.breaks
+    number: int  # index into VehicleType.breaks, or `REST`
     stop: int  # index of the stop before it
     place: BreakPlace
+    driven: int = 0  # of a rest on the way: how long at the wheel since the break or stop before
+    duration: int = 0  # of a rest
 
 
 def decisions_of(trip: Trip) -> tuple[BreakDecision, ...]:
     """Return the choices that a timed trip states."""
-    return tuple([BreakDecision(taken.number, taken.stop, taken.place) for taken in trip.breaks])
+    decisions, before = [], (-1, 0)
+    for taken in trip.breaks:
+        left = trip.stops[taken.stop].departure if before[0] != taken.stop else before[1]
+        rest = (taken.arrival - left, taken.end - taken.start) if taken.number == REST else ()
+        decisions.append(BreakDecision(taken.number, taken.stop, taken.place, *rest))
+        before = taken.stop, taken.end
+    return tuple(decisions)
 
 
 def begin_of(kind: VehicleType, trip: Trip) -> int:
@@ -43,16 +51,21 @@ def drive(kind: VehicleType, begin: int, departure: int, duration: int,
     profile = kind.speed_profile
     time, work, taken = departure, duration * FULL_SPEED, []
     for decision in decisions:
-        each = kind.breaks[decision.number]
         if decision.place == "arrival":
             time, work = work_end(time, work, profile), 0
-        start = max(time, window_of(each, begin)[0])
+        if decision.number == REST:
+            length = decision.duration
+            start = time + (decision.driven if decision.place == "way" else 0)
+            start = min(start, work_end(time, work, profile))
+        else:
+            length = kind.breaks[decision.number].duration
+            start = max(time, window_of(kind.breaks[decision.number], begin)[0])
         stood = time
         if decision.place == "way":
             arrival = work_end(time, work, profile)
             work = 0 if arrival <= start else work - work_between(time, start, profile)
             stood = min(arrival, start)
-        time = start + each.duration
+        time = start + length
         taken.append(TakenBreak(decision.number, decision.stop, decision.place, stood, start, time))
     return work_end(time, work, profile), taken
 
@@ -63,6 +76,8 @@ def broken_breaks(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[tuple[in
     last = -1
     for index, trip in enumerate(trips):
         for taken in trip.breaks:
+            if taken.number == REST:
+                continue
             each = kind.breaks[taken.number]
             earliest, latest = window_of(each, begin)
             if taken.number <= last:
@@ -88,4 +103,4 @@ def is_due(each: Break, begin: int, end: int) -> bool:
 def unpaid(kind: VehicleType, trips: Iterable[Trip]) -> int:
     """Return how long the breaks of a route are that don't count in the working duration."""
     return sum([taken.end - taken.start for trip in trips for taken in trip.breaks
-                if not kind.breaks[taken.number].paid])
+                if taken.number != REST and not kind.breaks[taken.number].paid])

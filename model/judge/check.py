@@ -20,7 +20,7 @@ from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
 from model.judge.past_rules import begins_with, past_violations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
 from model.judge.timing import read_decision, resume_trip, schedule_trip
-from model.problem import UNREACHABLE, DroneType, Problem, VehicleType
+from model.problem import REST, UNREACHABLE, DroneType, Problem, VehicleType
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Trip
 
 NOTHING_KNOWN: Mapping[int, "JudgedRoute"] = MappingProxyType({})
@@ -205,7 +205,9 @@ def _unreadable_stops(problem: Problem, trip: Trip, path: str) -> Iterator[Viola
 
 def _unreadable_breaks(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
     for index, taken in enumerate(trip.breaks):
-        if not (0 <= taken.number < len(vehicle_type.breaks)
+        is_known = (vehicle_type.driving is not None if taken.number == REST
+                    else 0 <= taken.number < len(vehicle_type.breaks))
+        if not (is_known
                 and 0 <= taken.stop < len(trip.stops) - 1):
             yield Violation("BREAK", f"{vehicle_type.id} has no such break between two stops",
                             f"{path}.breaks[{index}]")

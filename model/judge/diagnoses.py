@@ -267,6 +267,11 @@ def _breaks(attempt: Attempt) -> Diagnosis:
                      f"{attempt.vehicle_type.id}.", None, None)
 
 
+def _driving(attempt: Attempt) -> Diagnosis:
+    return Diagnosis("DRIVING", f"Serving it alone takes longer than drivers of "
+                     f"{attempt.vehicle_type.id} may be at the wheel, or at work.", None, None)
+
+
 DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "VEHICLE": _vehicle,
     "SKILLS": _skills,
@@ -288,6 +293,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "TIME_ABOARD": _time_aboard,
     "SHIFT": _shift,
     "BREAK": _breaks,
+    "DRIVING": _driving,
     "WORKING_DURATION": _working_hours,
 }
 """Broken rules, the hardest to change first."""

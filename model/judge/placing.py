@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 from model.judge.breaks import BreakDecision, begin_of, broken_breaks, is_due
+from model.judge.driving import Excess, excesses
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import Problem
-from model.solution import BreakPlace, Route
+from model.problem import REST, DrivingRules, Problem
+from model.solution import BreakPlace, Route, Trip
 
 PLACES: tuple[BreakPlace, ...] = "departure", "arrival"
 
@@ -16,6 +17,8 @@ def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
     Breaks that are placed already stay. One that can't be anywhere is left out, and those behind.
     """
     kind = problem.vehicle_types[decision.vehicle_type]
+    if kind.driving is not None:
+        return with_due_rests(problem, decision)
     for number, each in enumerate(kind.breaks):
         route = schedule(problem, decision)
         begin, end = begin_of(kind, route.trips[0]), route.trips[-1].stops[-1].departure
@@ -50,6 +53,43 @@ def _ways(decision: RouteDecision, number: int) -> list[RouteDecision]:
 
 def _with(trip: TripDecision, more: BreakDecision) -> TripDecision:
     def order(taken: BreakDecision) -> tuple[int, bool, int]:
-        return taken.stop, taken.place == "arrival", taken.number
+        return taken.stop, taken.place == "arrival", max(0, taken.number)
 
     return replace(trip, breaks=tuple(sorted((*trip.breaks, more), key=order)))
+
+
+MOST_RESTS = 64
+"""Rests that are put on one route."""
+
+
+def with_due_rests(problem: Problem, decision: RouteDecision) -> RouteDecision:
+    """Return a route whose driver rests, each time as late as allowed.
+
+    Where all places are passed at which that would help, those behind are left out.
+    """
+    kind = problem.vehicle_types[decision.vehicle_type]
+    rules = kind.driving
+    if rules is None:
+        return decision
+    for _ in range(MOST_RESTS):
+        trips = schedule(problem, decision).trips
+        first = next((each for each in excesses(kind, trips) if each.what != "day"), None)
+        if first is None:
+            break
+        rested = _with(decision.trips[first.trip], _rest(rules, trips[first.trip], first))
+        if rested == decision.trips[first.trip]:
+            break
+        decision = replace(decision, trips=(*decision.trips[:first.trip], rested,
+                                            *decision.trips[first.trip + 1:]))
+    return decision
+
+
+def _rest(rules: DrivingRules, trip: Trip, excess: Excess) -> BreakDecision:
+    """Return a rest on the leg where somebody drives or works for too long, or before it."""
+    here, there = trip.stops[excess.stop], trip.stops[excess.stop + 1]
+    left = max([here.departure, *(taken.end for taken in trip.breaks
+                                  if taken.stop == excess.stop)])
+    driven = there.arrival - left - excess.excess
+    if driven >= 0:
+        return BreakDecision(REST, excess.stop, "way", driven, rules.rest)
+    return BreakDecision(REST, max(0, excess.stop - 1), "arrival", 0, rules.rest)

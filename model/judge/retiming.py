@@ -49,7 +49,7 @@ def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past)
     What is known of its trips must be in the decision as it is.
     """
     best = _best_timed(problem, decision, path, past)
-    if any(violation.code == "BREAK" for violation in best.judged.violations):
+    if any(violation.code in ("BREAK", "DRIVING") for violation in best.judged.violations):
         trips = tuple([replace(trip, breaks=()) for trip in decision.trips])
         rested = with_due_breaks(problem, replace(decision, trips=trips))
         best = min(best, _best_timed(problem, rested, path, past), key=lambda timed: timed.rank)

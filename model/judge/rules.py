@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.judge.breaks import broken_breaks
+from model.judge.driving import broken_driving
 from model.judge.energy import charges, sortie_energy
 from model.judge.flown_trips import airborne, trip_charges
 from model.judge.freshness import excess_aboard
@@ -374,6 +375,8 @@ def route_violations(
         ready = end + vehicle_type.reload_duration
     for number, message in broken_breaks(vehicle_type, [timed.trip for timed in trips]):
         yield Violation("BREAK", message, path if number is None else trips[number].path)
+    for number, message in broken_driving(vehicle_type, [timed.trip for timed in trips]):
+        yield Violation("DRIVING", message, trips[number].path)
     limit = vehicle_type.max_working_duration
     if limit is not None and metrics.working_duration > limit + over:
         message = (f"works {seconds(metrics.working_duration)}, at most {seconds(limit)} are "

@@ -87,7 +87,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
 
 def _judge(problem: Problem, decision: TripDecision) -> Attempt:
     route = RouteDecision(0, 0, (decision,))
-    if problem.vehicle_types[0].breaks:
+    if problem.vehicle_types[0].breaks or problem.vehicle_types[0].driving:
         route = with_due_breaks(problem, route)
     solution = Solution((schedule(problem, route),))
     return Attempt(problem, solution, check(problem, solution))

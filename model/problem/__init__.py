@@ -2,6 +2,7 @@
 
 from model.problem.breaks import MAX_BREAKS, Break
 from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
+from model.problem.driving import REST, DrivingRules
 from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
 from model.problem.fleet import MAX_STORMS, DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.hours import within_hours
@@ -18,9 +19,9 @@ from model.problem.travel import Travel
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
     "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
-    "MOST_INCOMPATIBLE", "MS_PER_HOUR", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "BoolArray",
-    "Break", "Customer", "Depot", "DepotKind", "DroneType", "Energy", "FloatArray",
-    "IncompatibleGoods", "Int32Array", "IntArray", "Overtime", "Pickups", "Points", "Problem",
-    "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray", "VehicleType",
-    "within_hours",
+    "MOST_INCOMPATIBLE", "MS_PER_HOUR", "REST", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS",
+    "BoolArray", "Break", "Customer", "Depot", "DepotKind", "DrivingRules", "DroneType", "Energy",
+    "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Overtime", "Pickups", "Points",
+    "Problem", "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray",
+    "VehicleType", "within_hours",
 ]

@@ -7,6 +7,7 @@ from typing import Literal
 
 from model.problem.breaks import MAX_BREAKS, Break
 from model.problem.customer import Customer
+from model.problem.driving import DrivingRules
 from model.problem.energy import Energy
 from model.problem.overtime import Overtime
 from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
@@ -137,6 +138,7 @@ class VehicleType:
     has_charger: bool = False  # of one that flies: it has a place to charge at its depot already
     straight: int = 0  # index into Problem.travel, whose distances tell that
     breaks: tuple[Break, ...] = ()  # of each driver, in the order in which they are taken
+    driving: DrivingRules | None = None  # None: drivers need no rest beside their breaks
     co2_kg_per_km: float | None = None  # of the truck, for replies alone
     co2_kg_per_kwh: float | None = None  # of the energy that its drones use
 
@@ -164,6 +166,7 @@ class VehicleType:
                 f"vehicle type {self.id} breaks", len(self.breaks))
         self._require_flight()
         self._require_beginning()
+        self._require_driving()
 
     def _require_flight(self) -> None:
         """Raise `ValueError` unless what is said of flights makes sense."""
@@ -189,6 +192,11 @@ class VehicleType:
                 f"vehicle type {self.id} charge_left", self.charge_left)
         require(self.max_trips == 1 or not self.has_begun, f"vehicle type {self.id} max_trips",
                 self.max_trips)
+
+    def _require_driving(self) -> None:
+        """Raise `ValueError` unless a driver may rest by rules beside what else is stated."""
+        alone = not (self.breaks or self.flies or self.drones or self.speed_profile)
+        require(alone or self.driving is None, f"vehicle type {self.id} driving", self.driving)
 
     @property
     def has_begun(self) -> bool:

@@ -19,7 +19,8 @@ def evaluate(instance: Instance) -> Records:
                            for name in ("lateness", "waiting", "late"))
     soft = bool((place["arrival_limit"] == FAR).any()) and (hourly or once)
     costly = np.any([rates[name] > 0 for name in WORK_RATES], axis=0)
-    timed = costly | (types["max_working_duration"] < UNLIMITED)
+    rests = types["must_rest"] > 0
+    timed = costly | (types["max_working_duration"] < UNLIMITED) | rests
     retimed = types["speed_changes"] != NO_PROFILE
     retimed = retimed | (types["breaks"] > 0)
     flies = types["flies"] > 0
@@ -35,7 +36,7 @@ def evaluate(instance: Instance) -> Records:
                | (bound & waits))
     held_back = early | ((retimed | limited) & timed)
     release = bool((place["release"] > 0).any())
-    priced = soft | limited | held_back | retimed | (rates["load"] > 0)
+    priced = soft | limited | held_back | retimed | rests | (rates["load"] > 0)
     # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
     # one trip that waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from model.engine.breaks import PLACES, break_times
+from model.engine.breaks import PLACES, RestingDriver, break_times
 from model.engine.instance import Instance
 from model.engine.library import packed
 from model.engine.packing import Packed
@@ -65,11 +65,17 @@ def _trips(problem: Problem, instance: Instance, index: int,
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         stops.append(Stop(node, ready - setup, start, leave, setup))
     sorties = read_rows(logs.sortie[0, : count.sorties])
+    begin = int(logs.trip[0, 0]["start"])
+    driver = RestingDriver(instance.type[0], index, begin) if kind.driving else None
     trips = []
     for first, behind in zip(firsts, [*firsts[1:], count.stops], strict=True):
         flown = tuple(_sortie(problem, row, stops[row.launch_stop].node, first) for row in sorties
                       if first <= row.launch_stop < behind)
-        breaks = _breaks(instance, index, stops, logs, (first, behind)) if kind.breaks else ()
+        breaks: tuple[TakenBreak, ...] = ()
+        if driver is not None:
+            breaks = _rests(stops, logs, (first, behind), driver)
+        elif kind.breaks:
+            breaks = _breaks(instance, index, stops, logs, (first, behind))
         trips.append(Trip(with_handling(stops[first:behind], kind.launch_duration,
                                         kind.recovery_duration), flown, breaks))
     return tuple(trips)
@@ -93,6 +99,16 @@ def _breaks(instance: Instance, k: int, stops: Sequence[Stop], logs: VehicleLogs
                       instance.type[0], profile, k, int(logs.stop[0, place]["rests"]), begin,
                       here.departure, duration)]
     return tuple(taken)
+
+
+def _rests(stops: Sequence[Stop], logs: VehicleLogs, trip: tuple[int, int],
+           driver: RestingDriver) -> tuple[TakenBreak, ...]:
+    """Return the rests of a trip, as `_breaks` those that are stated."""
+    first, behind = trip
+    return tuple([TakenBreak(number, place - first, PLACES[where], begin, begin, end)
+                  for place in range(first, behind - 1) for number, where, begin, end
+                  in driver.drive(int(logs.stop[0, place]["rests"]), stops[place].departure,
+                                  stops[place + 1].arrival)])
 
 
 def _sortie(problem: Problem, row: Any, launch_node: int, first_stop: int) -> Sortie:

@@ -9,9 +9,12 @@ from app.requests.conversion.places import places_of_type
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.winds import longest_calm
+from app.schemas.driving import DrivingRulesInput
 from app.schemas.drones import DronesInput, TurnaroundInput
 from app.schemas.vehicle import BreakInput, OvertimeInput, VehicleTypeInput
-from model.problem import UNLIMITED, Break, Depot, DroneType, Overtime, VehicleType, within_hours
+from model.problem import (
+    UNLIMITED, Break, Depot, DrivingRules, DroneType, Overtime, VehicleType, within_hours,
+)
 
 
 def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: Travels,
@@ -44,8 +47,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         overtime=_overtime(stated.overtime),
         max_trips=stated.max_trips,
         max_stops=stated.max_stops,
-        max_sorties=stated.max_sorties,
-        max_airborne=stated.max_airborne,
+        max_sorties=stated.max_sorties, max_airborne=stated.max_airborne,
         truck_waits=stated.truck_waits,
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
@@ -55,6 +57,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
         breaks=tuple([_break(each) for each in stated.breaks]),
+        driving=_driving(stated.driving_rules),
     ))
     return _flying(kind, stated, travels, decimals, amounts) if stated.flies else kind
 
@@ -88,6 +91,20 @@ def _break(stated: BreakInput) -> Break:
         stated.id, thousandths(stated.duration), thousandths(stated.start.earliest),
         UNLIMITED if latest is None else thousandths(latest),
         after_departure=stated.after_departure, anywhere=stated.at == "anywhere", paid=stated.paid)
+
+
+def _driving(stated: DrivingRulesInput | None) -> DrivingRules | None:
+    if stated is None:
+        return None
+
+    def limit(duration: float | None) -> int:
+        return UNLIMITED if duration is None else thousandths(duration)
+
+    return DrivingRules(
+        limit(stated.max_driving), thousandths(stated.break_duration or 0.0),
+        tuple(map(thousandths, stated.split or ())), limit(stated.max_driving_per_day),
+        limit(stated.max_work_before_break), thousandths(stated.driven_before),
+        thousandths(stated.worked_before))
 
 
 def _overtime(stated: OvertimeInput | None) -> Overtime | None:

@@ -2,6 +2,7 @@
 
 from app.requests.warnings.survey import Survey
 from app.requests.warnings.warning import Warnings, amount_text, warning_at
+from app.schemas.driving import LAWS
 from app.schemas.drones import Flyer
 from app.schemas.rulebook import RULES, Rule
 from app.schemas.vehicle import VehicleTypeInput
@@ -24,6 +25,33 @@ def rule_warnings(survey: Survey) -> Warnings:
                     "LOOSER_THAN_PRESET", ("fleet", index, *where, path),
                     f"{flyer.preset!r} asks for {asked}, and {stated} is stated here, which "
                     f"counts: leave {path} out to keep the rule's.")
+
+
+def law_warnings(survey: Survey) -> Warnings:
+    """Yield a warning for each number that is looser than that of driving rules named beside it."""
+    for index, kind in enumerate(survey.request.fleet):
+        rules = kind.driving_rules
+        if rules is None or rules.preset is None:
+            continue
+        law, looser = LAWS[rules.preset], []
+        for name in ("max_driving", "max_driving_per_day", "max_work_before_break"):
+            looser += [(f"driving_rules.{name}", getattr(rules, name), getattr(law, name), False)]
+        looser += [("driving_rules.break_duration", rules.break_duration, law.break_duration, True),
+                   ("max_working_duration", kind.max_working_duration, law.max_working_duration,
+                    False)]
+        looser += [(f"driving_rules.split.{part}", length, asked, True)
+                   for part, length in enumerate(rules.split or ())
+                   for asked in [law.split[part] if law.split else law.break_duration]]
+        for name, stated, asked, is_least in looser:
+            if asked is None or (stated is not None
+                                 and (stated >= asked if is_least else stated <= asked)):
+                continue
+            path = tuple(int(key) if key.isdigit() else key for key in name.split("."))
+            yield warning_at(
+                "LOOSER_THAN_PRESET", ("fleet", index, *path),
+                f"{rules.preset!r} asks for {asked:g} s, and {_told(stated)} is stated here, which "
+                f"counts: leave {path[-1 if isinstance(path[-1], str) else -2]} out to keep the "
+                "rule's.")
 
 
 _Looser = list[tuple[str, str, str]]

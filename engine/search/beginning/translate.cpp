@@ -5,6 +5,7 @@
 
 #include "guard.h"
 #include "rules/breaks.h"
+#include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/pair.h"
@@ -135,6 +136,24 @@ extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem
         if (!finish_route(data_of(*data), routes, slot)) {
             throw std::invalid_argument("nobody can drive the route");
         }
+    });
+}
+
+extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k,
+                                 const tandem_broken_leg* leg, tandem_driver* driver,
+                                 const tandem_i64_2d* times) {
+    return guarded([&] {
+        const VehicleType& type = View<VehicleType, 1>(*types)[k];
+        const View<Int, 2> written(*times);
+        const Rests rests(leg->rests);
+        RestedLeg rested(type, *driver, leg->leave, leg->duration);
+        for (Int index = 0; index < rests.count(); ++index) {
+            const Int number = rests.number(index);
+            written(index, 0) = rested.take(number, rests.place(index));
+            written(index, 1) = rest_duration(type, number);
+        }
+        rested.arrive();
+        *driver = rested.driver();
     });
 }
 

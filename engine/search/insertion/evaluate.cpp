@@ -18,6 +18,7 @@
 #include "search/route/flown_trips.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
+#include "search/route/resting.h"
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
@@ -343,6 +344,10 @@ bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, 
     const Stop& stop = fleet.stop(slot, p);
     if (evaluation.priced &&
         (evaluation.held_back || evaluation.retimed || fleet.route[slot].sorties > 0)) {
+        return false;
+    }
+    if (has_driving_rules(data.type[fleet.route[slot].type]) &&
+        may_have_to_rest(data, fleet, slot, p, node)) {
         return false;
     }
     return stop.flying == 0 &&

@@ -14,6 +14,7 @@
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
+#include "search/route/resting.h"
 #include "search/route/routes.h"
 #include "search/route/stop_loads.h"
 
@@ -188,7 +189,7 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot]);
     }
-    if (data.evaluation[route.type].retimed) {
+    if (data.evaluation[route.type].retimed || any_rest(data.type[route.type], route, stops)) {
         open_up(route, stops);
     } else {
         look_back(data, route, stops);

@@ -12,6 +12,7 @@
 #include "search/route/breaks.h"
 #include "search/route/ends.h"
 #include "search/route/rarer.h"
+#include "search/route/resting.h"
 
 namespace tandem {
 
@@ -73,6 +74,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         }
         Trip& trip = trips[index];
         stop.trip = index;
+        stop.rests = 0;
         if (stop.kind == customer_stop) {
             carry(data, trip, stop.node);
         } else if (stop.kind == halt_stop) {
@@ -108,6 +110,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties) {
     const VehicleType& type = data.type[route.type];
+    if (has_driving_rules(type)) return drive_by_rules(data, route, stops, sorties);
     if (!has_breaks(type)) return drive_as_placed(data, route, stops, sorties);
     clear_breaks(route, stops);
     const bool driven = drive_as_placed(data, route, stops, sorties);

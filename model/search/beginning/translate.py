@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from model.engine.breaks import NONE, PLACES, break_times
+from model.engine.breaks import NONE, PLACES, RestingDriver, break_times
 from model.engine.instance import DIMENSIONS_PER_TIER, NO_PROFILE
 from model.engine.library import call, dtype_of, packed
 from model.engine.records import Record, Records, one, read_rows
@@ -183,10 +183,12 @@ def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip
     sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
     kind = data.type[route.type]
     handling = (kind.launch_duration, kind.recovery_duration) if kind.flies else (0, 0)
+    driver = RestingDriver(data.type, route.type, halts[0].arrival) if kind.must_rest else None
     return tuple(
         Trip(with_handling(halts[first:last + 1], *handling),
              tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last),
+             _rests(halts, rows, (first, last), driver) if driver else
              _breaks(data, route.type, halts, rows, (first, last)) if kind.breaks else ())
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
 
@@ -205,6 +207,16 @@ def _breaks(data: ProblemData, k: int, halts: Sequence[Stop], rows: Records,
                       data.type, profile, k, int(rows[place]["rests"]), begin,
                       halts[place].departure, int(rows[place]["gap"]) - setup)]
     return tuple(taken)
+
+
+def _rests(halts: Sequence[Stop], rows: Records, trip: tuple[int, int],
+           driver: RestingDriver) -> tuple[TakenBreak, ...]:
+    """Return the rests of a trip, as `_breaks` those that are stated."""
+    first, last = trip
+    return tuple([TakenBreak(number, place - first, PLACES[where], begin, begin, end)
+                  for place in range(first, last) for number, where, begin, end in driver.drive(
+                      int(rows[place]["rests"]), halts[place].departure,
+                      halts[place + 1].arrival)])
 
 
 def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,

@@ -946,6 +946,14 @@ export default {
     batteries: 'Akkus',
     chargers: 'Ladeplätze',
     breaks: 'Pausen',
+    break_duration: 'Länge einer Pause',
+    driven_before: 'Vorher gefahren',
+    driving_rules: 'Lenkzeitregeln',
+    max_driving: 'Längste Lenkzeit',
+    max_driving_per_day: 'Längste Lenkzeit am Tag',
+    max_work_before_break: 'Längste Arbeit ohne Pause',
+    split: 'Geteilt',
+    worked_before: 'Vorher gearbeitet',
     battery_wh: 'Akku',
     capacity: 'Ladekapazität',
     charge_w: 'Ladeleistung',
@@ -1243,6 +1251,7 @@ export default {
         'Arbeit über Schicht oder längste Arbeitszeit hinaus, zu einem Preis. Leer: ' +
         'keine erlaubt.',
       breaks: 'Pausen jeder Fahrerin und jedes Fahrers, der Reihe nach.',
+      driving_rules: 'Pausen, die vorgeschrieben sind. Leer: keine.',
       max_trip_distance: 'Längster Weg einer Fahrt. Leer: ohne Grenze.',
       max_trips: 'Wie viele Fahrten ein Fahrzeug höchstens macht.',
       max_stops:
@@ -1299,6 +1308,16 @@ export default {
       after_departure: 'Ob das ab dem Beginn der ersten Fahrt zählt.',
       at: 'An einem Halt oder auch unterwegs.',
       paid: 'Ob sie zur Arbeitszeit zählt.',
+    },
+    DrivingRulesInput: {
+      preset: 'Eine veröffentlichte Vorschrift, deren Zahlen gelten, wenn keine anderen dastehen.',
+      max_driving: 'Längste Zeit am Steuer ohne Pause. Leer: beliebig.',
+      break_duration: 'Wie lang eine Pause ist.',
+      split: 'Zwei kürzere Pausen, die zusammen eine ersetzen, in dieser Folge. Leer: keine.',
+      max_driving_per_day: 'Längste Zeit am Steuer insgesamt. Leer: beliebig.',
+      max_work_before_break: 'Längste Arbeit ohne Pause. Leer: beliebig.',
+      driven_before: 'Zeit am Steuer seit der letzten Pause, bevor das Fahrzeug beginnt.',
+      worked_before: 'Arbeit seit der letzten Pause, bevor das Fahrzeug beginnt.',
     },
     BreakStartInput: {
       earliest: 'Frühester Beginn.',
@@ -1497,6 +1516,8 @@ export default {
     HOURS_AND_OVERTIME: 'Das Depot schließt vor allen Überstunden.',
     BREAKS_REPLANNED: 'Ein Tag mit Pausen lässt sich unterwegs noch nicht weiterplanen.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',
+    DRIVING_RULES_WITH: 'Das lässt sich neben Lenkzeitregeln noch nicht planen.',
+    MISSING_BREAK_DURATION: 'Wie lang eine Pause ist, steht nicht da.',
     LOCATION_OFF_GLOBE:
       'Diesen Ort gibt es nicht: Die Länge ist höchstens 180, die Breite höchstens 90 Grad.',
     LOCATION_TOO_FAR: 'Dieser Ort ist zu weit weg.',
@@ -1583,7 +1604,7 @@ export default {
       'Die längste Arbeitszeit sieht nach Minuten aus, als Sekunden angegeben.',
     WORKING_DURATION_LOOKS_LIKE_HOURS:
       'Die längste Arbeitszeit sieht nach Stunden aus, als Sekunden angegeben.',
-    LOOSER_THAN_PRESET: 'Eine Zahl ist lockerer als die der Vorschrift der Drohnen.',
+    LOOSER_THAN_PRESET: 'Eine Zahl ist lockerer als die der Vorschrift daneben.',
     WIND_AT_WORST: 'Die windigste Stunde hält Drohnen von manchen Kunden fern.',
     ENDURANCE_LOOKS_LIKE_MINUTES:
       'Die Flugdauer der Drohnen sieht nach Minuten aus, als Sekunden angegeben.',
@@ -1610,6 +1631,7 @@ export default {
     TIME_WINDOW: 'Das Zeitfenster wird verpasst.',
     SHIFT: 'Die Schicht endet vorher.',
     BREAK: 'Für eine Pause bleibt keine Zeit.',
+    DRIVING: 'Lenkzeit oder Arbeitszeit würden zu lang.',
     WORKING_DURATION: 'Die längste Arbeitszeit reicht nicht.',
     WORKING_HOURS: 'Die Arbeitszeit reicht nicht.',
     TRIP_DISTANCE: 'Die Fahrt wäre zu lang.',

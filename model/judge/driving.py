@@ -1,0 +1,114 @@
+"""How long drivers are at the wheel, and at work, and whether they rest in between.
+
+All that is not a break of at least some length is work, waiting included. Times in ms.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+
+from model.judge.breaks import begin_of
+from model.problem import DrivingRules, VehicleType
+from model.solution import Trip
+
+
+class Spell(NamedTuple):
+    """A time at the wheel, or a break, on the way from a stop of a trip."""
+
+    begin: int
+    end: int
+    is_break: bool
+    stop: int  # index of the stop before it
+
+
+def spells(trip: Trip) -> Iterator[Spell]:
+    """Yield what a driver does between the stops of a trip, in order."""
+    for stop, (here, there) in enumerate(zip(trip.stops, trip.stops[1:], strict=False)):
+        left = here.departure
+        for taken in trip.breaks:
+            if taken.stop == stop:
+                yield Spell(left, taken.arrival, False, stop)
+                yield Spell(taken.start, taken.end, True, stop)
+                left = taken.end
+        yield Spell(left, there.arrival, False, stop)
+
+
+class Driver:
+    """What is counted of a driver since the last rest."""
+
+    def __init__(self, rules: DrivingRules, begin: int) -> None:
+        self._rules = rules
+        self.driven = rules.driven_before
+        self.day = rules.driven_before
+        self._is_half_rested = False
+        self._since = begin - rules.worked_before
+
+    def worked(self, now: int) -> int:
+        """Return how long it has been at work."""
+        return now - self._since
+
+    def drive(self, duration: int) -> None:
+        """Be at the wheel. In place."""
+        self.driven += duration
+        self.day += duration
+
+    def pause(self, begin: int, end: int) -> None:
+        """Take a break, which may be a rest, or a part of one. In place."""
+        length, split = end - begin, self._rules.split
+        if length >= self._rules.rest or (self._is_half_rested and length >= split[1]):
+            self.driven, self._is_half_rested, self._since = 0, False, end
+            return
+        self._since += length
+        self._is_half_rested = self._is_half_rested or (bool(split) and length >= split[0])
+
+
+class Excess(NamedTuple):
+    """Too much of something, in ms, on the way from a stop."""
+
+    trip: int
+    stop: int
+    what: str  # "driving", "day" or "work"
+    excess: int
+
+
+def excesses(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[Excess]:
+    """Yield where the driver of a route drives or works for too long."""
+    rules = kind.driving
+    if rules is None:
+        return
+    driver = Driver(rules, begin_of(kind, trips[0]))
+    index = 0
+    for index, trip in enumerate(trips):
+        for spell in spells(trip):
+            if spell.is_break:
+                yield from _positive(index, spell.stop, "work",
+                                     driver.worked(spell.begin) - rules.max_work)
+                driver.pause(spell.begin, spell.end)
+                continue
+            driver.drive(spell.end - spell.begin)
+            yield from _positive(index, spell.stop, "driving", driver.driven - rules.max_driving)
+            yield from _positive(index, spell.stop, "work",
+                                 driver.worked(spell.end) - rules.max_work)
+    last = trips[-1].stops
+    yield from _positive(index, len(last) - 2, "work",
+                         driver.worked(last[-1].departure) - rules.max_work)
+    yield from _positive(index, len(last) - 2, "day", driver.day - rules.max_driving_per_day)
+
+
+def _positive(trip: int, stop: int, what: str, excess: int) -> Iterable[Excess]:
+    return [Excess(trip, stop, what, excess)] if excess > 0 else []
+
+
+WORDS = {
+    "driving": "its driver is at the wheel {} longer than allowed without a rest",
+    "day": "its driver is at the wheel {} longer than allowed in a day",
+    "work": "its driver is at work {} longer than allowed without a rest",
+}
+
+
+def broken_driving(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[tuple[int, str]]:
+    """Yield what is wrong with a route's driving, each kind at its first trip."""
+    told: set[str] = set()
+    for excess in excesses(kind, trips):
+        if excess.what not in told:
+            told.add(excess.what)
+            yield excess.trip, WORDS[excess.what].format(f"{excess.excess / 1000:g} s")

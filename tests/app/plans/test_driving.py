@@ -1,0 +1,96 @@
+"""Rests that driving rules ask for, over HTTP."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import httpx
+import pytest
+
+from app.serving.settings import Settings
+from model.planner import load_planner
+from tests.app.conftest import serving
+from tests.app.plans.asking import planned
+from tests.app.plans.test_breaks import breaks_of
+from tests.app.plans.test_hubs import is_feasible
+
+Request = dict[str, Any]
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[httpx.Client]:
+    """Return a client of a service that plans as it does."""
+    settings = Settings()
+    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
+        yield client
+
+
+@pytest.fixture
+def far() -> Request:
+    """Return a request for which one truck drives for six hours, 90 minutes from stop to stop."""
+    return {
+        "coordinate_system": "planar", "planar_unit": 1000,
+        "depots": [{"id": "hub", "location": [0, 0]}],
+        "customers": [{"id": name, "location": place, "demand": [1], "service_duration": 600}
+                      for name, place in (("a", [90, 0]), ("b", [90, 90]), ("c", [0, 90]))],
+        "fleet": [{"id": "van", "count": 1, "capacity": [3], "speed_kmh": 60,
+                   "driving_rules": {"preset": "eu-561"}}],
+        "options": {"search_iterations": 200}}
+
+
+def test_who_drives_for_too_long_rests_and_the_plan_says_by_which_rule(
+        service: httpx.Client, far: Request) -> None:
+    plan = planned(service, far)
+    assert plan["status"] == "complete"
+    rest, = breaks_of(plan)
+    assert (rest["id"], rest["departure"] - rest["service_start"]) == ("rest", 2700)
+    law, = plan["driving_rules"]
+    assert law["planned"]["max_driving"] == law["max_driving"] == 16_200
+    assert "561/2006" in law["source"]
+    assert is_feasible(service, far, plan)
+    for trip in (trip for route in plan["routes"] for trip in route["trips"]):
+        trip["stops"] = [stop for stop in trip["stops"] if stop["kind"] != "break"]
+    answer = service.post("/check", json={"problem": far, "plan": plan}).json()
+    assert "DRIVING" in {each["code"] for each in answer["violations"]}
+
+
+def test_a_rest_may_lie_in_waiting(service: httpx.Client, far: Request) -> None:
+    far["customers"][1]["time_window"] = {"earliest": 14_400}
+    waits = planned(service, far)
+    del far["fleet"][0]["driving_rules"]
+    assert waits["routes"][0]["trips"][0]["stops"][-1]["departure"] == (
+        planned(service, far)["routes"][0]["trips"][0]["stops"][-1]["departure"])
+    assert breaks_of(waits)
+
+
+def test_a_day_that_is_too_long_is_told(service: httpx.Client, far: Request) -> None:
+    far["fleet"][0]["driving_rules"] = {"preset": "eu-561", "driven_before": 10_000}
+    far["customers"][1]["location"] = [9, 500]
+    plan = planned(service, far)
+    left, = plan["unassigned"]
+    assert {reason["code"] for reason in left["reasons"]} == {"DRIVING"}
+
+
+def test_looser_numbers_are_told(service: httpx.Client, far: Request) -> None:
+    far["fleet"][0]["driving_rules"] |= {"max_driving": 20_000, "split": [900, 600]}
+    paths = {each["path"] for each in planned(service, far)["warnings"]
+             if each["code"] == "LOOSER_THAN_PRESET"}
+    assert paths == {"$.fleet[0].driving_rules.max_driving", "$.fleet[0].driving_rules.split[1]"}
+
+
+def test_us_rules_bound_the_working_day(service: httpx.Client, far: Request) -> None:
+    far["fleet"][0]["driving_rules"] = {"preset": "us-hos"}
+    law, = planned(service, far)["driving_rules"]
+    assert law["planned"]["max_working_duration"] == 50_400
+
+
+@pytest.mark.parametrize(("changes", "code", "path"), [
+    ({"driving_rules": {"max_driving": 9}}, "MISSING_BREAK_DURATION",
+     "$.fleet[0].driving_rules.break_duration"),
+    ({"driving_rules": {"preset": "eu-561", "split": [9]}}, "WRONG_LENGTH",
+     "$.fleet[0].driving_rules.split"),
+    ({"breaks": [{"id": "lunch", "duration": 9}]}, "DRIVING_RULES_WITH", "$.fleet[0].breaks")])
+def test_what_cannot_be_kept_is_told(service: httpx.Client, far: Request, changes: Request,
+                                     code: str, path: str) -> None:
+    far["fleet"][0] |= changes
+    error, = service.post("/plan", json=far).json()["errors"]
+    assert (error["code"], error["path"]) == (code, path)

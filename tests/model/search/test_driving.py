@@ -1,0 +1,171 @@
+"""Rests are placed as brute force does, and all plans keep driving rules by two judges."""
+
+from dataclasses import replace
+from itertools import pairwise, permutations
+
+import numpy as np
+import pytest
+
+from model.engine.instance import pack
+from model.judge.check import check
+from model.problem import (
+    REST, UNLIMITED, Customer, Depot, DrivingRules, Problem, Travel, VehicleType,
+)
+from model.search.improve import SearchConfig, improve
+from model.simulation.extract import extract
+from model.solution import Solution
+from tests.model.driving_law import Law, offences
+from tests.model.rollouts import roll
+from tests.model.tiny import draw_tiny, with_gaps, with_setups
+from tests.model.tiny_driving import drawn_rules, with_driving
+
+pytestmark = pytest.mark.slow
+
+MINUTE = 60_000
+
+
+def drawn(rng: np.random.Generator) -> Problem:
+    """Draw two customers with windows, and one truck whose driver has to rest."""
+    steps = rng.integers(1, 9, (3, 3)) * MINUTE
+    steps = np.minimum(steps, steps.T)
+    np.fill_diagonal(steps, 0)
+    customers = []
+    for index in range(2):
+        earliest = int(rng.integers(0, 30))
+        latest = earliest + int(rng.integers(0, 15)) if rng.random() < 0.7 else UNLIMITED
+        customers.append(Customer(
+            str(index), (1,), service_duration=int(rng.integers(0, 4)) * MINUTE,
+            earliest=earliest * MINUTE, latest=min(UNLIMITED, latest * MINUTE)))
+    truck = VehicleType("truck", 1, (3,), 0, cost_per_km=1.0, cost_per_hour=30.0,
+                        latest=60 * MINUTE, driving=drawn_rules(rng))
+    return Problem((Depot("hub"),), tuple(customers), (truck,), (Travel(steps, steps),),
+                   rng.random((3, 2)), unassigned_cost=60.0)
+
+
+State = tuple[int, int, int, int, bool]
+"""Leg, minutes of it that are driven, driven and worked since the last rest, half rested."""
+
+
+def soonest_end(problem: Problem, nodes: tuple[int, ...], start: int) -> float:
+    """Return when a route that begins then ends at best, minute by minute; infinite if never."""
+    kind = problem.vehicle_types[0]
+    rules = kind.driving
+    assert rules is not None
+    limits = (rules.max_driving // MINUTE, rules.max_work // MINUTE)
+    legs = [problem.travel[0].duration.item(*leg) // MINUTE
+            for leg in pairwise(nodes)]
+    if rules.driven_before // MINUTE + sum(legs) > rules.max_driving_per_day // MINUTE:
+        return np.inf
+    first = (0, 0, rules.driven_before // MINUTE, rules.worked_before // MINUTE, False)
+    at: dict[int, set[State]] = {start: {first}}
+    for now in range(start, 61):
+        while at.get(now):
+            state = at[now].pop()
+            for length, then in _next(problem, nodes, legs, now, state):
+                if then[2] <= limits[0] and then[3] <= limits[1]:
+                    if then[0] == len(legs):
+                        return now + length
+                    if now + length <= 60:
+                        at.setdefault(now + length, set()).add(then)
+    return np.inf
+
+
+def _next(problem: Problem, nodes: tuple[int, ...], legs: list[int], now: int,
+          state: State) -> list[tuple[int, State]]:
+    """Return what may be done next, and for how long."""
+    leg, come, driven, worked, half = state
+    rules = problem.vehicle_types[0].driving
+    assert rules is not None
+    if leg == len(legs) - 1 and come == legs[leg] - 1:
+        ways = [(1, (leg + 1, 0, driven + 1, worked + 1, half))]
+    elif come < legs[leg]:
+        ways = [(1, (leg, come + 1, driven + 1, worked + 1, half))]
+    else:
+        customer = problem.customers[nodes[leg + 1] - 1]
+        ways = [(1, (leg, come, driven, worked + 1, half))]
+        if customer.earliest <= now * MINUTE <= customer.latest:
+            service = customer.service_duration // MINUTE
+            ways.append((service, (leg + 1, 0, driven, worked + service, half)))
+    ways.append((rules.rest // MINUTE, (leg, come, 0, 0, False)))
+    if rules.split:
+        part = rules.split[1 if half else 0] // MINUTE
+        ways.append((part, (leg, come, 0, 0, False) if half else (leg, come, driven, worked, True)))
+    return ways
+
+
+def cheapest(problem: Problem) -> float:
+    """Return the cost of the cheapest plan by trying all, begun at every minute."""
+    best = 2 * problem.unassigned_cost
+    for count in (2, 1):
+        for inner in permutations((1, 2), count):
+            nodes = (0, *inner, 0)
+            driven = sum(problem.travel[0].distance.item(*leg)
+                         for leg in pairwise(nodes)) / 1e6
+            left_out = (2 - count) * problem.unassigned_cost
+            if driven + left_out < best:
+                best = min(best, *(
+                    driven + left_out + 0.5 * (soonest_end(problem, nodes, start) - start)
+                    for start in range(40)))
+    return best
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_search_finds_the_cheapest_plan_with_rests(seed: int) -> None:
+    problem = drawn(np.random.default_rng(seed))
+    found = improve(problem, pack([problem]), Solution((), (1, 2)),
+                    SearchConfig(turns=200)).solution
+    judged = check(problem, found)
+    assert judged.violations == ()
+    assert judged.cost.total == pytest.approx(cheapest(problem))
+
+
+CHANGES = with_gaps, with_setups
+
+
+def mixed(seed: int) -> Problem:
+    rng = np.random.default_rng(seed)
+    return with_driving(rng, CHANGES[seed % len(CHANGES)](rng, draw_tiny(rng)))
+
+
+def law_of(rules: DrivingRules) -> Law:
+    """Return rules as the law's judge reads them."""
+    return Law(rules.max_driving, rules.rest, (rules.split[0], rules.split[1]) if rules.split
+               else None, rules.max_driving_per_day, rules.max_work)
+
+
+def rests_by_law(problem: Problem, plan: Solution) -> int:
+    """Return how many rests there are in a plan, which is legal by both judges."""
+    assert check(problem, plan).violations == ()
+    for route in plan.routes:
+        rules = problem.vehicle_types[route.vehicle_type].driving
+        if rules is not None:
+            assert list(offences(route, law_of(rules), rules.driven_before,
+                                 rules.worked_before)) == []
+    return sum(taken.number == REST for route in plan.routes for trip in route.trips
+               for taken in trip.breaks)
+
+
+def test_rollouts_and_search_keep_driving_rules() -> None:
+    rolled = searched = 0
+    for seed in range(120):
+        problem = mixed(seed)
+        instance, nodes = pack([problem]), range(problem.num_depots, problem.num_nodes)
+        rollout = roll([problem], seed).rollouts[0]
+        plan = extract(problem, instance, rollout.actions)
+        rolled += rests_by_law(problem, plan)
+        assert rollout.cost.sum() == pytest.approx(check(problem, plan).cost.total)
+        found = improve(problem, instance, Solution((), tuple(nodes)),
+                        SearchConfig(turns=100)).solution
+        searched += rests_by_law(problem, found)
+    assert rolled > 30
+    assert searched > 15
+
+
+def test_driving_rules_that_nobody_needs_change_no_plan() -> None:
+    problem = drawn(np.random.default_rng(3))
+    kind = problem.vehicle_types[0]
+    plans = [improve(other, pack([other]), Solution((), (1, 2)), SearchConfig(turns=300)).solution
+             for other in (replace(problem, vehicle_types=(replace(kind, driving=None),)),
+                           replace(problem, vehicle_types=(replace(kind, driving=DrivingRules(
+                               120 * MINUTE, MINUTE)),)))]
+    assert plans[0] == plans[1]

@@ -1,0 +1,33 @@
+"""Tiny problems whose drivers have to rest; every time is a whole number of minutes."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from model.problem import UNLIMITED, DrivingRules, Problem, VehicleType
+from tests.model.tiny import MINUTE
+
+
+def drawn_rules(rng: np.random.Generator) -> DrivingRules:
+    """Draw rules that trips of some minutes are long by."""
+    def minutes(low: int, high: int) -> int:
+        return int(rng.integers(low, high + 1)) * MINUTE
+
+    first, second = minutes(1, 3), minutes(1, 4)
+    driving = minutes(4, 14)
+    return DrivingRules(
+        driving, minutes(1, 6), (first, second) if rng.random() < 0.5 else (),
+        driving + minutes(4, 30) if rng.random() < 0.5 else UNLIMITED,
+        minutes(8, 25) if rng.random() < 0.4 else UNLIMITED,
+        minutes(0, 4) if rng.random() < 0.3 else 0, minutes(0, 4) if rng.random() < 0.3 else 0)
+
+
+def with_driving(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem most of whose drivers have to rest, where they may."""
+    def drawn(kind: VehicleType) -> VehicleType:
+        rules = drawn_rules(rng) if rng.random() < 0.8 else None
+        if kind.drones or kind.flies or kind.speed_profile or kind.breaks:
+            return kind
+        return replace(kind, driving=rules)
+
+    return replace(problem, vehicle_types=tuple(map(drawn, problem.vehicle_types)))
