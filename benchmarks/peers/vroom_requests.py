@@ -164,9 +164,40 @@ def limits(rng: np.random.Generator, size: int) -> Data:
     return request
 
 
+def shipments(rng: np.random.Generator, size: int) -> Data:
+    """Return `windows` in which half of the jobs are ends of shipments."""
+    request = windows(rng, size)
+    number = len(request["jobs"]) // 4
+    taken = request["jobs"][-2 * number:]
+    del request["jobs"][-2 * number:]
+    request["shipments"] = []
+    for pickup, delivery in zip(taken[:number], taken[number:], strict=True):
+        amount = pickup.pop("delivery")
+        del delivery["delivery"], pickup["time_windows"]
+        request["shipments"].append({"pickup": pickup, "delivery": delivery, "amount": amount})
+    return request
+
+
+def rests(rng: np.random.Generator, size: int) -> Data:
+    """Return `windows` with a break at noon and another later."""
+    return _with_breaks(windows(rng, size))
+
+
+def shipments_and_rests(rng: np.random.Generator, size: int) -> Data:
+    """Return `shipments` with the breaks of `rests`."""
+    return _with_breaks(shipments(rng, size))
+
+
+def _with_breaks(request: Data) -> Data:
+    for vehicle in request["vehicles"]:
+        vehicle["breaks"] = [{"id": 1, "service": 1_800, "time_windows": [[10_800, 14_400]]},
+                             {"id": 2, "service": 900, "time_windows": [[18_000, 23_400]]}]
+    return request
+
+
 CLASSES: tuple[Callable[[np.random.Generator, int], Data], ...] = (
     cvrp, windows, several_windows, many_windows, skills, mixed_fleet, setups, priorities,
-    both_ways, limits)
+    both_ways, limits, shipments, rests, shipments_and_rests)
 
 
 def _places(rng: np.random.Generator, size: int, num_places: int) -> Data:
@@ -221,7 +252,7 @@ def compare(planner: Planner, request: Data, seconds: float | None) -> Compared:
     """Answer a request by both; Tandem gets the time that VROOM took."""
     theirs, elapsed = by_vroom(request, seconds)
     ours = by_tandem(planner, request, elapsed if seconds is None else seconds)
-    number = len(request["jobs"])
+    number = len(request["jobs"]) + 2 * len(request.get("shipments", ()))
     values = [(reply["summary"]["priority"], number - reply["summary"]["unassigned"])
               for reply in (theirs, ours)]
     ratio = ours["summary"]["cost"] / theirs["summary"]["cost"]

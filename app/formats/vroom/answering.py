@@ -25,6 +25,7 @@ from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.models import Routes
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.planning import Planning
+from model.dialects.vroom.reasons import reasons_of
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import Driver, TimedRoute
 from model.dialects.vroom.work import LegLimit
@@ -116,7 +117,9 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
     found = planning.find(body.received_at + preparing.waited + seconds, start)
     routes = name_vehicles(request, places, planning.kinds, found.routes)
     solved = time.perf_counter()
-    return Writer(stated, places, request.is_timed).reply(
+    reasons = reasons_of(request, places, planning.kinds, {route.vehicle for route in routes},
+                         [job for job in range(len(request.jobs)) if job not in found.served])
+    return Writer(stated, places, request.is_timed, reasons).reply(
         routes, loading=int(1000 * (loaded - body.received_at)),
         solving=int(1000 * (solved - loaded)))
 

@@ -1,7 +1,7 @@
 """Routes -> VROOM's reply, as plain data."""
 
 import math
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import polyline
@@ -23,8 +23,18 @@ METRES_PER_KM = 1000
 class Writer:
     """Writes the reply to one request."""
 
-    def __init__(self, request: VroomRequest, places: StatedPlaces, is_timed: bool) -> None:
-        """Begin with what is asked for; `is_timed` if anything in it has a time window."""
+    def __init__(self, request: VroomRequest, places: StatedPlaces, is_timed: bool,
+                 reasons: Mapping[int, list[str]] | None = None) -> None:
+        """Begin with what is asked for.
+
+        Parameters
+        ----------
+        is_timed
+            Whether anything in it has a time window.
+        reasons
+            Why tasks are left out, as far as it is known.
+        """
+        self._reasons = reasons or {}
         self._request = request
         self._places = places
         self._tasks = tasks_of(request)
@@ -169,7 +179,8 @@ class Writer:
     def _unassigned(self, index: int) -> Data:
         task = self._tasks[index]
         return {"id": task.id, **self._place(int(self._places.jobs[index])), "type": task.kind,
-                **_described(task.stated.description)}
+                **_described(task.stated.description),
+                **({"reasons": self._reasons[index]} if index in self._reasons else {})}
 
     def _place(self, site: int) -> Data:
         point, index = self._places.coordinates[site], self._places.indices[site]

@@ -103,6 +103,9 @@ class VroomUnassignedReply(_Reply):
     location_index: int | None = Field(None, description="Row in `matrices`, if stated.")
     type: Literal["job", "pickup", "delivery"] = Field(description="What was left out.")
     description: str | None = Field(None, description="Of the job, if stated.")
+    reasons: list[str] | None = Field(
+        None, description="Why, in words, as VROOM does not tell. Null for given routes, and for "
+        "the last of very many.")
 
 
 class VroomReply(_Reply):

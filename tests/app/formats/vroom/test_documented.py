@@ -171,4 +171,5 @@ def test_job_that_nobody_can_serve_is_told_in_vrooms_shape(searching: httpx.Clie
     with_steps["jobs"][0] |= {"skills": [7], "description": "a crane"}
     (left,) = solved(searching, with_steps)["unassigned"]
     assert list(left.items()) == [("id", 1), ("location", with_steps["jobs"][0]["location"]),
-                                  ("type", "job"), ("description", "a crane")]
+                                  ("type", "job"), ("description", "a crane"), ("reasons", [
+        f"Missing skill or step out of reach for vehicle {number} and job 1." for number in (1,)])]
