@@ -133,7 +133,7 @@ class Planner:
         """
         if options.policy not in self._policies:
             raise ValueError(f"policy: {options.policy!r} is not one of {', '.join(self.policies)}")
-        began, judge = time.perf_counter(), Memory(problem)
+        began, judge, options = time.perf_counter(), Memory(problem), _shared(problem, options)
         deadline = None
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
@@ -187,6 +187,11 @@ class Planner:
             view = prepare(problem, instance)
             found = decode(policy, view, config, give_up, alarm.setting)
         return None if found is NOTHING else extract(problem, instance, found.actions)
+
+
+def _shared(problem: Problem, options: PlanOptions) -> PlanOptions:
+    """Return options by which threads needn't know what others' vehicles do where that counts."""
+    return replace(options, threads=1) if problem.fairness.is_stated else options
 
 
 def _give_up(began: float, deadline: float | None, searches: bool) -> float:
@@ -276,7 +281,8 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     begun = None if first is None else first.solution
     turns = options.search_iterations
     terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
-    joint = None if turns == 0 or problem.shipments else find_joint(problem, terms.ended)
+    whole = turns == 0 or bool(problem.shipments) or problem.fairness.is_stated
+    joint = None if whole else find_joint(problem, terms.ended)
     if joint is None:
         return _search(problem, instance, begun, options, deadline, listener)
 

@@ -161,6 +161,8 @@ class Cost:
     overtime: float = 0.0
     lateness: float = 0.0
     earliness: float = 0.0
+    makespan: float = 0.0  # of the plan as a whole
+    balance: float = 0.0  # likewise
     unassigned: float = 0.0
 
     @property

@@ -11,6 +11,7 @@ from app.schemas.customer import CustomerInput
 from app.schemas.day import Day
 from app.schemas.drones import DronesInput, Flyer
 from app.schemas.errors import ErrorCode, InputError, json_path
+from app.schemas.fairness import FairnessInput
 from app.schemas.fields import Location
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import (
@@ -62,6 +63,7 @@ class Draft:
     day: Day | None = None
     incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
     launch_sites: Sequence[LaunchSiteInput | None] | None = ()
+    fairness: FairnessInput | None = None
 
     def places(self, customers: bool = True) -> Iterator[Placed]:
         """Yield depots, launch sites, customers unless they are not asked for, and where vehicles

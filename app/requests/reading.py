@@ -160,6 +160,7 @@ def _whole_draft(request: PlanRequest) -> Draft:
              else Day.of(request.plan_start, request.time_zone)),
         incompatible_goods=request.incompatible_goods,
         launch_sites=request.launch_sites,
+        fairness=request.fairness,
     )
 
 

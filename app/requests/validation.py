@@ -20,6 +20,7 @@ from app.requests.wind_validation import wind_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.drones import DronesInput
 from app.schemas.errors import InputError, json_path
+from app.schemas.fairness import FairnessInput
 from app.schemas.fields import point_of
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import DepotInput
@@ -45,6 +46,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *(of_vehicles or group_errors(draft)),
         *service_errors(draft),
         *_goods_errors(draft),
+        *_fairness_errors(draft),
         *shift_errors(draft),
         *hours_errors(draft),
         *break_errors(draft),
@@ -96,6 +98,13 @@ def _goods_errors(draft: Draft) -> Errors:
         yield error_at("WRONG_LENGTH", ("incompatible_goods",),
                        f"{len(named)} goods are named and at most {MOST_INCOMPATIBLE} are allowed: "
                        "name only those that can't be carried with others.")
+
+
+def _fairness_errors(draft: Draft) -> Errors:
+    if (draft.fairness not in (None, FairnessInput()) and draft.replan is not None
+            and draft.replan.freeze_before is not None):
+        yield error_at("FAIRNESS_REPLANNED", ("fairness",), "What vehicles have done before isn't "
+                       "compared yet: leave fairness out, or freeze_before.")
 
 
 def _dimension_errors(draft: Draft) -> Errors:

@@ -11,6 +11,7 @@ from pydantic import Discriminator, Field, Tag, model_validator
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
+from app.schemas.fairness import FairnessInput
 from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Count, Input,
     Instant, Location, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
@@ -343,6 +344,8 @@ class PlanRequest(Input):
     incompatible_goods: Annotated[list[IncompatibleGoodsInput], Field(max_length=100)] = Field(
         [], description="Goods that must not be carried together; at most 62 names in all."
     )
+    fairness: FairnessInput = Field(
+        FairnessInput(), description="What the plan costs as a whole: its end, and unequal work.")
     unassigned_cost: Money | None = Field(
         None,
         description="Cost of each customer left out who states none. Null: these must be served; "

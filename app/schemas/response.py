@@ -36,6 +36,8 @@ class CostReply(_Reply):
     )
     lateness: float = Field(description="Late arrivals.")
     earliness: float = Field(description="Waiting for windows to open.")
+    makespan: float = Field(description="The latest end, where that costs.")
+    balance: float = Field(description="Unequal work of vehicles, where that costs.")
     unassigned: float = Field(description="Customers left out.")
 
 

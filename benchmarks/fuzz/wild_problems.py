@@ -11,6 +11,7 @@ from typing import Any
 
 from benchmarks.fuzz.wild_choices import RICHEST, choose_vehicles, prefer_vehicles
 from benchmarks.fuzz.wild_rests import let_rest
+from benchmarks.fuzz.wild_wholes import wild_fairness, wild_options
 
 Data = dict[str, Any]
 Point = list[float]
@@ -39,7 +40,7 @@ def wild_request(rng: random.Random) -> Data:
              for number in range(rng.choice((1, 1, 2, 4)))]
     request: Data = {
         "coordinate_system": system, "planar_unit": unit, "depots": depots, "customers": customers,
-        "fleet": fleet, "airspace": _airspace(rng, place, system), "options": _options(rng),
+        "fleet": fleet, "airspace": _airspace(rng, place, system), "options": wild_options(rng),
         "unassigned_cost": rng.choice((None, None, 0, 1e-9, 1.0, 1000, RICHEST))}
     if system == "planar" and rng.random() < 0.2:
         request["planar_rounding"] = rng.choice(
@@ -54,6 +55,8 @@ def wild_request(rng: random.Random) -> Data:
         _let_stop(rng, request, place)
     if rng.random() < 0.25:
         _add_matrices(rng, request)
+    if rng.random() < 0.1:
+        request["fairness"] = wild_fairness(rng)
     if rng.random() < 0.5:
         _tame(rng, request, dimensions)
     return request
@@ -262,16 +265,6 @@ def _airspace(rng: random.Random, place: Callable[[], Point], system: str) -> Da
 def _wind(rng: random.Random) -> Data:
     return {"speed_kmh": rng.choice((0, 0, 0, 10, 60, 500)),
             "direction_deg": rng.choice((0, 90, 123.4, 360))}
-
-
-def _options(rng: random.Random) -> Data:
-    return {
-        "policy": rng.choice(("attention", "attention", "attention", "pointer")),
-        "decoding": rng.choice(("greedy", "greedy", "sample")), "num_samples": rng.randint(1, 9),
-        "temperature": rng.choice((0.01, 0.7, 1.0, 100)),
-        "seed": rng.choice((0, 1, 2**63 - 1)), "threads": rng.choice((None, 1, 2)),
-        "time_limit": rng.choice((0, 1e-9, 0.001, 0.03, 0.1)),
-        "search_iterations": rng.choice((None, None, 0, 1, 100))}
 
 
 def _tame(rng: random.Random, request: Data, dimensions: int) -> None:

@@ -316,6 +316,8 @@ typedef struct tandem_cost {
     double overtime;
     double lateness;
     double earliness;
+    double makespan;
+    double balance;
     double unassigned;
 } tandem_cost;
 
@@ -1070,12 +1072,21 @@ typedef struct tandem_strategy {
     double blink;         /* how often a better place for a customer is overlooked */
 } tandem_strategy;
 
+/* What a plan costs as a whole: each ms until its last end, and of how unequal what `measure` tells
+   of its vehicles is. */
+typedef struct tandem_fairness {
+    double makespan;
+    double balance;
+    int64_t measure;
+} tandem_fairness;
+
 typedef struct tandem_problem_data {
     int64_t num_depots;
     int64_t num_nodes;
     int64_t num_types;
     int64_t max_visits; /* customers on a sortie */
     tandem_strategy strategy;
+    tandem_fairness fairness;
     bool all_optional;             /* nobody has to be served */
     double unassigned_cost;        /* of whoever it costs least to leave out */
     tandem_f64_1d unassigned_more; /* (node,) what leaving out another costs above that */

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "guard.h"
+#include "search/route/fairness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 
@@ -57,7 +58,7 @@ void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         if (now.where[node].slot != elsewhere) ++count.customers;
     }
-    part.value->cost = cost + left_out_cost(data, missing, missing.size());
+    part.value->cost = cost + left_out_cost(data, missing, missing.size()) + plan_cost(data, part);
     keep_best(part);
 }
 

@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
+from model.judge.fairness import fairness_cost
 from model.judge.hours import hours_violations
 from model.judge.hubs import hub_violations
 from model.judge.launch_sites import site_violations, with_launch_sites
@@ -57,8 +58,12 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
         violations += judged.violations
     costs = [Cost(unassigned=unassigned_cost(problem, solution.unassigned)),
              *[judged.cost for judged in routes]]
+    makespan = max([judged.end for judged in routes], default=0)
+    costs.append(fairness_cost(problem, [
+        (route, judged.metrics) for route, judged in zip(solution.routes, routes, strict=True)
+        if judged.metrics.trips], makespan))
     return Evaluation(tuple(violations), _total(costs), tuple([each.metrics for each in routes]),
-                      max([judged.end for judged in routes], default=0))
+                      makespan)
 
 
 @dataclass(frozen=True)

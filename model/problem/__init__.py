@@ -4,6 +4,7 @@ from model.problem.breaks import MAX_BREAKS, Break
 from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
 from model.problem.driving import REST, DrivingRules
 from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
+from model.problem.fairness import Balance, Fairness, Measure
 from model.problem.fleet import MAX_STORMS, DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.hours import within_hours
 from model.problem.overtime import Overtime
@@ -20,8 +21,8 @@ __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
     "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
     "MOST_INCOMPATIBLE", "MS_PER_HOUR", "REST", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS",
-    "BoolArray", "Break", "Customer", "Depot", "DepotKind", "DrivingRules", "DroneType", "Energy",
-    "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Overtime", "Pickups", "Points",
-    "Problem", "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray",
-    "VehicleType", "within_hours",
+    "Balance", "BoolArray", "Break", "Customer", "Depot", "DepotKind", "DrivingRules", "DroneType",
+    "Energy", "Fairness", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Measure",
+    "Overtime", "Pickups", "Points", "Problem", "ServedBy", "Shipment", "SpeedProfile",
+    "StraightLegs", "Travel", "UIntArray", "VehicleType", "within_hours",
 ]

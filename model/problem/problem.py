@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from model.problem.customer import Customer, Depot, IncompatibleGoods
+from model.problem.fairness import UNPRICED, Fairness
 from model.problem.fleet import VehicleType
 from model.problem.quantities import (
     MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
@@ -37,6 +38,7 @@ class Problem:
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
     shipments: tuple[Shipment, ...] = ()  # whose ends are customers that ask for nothing else
+    fairness: Fairness = UNPRICED
     num_dimensions: int = field(init=False)
 
     def __post_init__(self) -> None:

@@ -13,7 +13,7 @@ from model.search.evaluation import evaluate
 from model.search.halts import Halts, halts_of
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
-from model.search.route.layout import ProblemData
+from model.search.route.layout import MEASURES, PlanPrices, ProblemData
 from model.search.strategy import ALL_MOVES, Moves, grounded, strategy_of, visits_of
 
 TURNED_FROM = 2000
@@ -35,6 +35,8 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     if not moves.flights:
         instance = grounded(instance)
     types, evaluation = instance.type[0], evaluate(instance)
+    if problem.fairness.is_stated:
+        evaluation["by_distance"] = False
     swap, visits = _swaps(problem, types, evaluation), visits_of(problem)
     most_visits = max(1, int(visits.max()))
     halts = halts_of(problem, neighbourhood.numbering)
@@ -43,7 +45,7 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
         strategy=strategy_of(problem, instance, moves, evaluation, swap, most_visits),
-        all_optional=not bool(must_serve.any()),
+        fairness=_plan_prices(problem), all_optional=not bool(must_serve.any()),
         unassigned_cost=float(instance.unassigned_cost[0]), unassigned_more=more,
         unassigned_costs_differ=bool((more > 0.0).any()), must_serve=must_serve,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
@@ -60,6 +62,17 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         near=neighbourhood.near, granular=neighbourhood.granular,
         deadline=Alarm().setting if deadline is None else deadline,
     )
+
+
+def _plan_prices(problem: Problem) -> PlanPrices:
+    """Return what the plan as a whole costs, per ms, stop, part or mm."""
+    per_ms = problem.fairness.makespan_cost_per_hour / MS_PER_HOUR
+    balance = problem.fairness.balance
+    if balance is None:
+        return PlanPrices(per_ms, 0.0, 0)
+    unit = {"duration": MS_PER_HOUR, "stops": 1, "load": 10**problem.amount_decimals[0],
+            "distance": MM_PER_KM}[balance.measure]
+    return PlanPrices(per_ms, balance.cost / unit, MEASURES.index(balance.measure))
 
 
 def _can(instance: Instance, halts: Halts) -> BoolArray:

@@ -23,9 +23,10 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     """Let the best plan take over the parts of the plan as it is that cost less. In place.
 
     Where that would take too many vehicles, those parts alone that need no more of any type. None
-    where routes share batteries, or places to charge, of which there are only so many.
+    where routes share batteries, or places to charge, of which there are only so many, or where the
+    plan costs something as a whole.
     """
-    if len(data.hub):
+    if len(data.hub) or data.fairness.makespan > 0 or data.fairness.balance > 0:
         return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
     nodes = np.arange(data.num_depots, data.num_nodes)

@@ -63,18 +63,22 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
     """
     linked = bool(evaluation["by_distance"].all())
     whole = not problem.shipments  # else parts of trips have ends of shipments alone
-    scan_all, blink = problem.num_customers < SCAN_ALL_BELOW, _blink(problem, most_visits)
+    # Who else has how much work counts wherever somebody is inserted.
+    fair = problem.fairness.is_stated
+    scan_all = fair or problem.num_customers < SCAN_ALL_BELOW
+    blink = _blink(problem, most_visits)
     resplit = moves.resplit and moves.flights and whole and any(
         kind.num_drones == 1 for kind in problem.vehicle_types)
     return Strategy(
         loops=moves.loops, crossings=moves.crossings, two_opt_star=moves.two_opt_star and whole,
         resplit=resplit,
-        small_moves=(moves.small_moves and resplit and _may_be_any_time(problem, instance)
-                     and _flights_may_save(instance)),
+        small_moves=(moves.small_moves and resplit and not fair
+                     and _may_be_any_time(problem, instance) and _flights_may_save(instance)),
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
         scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,
-        give_up_early=not (_may_save(instance, evaluation) or problem.launch_sites), blink=blink)
+        give_up_early=not (fair or problem.launch_sites or _may_save(instance, evaluation)),
+        blink=blink)
 
 
 def grounded(instance: Instance) -> Instance:

@@ -3,7 +3,8 @@
 from collections.abc import Sequence
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Travel, VehicleType,
+    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Fairness, Travel,
+    VehicleType,
 )
 
 DETOURS_PER_CUSTOMER = 10
@@ -12,7 +13,8 @@ DETOURS_PER_CUSTOMER = 10
 
 def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequence[VehicleType],
                             travels: Sequence[Travel],
-                            decimals: Sequence[int] = (USUAL_DECIMALS,)) -> float:
+                            decimals: Sequence[int] = (USUAL_DECIMALS,),
+                            fairness: Fairness | None = None) -> float:
     """Return a cost larger than any detour: that of many vehicles used for one customer each.
 
     Each drives the longest leg there and back, full, serves longest, and works and is late or early
@@ -31,6 +33,12 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     setup = max([customer.setup_duration for customer in customers], default=0)
     service = (max(served, default=0) + setup) / MS_PER_HOUR
     longest = [_longest_leg(travel) for travel in travels]
+    fair = 0.0
+    if fairness is not None and fairness.is_stated:
+        hours = service + horizon + max(hours / _slowest(kind) * 2 for kind in vehicle_types
+                                        for hours in [longest[kind.travel][1]])
+        fair = _dearest_whole(customers, vehicle_types, fairness, hours,
+                              2 * max(kilometres for kilometres, _ in longest))
     detour = max(_vehicle_cost(kind, longest, service + horizon)
                  + 2 * longest[kind.travel][0] * _cost_when_full(kind, decimals)
                  for kind in vehicle_types)
@@ -38,8 +46,26 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     early = max([customer.early_cost_per_hour for customer in customers], default=0.0)
     once = max([customer.late_cost for customer in customers], default=0.0)
     stated_costs = sum([customer.unassigned_cost or 0.0 for customer in customers])
-    return max(1.0, DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + once
+    return max(1.0, fair + DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + once
                + stated_costs)
+
+
+def _slowest(kind: VehicleType) -> float:
+    """Return how fast a vehicle is at least, as a share of its usual speed."""
+    return min(kind.speed_profile.factors) / FULL_SPEED if kind.speed_profile else 1.0
+
+
+def _dearest_whole(customers: Sequence[Customer], vehicle_types: Sequence[VehicleType],
+                   fairness: Fairness, hours: float, kilometres: float) -> float:
+    """Return what a plan costs as a whole at most, each customer taking so long and so far."""
+    cost = hours * len(customers) * fairness.makespan_cost_per_hour
+    if fairness.balance is None:
+        return cost
+    amount = max([customer.demand[0] + customer.taken_in[0] for customer in customers], default=0)
+    share = {"duration": hours, "distance": kilometres, "stops": 1.0, "load": float(amount)}
+    vehicles = min(len(customers), sum([kind.count for kind in vehicle_types]))
+    work = len(customers) * share[fairness.balance.measure]
+    return cost + fairness.balance.cost * work * max(0, vehicles - 1)
 
 
 def _cost_when_full(kind: VehicleType, decimals: Sequence[int]) -> float:
@@ -53,7 +79,7 @@ def _vehicle_cost(kind: VehicleType, longest: Sequence[tuple[float, float]],
 
     `longest` has the kilometres and hours of each travel's.
     """
-    slowest = min(kind.speed_profile.factors) / FULL_SPEED if kind.speed_profile else 1.0
+    slowest = _slowest(kind)
     kilometres, hours = longest[kind.travel]
     cost = (kind.fixed_cost + kind.cost_per_stop + 2 * kilometres * kind.cost_per_km
             + (2 * hours / slowest + other_hours) * kind.dearest_hour)

@@ -16,9 +16,12 @@ from app.requests.conversion.service import with_service_durations
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
+from app.schemas.fairness import FairnessInput
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
-from model.problem import Customer, FloatArray, IncompatibleGoods, Problem, Shipment
+from model.problem import (
+    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Problem, Shipment,
+)
 
 
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
@@ -50,12 +53,10 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     unassigned_cost = request.unassigned_cost
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
-                                                  decimals) + _dearest(costs)
+                                                  decimals, _fairness(request.fairness))
+        unassigned_cost += _dearest(costs)
     return Problem(
-        depots=tuple([
-            replace(depot, site=site, launch=launch, batteries=batteries, chargers=chargers)
-            for depot, site, launch, (batteries, chargers)
-            in zip(depots, sites, placed.launches, placed.stocks, strict=False)]),
+        depots=_depots(placed),
         customers=customers,
         vehicle_types=vehicle_types,
         travel=travels.built(),
@@ -69,7 +70,15 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
                                  for each in request.incompatible_goods),
         shipments=shipments,
+        fairness=_fairness(request.fairness),
     )
+
+
+def _depots(placed: PlacedRequest) -> tuple[Depot, ...]:
+    return tuple([
+        replace(depot, site=site, launch=launch, batteries=batteries, chargers=chargers)
+        for depot, site, launch, (batteries, chargers)
+        in zip(placed.depots, placed.sites, placed.launches, placed.stocks, strict=False)])
 
 
 def _vehicle_costs(groups: Sequence[Group], num_customers: int) -> FloatArray | None:
@@ -82,6 +91,12 @@ def _vehicle_costs(groups: Sequence[Group], num_customers: int) -> FloatArray | 
 def _dearest(costs: FloatArray | None) -> float:
     """Return what a vehicle costs most to serve somebody, on top."""
     return 0.0 if costs is None else float(costs.max(initial=0.0))
+
+
+def _fairness(stated: FairnessInput) -> Fairness:
+    balance = stated.balance
+    return Fairness(stated.makespan_cost_per_hour,
+                    None if balance is None else Balance(balance.measure, balance.cost))
 
 
 def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],

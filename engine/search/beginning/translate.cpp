@@ -12,6 +12,7 @@
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/evaluate.h"
+#include "search/route/fairness.h"
 #include "search/route/freshness.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -61,8 +62,9 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     count.stamp = 1;
     count.customers = data.num_nodes - data.num_depots;
     count.changed = all_slots;
-    searcher.value->cost = cost + left_out_cost(data, searcher.missing, count.missing);
     list_active(searcher);
+    searcher.value->cost =
+        cost + left_out_cost(data, searcher.missing, count.missing) + plan_cost(data, searcher);
     keep_best(searcher);
 }
 

@@ -21,6 +21,8 @@ struct Best {
     View<std::uint64_t, 1> rng;
     double cost = infeasible;
     Move move{};
+    Shares shares{};      // of all routes, where the plan as a whole costs something
+    double weight = 0.0;  // how much what it would cost more counts
 
     // Takes a place for the best, for the caller to say which, if it costs less and isn't
     // overlooked. Of those that cost the same, the first is the best.
@@ -42,6 +44,19 @@ struct Best {
         move.type = joins.type;
         return true;
     }
+};
+
+// Lets places cost so much more while it lasts.
+class Surcharge {
+public:
+    Surcharge(Best& best, double more) : best_(best), more_(more) { best_.cost -= more_; }
+    ~Surcharge() { best_.cost += more_; }
+    Surcharge(const Surcharge&) = delete;
+    Surcharge& operator=(const Surcharge&) = delete;
+
+private:
+    Best& best_;
+    double more_;
 };
 
 // Who is to be inserted into routes, and the best place so far.

@@ -12,6 +12,7 @@
 #include "search/insertion/pairs.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
+#include "search/route/fairness.h"
 #include "search/route/goods.h"
 #include "search/route/hubs.h"
 #include "search/route/rarer.h"
@@ -116,6 +117,10 @@ void try_routes(const Insertion& insertion) {
             const bool flies = data.can(route.type, 1, node);
             if (!flies && !data.can(route.type, 0, node)) continue;
             if (data.deadline.passed()) return;
+            const Surcharge surcharge(
+                best, best.weight > 0.0
+                          ? best.weight * plan_cost_of_joining(data, now, best.shares, slot, node)
+                          : 0.0);
             const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
             if (known && is_kept(insertion, slot)) {
                 if (!costly && best.takes(searcher.kept_cost(node, slot))) {
@@ -174,6 +179,9 @@ void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, 
             !may_take_off(data, searcher, k, data.type[k].begins_at, 0)) {
             continue;
         }
+        const Surcharge surcharge(
+            best, best.weight > 0.0 ? best.weight * plan_cost_of_opening(data, best.shares, k, node)
+                                    : 0.0);
         for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
             if (!best.takes(searcher.alone(k, way, node))) continue;
             best.move.kind = way == 0 ? new_route : new_flight;

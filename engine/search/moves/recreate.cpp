@@ -12,6 +12,7 @@
 #include "search/insertion/places.h"
 #include "search/moves/halting.h"
 #include "search/route/edit.h"
+#include "search/route/fairness.h"
 #include "search/route/hubs.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -31,6 +32,10 @@ constexpr Int few_to_sort = 64;
 
 // How often those come first whom it costs most to leave out, where that differs.
 constexpr double dearest_first = 0.5;
+
+// By how much, at most, what the plan as a whole would cost more is taken to count in a turn, since
+// it is estimated.
+constexpr double heaviest = 2.0;
 
 // Returns where a customer comes in an order; least first.
 double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_t, 1> rng) {
@@ -141,6 +146,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
     SearchCounts& count = *searcher.count;
     const bool enlarge = data.strategy.swap_vehicles && uniform(searcher.rng) < enlarged;
     const bool opens_first = uniform(searcher.rng) < opening_share;
+    const double weight = plan_costs(data) ? heaviest * uniform(searcher.rng) : 0.0;
     Int left = first;
     for (Int index = first; index < count.absent; ++index) {
         const Int node = absent[index];
@@ -152,6 +158,10 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
             halt_for(data, searcher, node);
         const bool opens = opens_first && index == first;
         Best best{data.strategy.blink, searcher.rng};
+        if (weight > 0.0) {
+            best.shares = shares_of(data, searcher);
+            best.weight = weight;
+        }
         const Insertion insertion{data, searcher, node, enlarge, best};
         Int tried = 0;
         if (opens) {

@@ -13,6 +13,7 @@
 #include "search/moves/ruin.h"
 #include "search/moves/small_moves.h"
 #include "search/moves/two_opt_star.h"
+#include "search/route/fairness.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -35,7 +36,8 @@ public:
           searcher_(searcher),
           resplit_(data, searcher),
           best_part_(data, searcher),
-          small_moves_(data, searcher) {}
+          small_moves_(data, searcher),
+          plan_cost_(plan_cost(data, searcher)) {}
 
     void ruin(Int first) {
         resplit_.forget();
@@ -87,11 +89,14 @@ public:
         return served_cost() < searcher_.value->cost + rise;
     }
 
-    double served_cost() const { return tandem::served_cost(searcher_); }
+    double served_cost() const {
+        return tandem::served_cost(searcher_) + (plan_cost(data_, searcher_) - plan_cost_);
+    }
 
     void accept(double cost) {
         list_touched(searcher_);
         tandem::accept(searcher_, cost);
+        plan_cost_ = plan_cost(data_, searcher_);
     }
 
     void keep_best() { tandem::keep_best(searcher_); }
@@ -166,6 +171,7 @@ private:
     Resplit resplit_;
     BestPart best_part_;
     SmallMoves small_moves_;
+    double plan_cost_;  // of the routes as they are, but for this turn
 };
 
 }  // namespace

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "deadline.h"
+#include "rules/fairness.h"
 #include "rules/window.h"
 
 namespace tandem {
@@ -62,6 +63,7 @@ struct ProblemData {
     std::int64_t num_types;
     std::int64_t max_visits;  // customers on a sortie
     Strategy strategy;
+    Fairness fairness;
     bool all_optional;                      // nobody has to be served
     double unassigned_cost;                 // of whoever it costs least to leave out
     View<const double, 1> unassigned_more;  // (node,) what leaving out another costs above that
@@ -108,6 +110,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.num_types,
             from.max_visits,
             from.strategy,
+            from.fairness,
             from.all_optional,
             from.unassigned_cost,
             from.unassigned_more,

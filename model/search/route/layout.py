@@ -50,6 +50,17 @@ class Strategy(NamedTuple):
     blink: float  # how often a better place for a customer is overlooked
 
 
+class PlanPrices(NamedTuple):
+    """What a plan costs as a whole."""
+
+    makespan: float  # per ms of its last end
+    balance: float  # per part of the measure
+    measure: int  # index into MEASURES
+
+
+MEASURES = "duration", "stops", "load", "distance"
+
+
 class ProblemData(NamedTuple):
     """The problem, unchanged by the search."""
 
@@ -58,6 +69,7 @@ class ProblemData(NamedTuple):
     num_types: int
     max_visits: int  # customers on a sortie
     strategy: Strategy
+    fairness: PlanPrices
     all_optional: bool  # nobody has to be served
     unassigned_cost: float  # of whoever it costs least to leave out
     unassigned_more: FloatArray  # (node,) what leaving out another costs above that

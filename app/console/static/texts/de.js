@@ -302,6 +302,8 @@ export default {
     overtime: 'Überstunden',
     earliness: 'Warten auf Zeitfenster',
     lateness: 'Verspätung',
+    makespan: 'Spätestes Ende',
+    balance: 'Ungleiche Arbeit',
     unassigned: 'Nicht eingeplant',
   },
   servedBy: {
@@ -1082,6 +1084,10 @@ export default {
     plan_start: 'Beginn des Plans',
     time_zone: 'Zeitzone',
     incompatible_goods: 'Getrennte Güter',
+    fairness: 'Ausgleich',
+    makespan_cost_per_hour: 'Kosten des spätesten Endes',
+    balance: 'Ungleiche Arbeit',
+    measure: 'Maß',
     zones: 'Veröffentlichte Zonen',
     no_fly: 'Flugverbotszonen',
     wind: 'Wind',
@@ -1141,6 +1147,10 @@ export default {
     trunc: 'ab auf ganze Einheiten',
     dimacs: 'ab auf Zehntel',
     thousandths: 'auf Tausendstel',
+    duration: 'Arbeitsstunden',
+    stops: 'Stopps',
+    load: 'Ladung',
+    distance: 'Kilometer',
   },
   help: {
     CustomerInput: {
@@ -1412,7 +1422,16 @@ export default {
       times: 'Wie mitgenommene Dateien Zeiten angeben.',
       geometry: 'Ob Pläne die Linien enthalten, die Karten zeichnen.',
     },
+    FairnessInput: {
+      makespan_cost_per_hour: 'Was jede Stunde kostet, bis das letzte Fahrzeug fertig ist.',
+      balance: 'Was ungleiche Arbeit der Fahrzeuge kostet. Leer: nichts.',
+    },
+    BalanceInput: {
+      measure: 'Was verglichen wird.',
+      cost: 'Preis der Quadrate der Abstände vom Mittel, geteilt durch das Mittel.',
+    },
     PlanRequest: {
+      fairness: 'Was der Plan als Ganzes kostet.',
       currency: 'Worin Kosten angegeben sind, etwa EUR.',
       load_dimensions: 'Was Mengen bedeuten, der Reihe nach, etwa Kilogramm und Liter.',
       coordinate_system: 'Ob Orte Längen und Breiten sind oder x und y auf einer Ebene.',
@@ -1513,6 +1532,7 @@ export default {
     SHIFT_ENDS_BEFORE_START: 'Die Schicht endet, bevor sie beginnt.',
     DEPOT_CLOSED: 'Das Depot ist die ganze Schicht geschlossen.',
     HOURS_DIFFER: 'Depots eines Typs öffnen oder schließen zu verschiedenen Zeiten.',
+    FAIRNESS_REPLANNED: 'Ein Tag lässt sich unterwegs noch nicht ausgewogen weiterplanen.',
     HOURS_AND_OVERTIME: 'Das Depot schließt vor allen Überstunden.',
     BREAKS_REPLANNED: 'Ein Tag mit Pausen lässt sich unterwegs noch nicht weiterplanen.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',

@@ -289,6 +289,8 @@ export default {
     overtime: 'Overtime',
     earliness: 'Waiting for windows',
     lateness: 'Lateness',
+    makespan: 'Latest end',
+    balance: 'Unequal work',
     unassigned: 'Left out',
   },
   servedBy: {
@@ -1068,6 +1070,10 @@ export default {
     plan_start: 'Start of the plan',
     time_zone: 'Time zone',
     incompatible_goods: 'Goods kept apart',
+    fairness: 'Fairness',
+    makespan_cost_per_hour: 'Cost of the latest end',
+    balance: 'Unequal work',
+    measure: 'Measure',
     zones: 'Zones as published',
     no_fly: 'No-fly areas',
     wind: 'Wind',
@@ -1127,6 +1133,10 @@ export default {
     trunc: 'down to whole units',
     dimacs: 'down to tenths',
     thousandths: 'to thousandths',
+    duration: 'hours of work',
+    stops: 'stops',
+    load: 'load',
+    distance: 'kilometres',
   },
   help: {
     CustomerInput: {
@@ -1389,7 +1399,16 @@ export default {
       times: 'How the files that you take away tell times.',
       geometry: 'Whether plans have the lines that maps draw.',
     },
+    FairnessInput: {
+      makespan_cost_per_hour: 'What each hour until the last vehicle is done costs.',
+      balance: 'What it costs that vehicles work unequally. Empty: nothing.',
+    },
+    BalanceInput: {
+      measure: 'What of each vehicle is compared.',
+      cost: 'Price of the squares of the differences from the mean, by the mean.',
+    },
     PlanRequest: {
+      fairness: 'What the plan costs as a whole.',
       currency: 'What costs are in, such as EUR.',
       load_dimensions: 'What amounts mean, in their order, such as kilograms and litres.',
       coordinate_system: 'Whether places are longitudes and latitudes, or x and y on a plane.',
@@ -1488,6 +1507,7 @@ export default {
     SHIFT_ENDS_BEFORE_START: 'The shift ends before it begins.',
     DEPOT_CLOSED: 'The depot is closed all shift.',
     HOURS_DIFFER: 'Depots of one type open or close at different times.',
+    FAIRNESS_REPLANNED: 'A day under way can’t be planned on with fairness yet.',
     HOURS_AND_OVERTIME: 'The depot closes before all overtime.',
     BREAKS_REPLANNED: 'A day under way can’t be planned on with breaks yet.',
     UNKNOWN_BREAK: 'No driver has this break.',

@@ -78,6 +78,8 @@ export function FleetTab() {
       <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
         keys=${['unassigned_cost']}
         request=${request} onChange=${edit} /></fieldset>
+    <${Field} name="fairness" schema=${properties.fairness} keys=${['fairness']}
+      request=${request} onChange=${edit} />
   </div>`;
 }
 

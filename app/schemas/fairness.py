@@ -1,0 +1,27 @@
+"""What a plan costs as a whole."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from app.schemas.fields import Input, Money
+
+
+class BalanceInput(Input):
+    """What unequal work of vehicles costs."""
+
+    measure: Literal["duration", "stops", "load", "distance"] = Field(
+        description="What of each vehicle used is compared: its working `duration` in hours, "
+        "customers served by the truck (`stops`), first dimension brought and picked up, drones' "
+        "too (`load`), or km driven (`distance`).")
+    cost: Money = Field(
+        description="Cost of the sum, over vehicles used, of (measure - mean)² / mean.")
+
+
+class FairnessInput(Input):
+    """What a plan costs as a whole, beside what its routes cost."""
+
+    makespan_cost_per_hour: Money = Field(
+        0.0, description="Cost per hour from plan start to the latest end of any vehicle.")
+    balance: BalanceInput | None = Field(
+        None, description="What unequal work costs. Null: nothing.")

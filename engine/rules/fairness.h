@@ -1,0 +1,53 @@
+// What a plan costs as a whole: its last end, and how unequally its vehicles share the work.
+#pragma once
+
+#include <algorithm>
+
+#include "problem/instance.h"
+
+namespace tandem {
+
+using Fairness = tandem_fairness;
+
+// Of what a vehicle's share of the work is told.
+enum class Measure : Int { duration, stops, load, distance };
+
+inline Measure measure_of(const Fairness& fairness) { return Measure{fairness.measure}; }
+
+// Whether anything of the plan as a whole costs.
+inline bool is_fairness_priced(const Fairness& fairness) {
+    return fairness.makespan > 0.0 || fairness.balance > 0.0;
+}
+
+// What is known of all vehicles used together: how many, the sum of their shares and that of the
+// squares, and when the last ends.
+struct Shares {
+    double count, sum, squares;
+    Int latest;
+};
+
+// All with one vehicle more.
+inline Shares with(const Shares& shares, double share, Int end) {
+    return {shares.count + 1.0, shares.sum + share, shares.squares + share * share,
+            std::max(shares.latest, end)};
+}
+
+// All where a vehicle's share grows by so much, and it ends at `end`.
+inline Shares with_more(const Shares& shares, double share, double more, Int end) {
+    return {shares.count, shares.sum + more, shares.squares + more * (2.0 * share + more),
+            std::max(shares.latest, end)};
+}
+
+// The sum of the squares of all differences from the mean, by the mean.
+inline double imbalance(const Shares& shares) {
+    if (shares.sum <= 0.0) return 0.0;
+    return std::max(0.0, shares.count * shares.squares / shares.sum - shares.sum);
+}
+
+// What a plan costs as a whole.
+inline double fairness_cost(const Fairness& fairness, const Shares& shares) {
+    return fairness.makespan * static_cast<double>(shares.latest) +
+           fairness.balance * imbalance(shares);
+}
+
+}  // namespace tandem

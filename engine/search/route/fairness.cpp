@@ -1,0 +1,107 @@
+#include "search/route/fairness.h"
+
+#include <algorithm>
+
+#include "rules/leg.h"
+#include "rules/load.h"
+#include "rules/pair.h"
+#include "search/route/rarer.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+// Return how much of the first dimension a customer is brought, and gives.
+double amount_at(const ProblemData& data, Int node) {
+    if (is_paired(data.pair, node)) return 0.0;
+    if (tiers_of(data) == 0) return double(demand_of(data.place[0][node])[0]);
+    return double(delivered_of(data.amount, node, 0)[0] + picked_of(data.amount, node, 0)[0]);
+}
+
+double load_on(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    double load = 0.0;
+    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+        if (stop.kind == customer_stop) load += amount_at(data, stop.node);
+    }
+    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            load += amount_at(data, sortie.nodes[visit]);
+        }
+    }
+    return load;
+}
+
+// Return a route's share of the work.
+double share_of(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    switch (measure_of(data.fairness)) {
+        case Measure::duration:
+            return double(route.working);
+        case Measure::load:
+            return load_on(data, fleet, slot);
+        default: {
+            const bool counts = measure_of(data.fairness) == Measure::stops;
+            Int share = 0;
+            for (const Trip& trip : fleet.trip[slot].first(route.trips)) {
+                share += counts ? stops_on(trip) : trip.distance;
+            }
+            return double(share);
+        }
+    }
+}
+
+}  // namespace
+
+Shares shares_of(const ProblemData& data, const Searcher& searcher) {
+    Shares shares{0.0, 0.0, 0.0, 0};
+    if (!plan_costs(data)) return shares;
+    const Fleet& now = searcher.now;
+    const auto count = [&](Int slot) {
+        if (now.route[slot].length == 0) return;
+        shares = with(shares, share_of(data, now, slot), now.route[slot].end);
+    };
+    const Int active = searcher.count->active;
+    for (const Int slot : searcher.active.first(active)) count(slot);
+    // Those that a turn has put on the road may not be listed yet.
+    for (const Int slot : searcher.touched.first(searcher.count->touched)) {
+        if (searcher.rank[slot] >= active) count(slot);
+    }
+    return shares;
+}
+
+double plan_cost(const ProblemData& data, const Searcher& searcher) {
+    return plan_costs(data) ? fairness_cost(data.fairness, shares_of(data, searcher)) : 0.0;
+}
+
+double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const Shares& shares,
+                            Int slot, Int node) {
+    const Route& route = fleet.route[slot];
+    const double share = share_of(data, fleet, slot);
+    const double service = double(data.place[0][node].service_duration());
+    const double longer =
+        std::max(service, double(route.working) / double(std::max(Int{1}, route.length - 1)));
+    double more = share / double(std::max(Int{1}, route.length - 1));
+    if (measure_of(data.fairness) == Measure::stops) more = 1.0;
+    if (measure_of(data.fairness) == Measure::load) more = amount_at(data, node);
+    if (measure_of(data.fairness) == Measure::duration) more = longer;
+    const Shares grown = with_more(shares, share, more, route.end + Int(longer));
+    return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
+}
+
+double plan_cost_of_opening(const ProblemData& data, const Shares& shares, Int k, Int node) {
+    const VehicleType& type = data.type[k];
+    const TravelLegs legs = legs_of(data.leg, type.travel);
+    const Leg out = leg(legs, type.begins_at, node), home = leg(legs, node, type.ends_at);
+    const Int service = data.place[0][node].service_duration();
+    const Int working = out.duration + service + home.duration;
+    double share = double(working);
+    if (measure_of(data.fairness) == Measure::stops) share = 1.0;
+    if (measure_of(data.fairness) == Measure::load) share = amount_at(data, node);
+    if (measure_of(data.fairness) == Measure::distance)
+        share = double(out.distance + home.distance);
+    const Shares grown = with(shares, share, type.shift_earliest + working);
+    return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
+}
+
+}  // namespace tandem

@@ -1,0 +1,40 @@
+"""What a plan costs as a whole: its end, and how unequal its vehicles' work is."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from model.problem.quantities import require_rate
+
+Measure = Literal["duration", "stops", "load", "distance"]
+
+
+@dataclass(frozen=True)
+class Balance:
+    """What unequal work costs: by the squares of what each vehicle used differs from the mean."""
+
+    measure: Measure
+    cost: float  # of each such square / mean, in hours, stops, units or km
+
+    def __post_init__(self) -> None:
+        require_rate("balance cost", self.cost)
+
+
+@dataclass(frozen=True)
+class Fairness:
+    """Prices of a plan as a whole."""
+
+    makespan_cost_per_hour: float = 0.0  # of the latest end of all vehicles, since plan start
+    balance: Balance | None = None
+
+    def __post_init__(self) -> None:
+        require_rate("makespan_cost_per_hour", self.makespan_cost_per_hour)
+
+    @property
+    def is_stated(self) -> bool:
+        """Tell whether anything of the plan as a whole costs."""
+        balance = self.balance
+        return self.makespan_cost_per_hour > 0 or (balance is not None and balance.cost > 0)
+
+
+UNPRICED = Fairness()
+"""Nothing of the plan as a whole costs."""

@@ -1,0 +1,87 @@
+"""Prices of the plan as a whole: by hand, and the search against all plans of tiny problems."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import permutations
+
+import numpy as np
+import pytest
+
+from model.engine.instance import pack
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import (
+    MM_PER_KM, Balance, Customer, Depot, Fairness, Problem, Travel, VehicleType,
+)
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
+
+MINUTE = 60_000
+ONLY_END = Fairness(makespan_cost_per_hour=60.0)
+
+
+def street_problem(seed: int, fairness: Fairness, number: int = 5, **kind: int) -> Problem:
+    """Return a problem on a grid of streets, 2 minutes per km."""
+    rng = np.random.default_rng(seed)
+    place = rng.integers(-6, 7, (number + 1, 2))
+    step = np.abs(place[:, None] - place).sum(axis=2)
+    travel = Travel((2 * MINUTE * step).astype(np.int64), (step * MM_PER_KM).astype(np.int64))
+    customers = tuple(Customer(str(index), (int(rng.integers(1, 5)) * 1000,),
+                               service_duration=int(rng.integers(0, 9)) * MINUTE)
+                      for index in range(number))
+    van = VehicleType("van", 3, (20_000,), 0, fixed_cost=3.0, **kind)
+    small = VehicleType("small", 1, (6000,), 0, cost_per_km=0.7, cost_per_hour=6.0)
+    return Problem((Depot("hub"),), customers, (replace(van, cost_per_km=1.0), small), (travel,),
+                   place.astype(np.float64), 1000.0, fairness=fairness)
+
+
+def routes_of(groups: Sequence[tuple[int, ...]]) -> Iterator[list[RouteDecision]]:
+    """Yield who drives routes: vans, or the small one for one of them."""
+    for small in range(-1, len(groups)):
+        yield [RouteDecision(int(index == small), 0 if index == small else index,
+                             (TripDecision((0, *nodes, 0)),))
+               for index, nodes in enumerate(groups)]
+
+
+def splits(order: tuple[int, ...], most: int) -> Iterator[tuple[tuple[int, ...], ...]]:
+    """Yield an order cut into parts, the first customers ascending so that each comes once."""
+    if not order:
+        yield ()
+    elif most > 0:
+        for size in range(1, len(order) + 1):
+            for rest in splits(order[size:], most - 1):
+                if not rest or order[0] < rest[0][0]:
+                    yield (order[:size], *rest)
+
+
+def cheapest(problem: Problem) -> float:
+    """Return what the cheapest of all plans costs that serve everybody."""
+    best = float("inf")
+    for order in permutations(range(1, problem.num_nodes)):
+        for groups in splits(order, 3):
+            for decisions in routes_of(groups):
+                plan = Solution(tuple([schedule(problem, each) for each in decisions]))
+                evaluation = check(problem, plan)
+                if evaluation.is_feasible:
+                    best = min(best, evaluation.cost.total)
+    return best
+
+
+def searched(problem: Problem, turns: int = 600) -> Solution:
+    nobody = Solution((), tuple(range(1, problem.num_nodes)))
+    found = improve(problem, pack([problem]), nobody, SearchConfig(turns=turns))
+    evaluation = check(problem, found.solution)
+    assert evaluation.violations == ()
+    assert evaluation.cost.total == pytest.approx(found.cost, rel=1e-9)
+    return found.solution
+
+
+@pytest.mark.parametrize(("seed", "fairness"), [
+    (1, ONLY_END), (2, ONLY_END), (3, Fairness(0.0, Balance("duration", 40.0))),
+    (4, Fairness(0.0, Balance("stops", 6.0))), (5, Fairness(0.0, Balance("load", 4.0))),
+    (6, Fairness(0.0, Balance("distance", 3.0))), (7, Fairness(30.0, Balance("stops", 2.0)))])
+def test_search_finds_the_cheapest_plan_as_a_whole(seed: int, fairness: Fairness) -> None:
+    problem = street_problem(seed, fairness)
+    found = check(problem, searched(problem)).cost
+    assert found.total == pytest.approx(cheapest(problem), rel=1e-9)
+    assert found.makespan > 0 or fairness.balance is not None
