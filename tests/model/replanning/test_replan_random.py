@@ -24,6 +24,7 @@ from tests.model.tiny import (
 from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
 )
+from tests.model.tiny_prices import with_vehicle_costs
 from training.instances import VARIANTS, generate
 
 pytestmark = pytest.mark.slow
@@ -45,7 +46,9 @@ def part_of(problem: Problem, customers: list[int]) -> Problem:
                                 for kind in problem.travel),
                    coordinates=problem.coordinates[nodes],
                    may_serve=None if problem.may_serve is None else
-                   problem.may_serve[:, np.array(customers) - problem.num_depots])
+                   problem.may_serve[:, np.array(customers) - problem.num_depots],
+                   vehicle_costs=problem.vehicle_costs_of(
+                       range(len(problem.vehicle_types)), customers))
 
 
 def renumbered(trip: Trip, nodes: dict[int, int]) -> Trip:
@@ -228,9 +231,10 @@ def test_tiny_plans_that_pick_up_go_on(planner: Planner, seed: int) -> None:
 
 
 @pytest.mark.parametrize("seed", range(20))
-def test_tiny_plans_go_on_by_the_table(planner: Planner, seed: int) -> None:
+def test_tiny_plans_go_on_by_who_may_serve_whom_at_what_cost(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 9))
-    replan_and_check(planner, with_table(rng, draw_tiny(rng)), rng)
+    change = with_table if seed % 2 else with_vehicle_costs
+    replan_and_check(planner, change(rng, draw_tiny(rng)), rng)
 
 
 @pytest.mark.parametrize("seed", range(20))
