@@ -15,9 +15,9 @@ from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.packing import (
-    comes_by_trips, packed_anew, packed_plan, with_single_trips,
+    comes_by_trips, packed_anew, packed_plan, timed, with_single_trips,
 )
-from model.search.beginning.translate import left_out, make_searcher, read_routes
+from model.search.beginning.translate import best_plan, make_searcher
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.linked.engine import measure_near
@@ -31,7 +31,7 @@ from model.search.starts import Starts
 from model.search.strategy import ALL_MOVES, Moves
 from model.search.temperature import Heat
 from model.search.worker import Worker
-from model.solution import Solution, renumbered, renumbered_routes
+from model.solution import Solution, renumbered
 
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 """Number of customers from which on a plan with drones begins with trucks alone, and the share."""
@@ -266,9 +266,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     node = numbering.node.tolist()
 
     def best(searcher: Searcher = whole) -> Solution:
-        routes = renumbered_routes(read_routes(data, searcher), node.__getitem__)
-        missing = sorted(node[each] for each in left_out(data, searcher))
-        return Solution(tuple(routes), tuple(missing))
+        return best_plan(data, searcher, node)
 
     def after_round(turns: int) -> None:
         limits.reading = task.reading(*_size(whole))
@@ -386,7 +384,9 @@ def _plan_by_trip(task: _Task) -> Improved:
     single = with_single_trips(task.problem)
     found = _beforehand(replace(task, problem=single, instance=pack([single], False)),
                         BY_TRIP_SHARE)
-    return replace(found, solution=packed_plan(task.problem, found.solution))
+    data = make_data(task.problem, task.instance, task.config.moves, task.neighbourhood)
+    return replace(found, solution=timed(task.problem, data, task.neighbourhood.numbering,
+                                         packed_plan(task.problem, found.solution)))
 
 
 def _beforehand(task: _Task, share: float) -> Improved:

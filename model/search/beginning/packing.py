@@ -9,10 +9,13 @@ import numpy as np
 
 from model.problem import MS_PER_HOUR, UNLIMITED, Problem, VehicleType
 from model.search.beginning.stock import left_at
-from model.search.beginning.translate import left_out, make_searcher, read_routes
+from model.search.beginning.translate import (
+    best_plan, left_out, make_searcher, read_routes,
+)
+from model.search.neighbourhood.numbering import Numbering
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
-from model.solution import Route, Solution, Stop, Trip
+from model.solution import Route, Solution, Stop, Trip, renumbered
 
 BUSY = 0.6
 """Share of its day that a vehicle spends on trips, where they are well packed."""
@@ -101,6 +104,13 @@ def packed_plan(problem: Problem, single: Solution) -> Solution:
                  for route in single.routes if route.vehicle_type == k]
         routes += packed_routes(problem, k, trips, None, routes, ORDERS)
     return Solution(tuple(routes), single.unassigned)
+
+
+def timed(problem: Problem, data: ProblemData, numbering: Numbering, plan: Solution) -> Solution:
+    """Return a plan without times, as `packed_plan` does, with them; what can't be is left out."""
+    made = make_searcher(problem, data, renumbered(plan, numbering.number.tolist().__getitem__),
+                         np.random.SeedSequence(0))
+    return best_plan(data, made, numbering.node.tolist())
 
 
 def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,

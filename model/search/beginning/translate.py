@@ -16,7 +16,8 @@ from model.search.route.layout import (
 )
 from model.search.route.state import Searcher
 from model.solution import (
-    Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit, with_handling,
+    Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit, renumbered_routes,
+    with_handling,
 )
 
 SPARE_SLOTS = 8
@@ -247,3 +248,10 @@ def _sortie(data: ProblemData, k: int, row: Any, launch_node: int, first: int) -
         setups.tolist(), strict=True))
     return Sortie(row.drone, row.launch - first, row.recovery - first, visits, row.takeoff,
                   row.begin, int(aboard))
+
+
+def best_plan(data: ProblemData, searcher: Searcher, node: Sequence[int]) -> Solution:
+    """Return a search's best plan by the problem's numbers, which `node` has by the search's."""
+    routes = renumbered_routes(read_routes(data, searcher), node.__getitem__)
+    missing = sorted(node[each] for each in left_out(data, searcher))
+    return Solution(tuple(routes), tuple(missing))

@@ -153,6 +153,23 @@ def test_trips_are_first_found_as_if_each_were_a_vehicles_own() -> None:
     assert len(packed.routes) <= 7
 
 
+def test_trips_have_times_where_the_clock_ends_as_they_are_packed(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    stopped = []
+
+    def packed(problem: Problem, single: Solution) -> Solution:
+        stopped.append(True)
+        return packed_plan(problem, single)
+
+    monkeypatch.setattr("model.search.improve.packed_plan", packed)
+    problem = fleet_of_both()
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    found = improve(problem, pack([problem]), nobody, SearchConfig(turns=20),
+                    should_stop=lambda: bool(stopped))
+    assert found.solution.routes
+    assert check(problem, found.solution).violations == ()
+
+
 def test_no_trips_are_found_first_where_trucks_have_drones_or_few_are_served() -> None:
     problem = fleet_of_both()
     truck, drone = problem.vehicle_types
