@@ -66,6 +66,8 @@ RULES = {
     "sorties of several": with_vehicles(drones=replace(DRONES, max_customers_per_sortie=2)),
     "types that drive alike": with_another(fixed_cost=10.0),
     "types that drive otherwise": with_another(latest=8 * HOUR),
+    "vehicles cost more by customer": lambda problem: replace(
+        problem, vehicle_costs=np.ones((len(problem.vehicle_types), problem.num_customers))),
     "goods that must not go together": lambda problem: replace(with_customers(
         goods=frozenset({"food"}))(problem), incompatible_goods=(
             IncompatibleGoods(frozenset({"food", "fuel"})),)),
