@@ -21,7 +21,7 @@ constexpr Int second_part = 2;
 
 // Rests on one leg, at most, and on one route.
 constexpr Int most_rests = 8;
-constexpr Int most_rests_on_route = 24;
+constexpr Int most_rests_on_route = 16;
 
 // Whether rules ask a driver for rests.
 inline bool has_driving_rules(const VehicleType& type) { return type.must_rest == 1; }
@@ -59,6 +59,14 @@ inline bool may_still_work(const VehicleType& type, const Driver& driver, Int no
 inline bool needs_no_rest(const VehicleType& type, Int driving, Int working) {
     return type.driven_before + driving <= type.max_driving &&
            type.worked_before + working <= type.max_work;
+}
+
+// Whether rules bound how long a driver works without a rest.
+inline bool limits_work(const VehicleType& type) { return type.max_work < unlimited; }
+
+// Whether a driver may have to rest who drives so much further.
+inline bool may_need_rest(const VehicleType& type, const Driver& driver, Int driving) {
+    return limits_work(type) || driver.driven + driving > type.max_driving;
 }
 
 // Whether a driver may drive so long in a day.

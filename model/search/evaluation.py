@@ -36,11 +36,11 @@ def evaluate(instance: Instance) -> Records:
                | (bound & waits))
     held_back = early | ((retimed | limited) & timed)
     release = bool((place["release"] > 0).any())
-    priced = soft | limited | held_back | retimed | rests | (rates["load"] > 0)
+    priced = soft | limited | held_back | retimed | (rates["load"] > 0)
     # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
     # one trip that waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
-    by_detour = ~(timed if release else timed & ~free) & ~priced & ~bound
+    by_detour = ~(timed if release else timed & ~free) & ~priced & ~bound & ~rests
     apart = instance.goods.shape[1] > 0
     farther = types["max_trip_distance"] < UNLIMITED
     paired = instance.pair.shape[1] > 0

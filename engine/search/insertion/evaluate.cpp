@@ -313,7 +313,8 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int k = fleet.route[slot].type, kind = move.kind;
     const Int depot = data.type[k].depot;
     const Int partner = is_paired(data.pair, node) ? data.pair[node].partner : nowhere;
-    if (data.evaluation[k].priced || (is_apart(data, k) && kind >= new_trip) || partner >= 0) {
+    if (data.evaluation[k].priced || has_driving_rules(data.type[k]) ||
+        (is_apart(data, k) && kind >= new_trip) || partner >= 0) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, sequence_in(fleet, to), move, node, partner);
         if (!refresh_cost(data, fleet, to)) return infeasible;

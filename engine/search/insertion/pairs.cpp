@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rules/driving.h"
 #include "rules/flown_trip.h"
 #include "rules/load.h"
 #include "rules/pair.h"
@@ -196,7 +197,7 @@ private:
 bool is_walked(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     return !data.evaluation[route.type].priced && route.sorties == 0 &&
-           !bounds_trips(data.type[route.type]);
+           !bounds_trips(data.type[route.type]) && !has_driving_rules(data.type[route.type]);
 }
 
 }  // namespace

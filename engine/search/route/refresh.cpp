@@ -189,7 +189,7 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot]);
     }
-    if (data.evaluation[route.type].retimed || any_rest(data.type[route.type], route, stops)) {
+    if (data.evaluation[route.type].retimed || any_rest(data.type[route.type], route)) {
         open_up(route, stops);
     } else {
         look_back(data, route, stops);

@@ -25,12 +25,12 @@ struct Taken {
 
 // A driver who has come somewhere, with the rests so far.
 struct Label {
-    Int time = far;
-    Int cum = 0;       // sum of all durations
-    Int depart = far;  // the latest departure that costs nothing
-    Driver driver{};
-    Int count = 0;
-    std::array<Taken, most_rests_on_route> taken{};
+    Int time;
+    Int cum;     // sum of all durations
+    Int depart;  // the latest departure that costs nothing
+    Driver driver;
+    Int count;
+    std::array<Taken, most_rests_on_route> taken;  // so many of them are written
 };
 
 // Tell whether one is no worse than another, whatever comes.
@@ -88,19 +88,30 @@ public:
 
     bool run() {
         Label first;
+        first.cum = first.count = 0;
+        first.depart = far;
         first.time = std::max(type_.shift_earliest, std::max(stops_[0].release, stops_[0].hold));
         first.driver = driver_from(type_, first.time);
-        labels_.add(first);
+        there_->add(first);
         const Int last = stops_.size() - 1;
+        ahead_ = 0;
+        for (Int p = 0; p < last; ++p) ahead_ += driving_at(p);
         for (Int p = 0; p < last; ++p) {
-            there_.clear();
-            for (const Label& label : labels_) pass(label, p);
-            labels_ = there_;
+            ahead_ -= driving_at(p);
+            Labels& here = labels_[static_cast<std::size_t>(p & 1)];
+            there_ = &labels_[static_cast<std::size_t>((p + 1) & 1)];
+            there_->clear();
+            for (const Label& label : here) pass(label, p);
         }
         return write();
     }
 
 private:
+    // Return how long the leg from a stop is, that of one where no trip ends.
+    Int driving_at(Int p) const {
+        return stops_[p].kind == end_stop ? 0 : driving_from(truck_.data, type_, stops_, p);
+    }
+
     // Leave stop `p`, reached so, and come to the next.
     void pass(Label label, Int p) {
         Stop& stop = stops_[p];
@@ -113,7 +124,7 @@ private:
         if (stop.kind == end_stop) {
             label.time += stop.gap;
             label.cum += stop.gap;
-            there_.add(label);
+            there_->add(label);
             return;
         }
         const Int setup = setup_after(truck_.data.setup, stop.node, stops_[p + 1].node);
@@ -130,7 +141,10 @@ private:
         RestedLeg arriving = leg;
         arriving.arrive();
         come(label, arriving, setup);
-        rest(label, p, leg, setup, RestPlace::arrival);
+        // Who may drive on to the end needs no rest.
+        if (may_need_rest(type_, arriving.driver(), ahead_)) {
+            rest(label, p, leg, setup, RestPlace::arrival);
+        }
     }
 
     // Take each rest that may come next, and go on. Who has rested where a leg ends has driven
@@ -159,7 +173,7 @@ private:
         label.time = leg.time() + setup;
         label.cum += label.time - left_;
         label.driver = leg.driver();
-        there_.add(label);
+        there_->add(label);
     }
 
     Int rests_on(const Label& label, Int p) const {
@@ -178,7 +192,7 @@ private:
     bool write() {
         const Label* best = nullptr;
         std::pair<double, Int> least;
-        for (const Label& label : labels_) {
+        for (const Label& label : *there_) {
             if (!may_still_work(type_, label.driver, label.time) || !may_end(type_, label.time)) {
                 continue;
             }
@@ -206,9 +220,10 @@ private:
     Truck truck_;
     const VehicleType& type_;
     View<Stop, 1> stops_;
-    Labels labels_;
-    Labels there_;
-    Int left_ = 0;  // when the leg began
+    std::array<Labels, 2> labels_;  // where the truck is, and where it comes, in turn
+    Labels* there_ = labels_.data();
+    Int left_ = 0;   // when the leg began
+    Int ahead_ = 0;  // how long all legs behind it are
 };
 
 // Let nobody rest on a route. In place.
@@ -228,12 +243,19 @@ Int driving_on(const ProblemData& data, const VehicleType& type, View<const Stop
     return driving;
 }
 
+// Write rests and times of a route that begins no sooner than `hold`. In place; false if a rule is
+// broken.
+bool rest_from(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
+               Int hold) {
+    clear_rests(data.type[route.type], stops.first(route.length));
+    stops[0].hold = hold;
+    return Placing(data, route, stops).run() && drive_as_placed(data, route, stops, sorties);
+}
+
 }  // namespace
 
-bool any_rest(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
-    if (!has_driving_rules(type)) return false;
-    const View<const Stop, 1> made = stops.first(route.length);
-    return std::any_of(made.begin(), made.end(), [](const Stop& stop) { return stop.rests != 0; });
+bool any_rest(const VehicleType& type, const Route& route) {
+    return has_driving_rules(type) && route.driving == far;
 }
 
 bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
@@ -244,29 +266,37 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
     const Int driving = driving_on(data, type, stops.first(route.length));
     if (!may_drive_in_a_day(type, driving)) return false;
     const Int departure = first_departure(data, route, stops, sorties);
+    route.driving = driving;
     if (needs_no_rest(type, driving, route.end - departure)) return true;
-    if (Placing(data, route, stops).run()) {
-        return drive_as_placed(data, route, stops, sorties);
+    route.driving = far;
+    if (!rest_from(data, route, stops, sorties, stops[0].hold)) {
+        // Whoever begins later hasn't worked for so long.
+        return stops[0].hold == none && departure > stops[0].leave &&
+               rest_from(data, route, stops, sorties, departure);
     }
-    if (stops[0].hold != none || departure <= stops[0].leave) return false;
-    // Whoever begins later hasn't worked for so long.
-    stops[0].hold = departure;
-    return Placing(data, route, stops).run() && drive_as_placed(data, route, stops, sorties);
+    if (!limits_work(type) || stops[0].hold != none) return true;
+    const Int later = first_departure(data, route, stops, sorties);
+    const Int end = route.end, working = end - later;
+    if (later <= stops[0].leave) return true;
+    if (rest_from(data, route, stops, sorties, later) && route.end <= end &&
+        route.end - first_departure(data, route, stops, sorties) < working) {
+        return true;
+    }
+    return rest_from(data, route, stops, sorties, none);
 }
 
 bool may_have_to_rest(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
     const Route& route = fleet.route[slot];
     const VehicleType& type = data.type[route.type];
-    const View<const Stop, 1> stops = fleet.stop[slot].first(route.length);
-    if (any_rest(type, route, stops)) return true;
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    if (any_rest(type, route)) return true;
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int longer = leg(legs, stops[p].node, node).duration +
                        leg(legs, node, stops[p + 1].node).duration - stops[p].gap;
     const Int more = std::max(Int{0}, longer);
     const Int served = data.place.by_truck(type)[node].service_duration();
-    return !may_drive_in_a_day(type, driving_on(data, type, stops) + more) ||
-           !needs_no_rest(type, driving_on(data, type, stops) + more,
-                          route.working + more + served);
+    return !may_drive_in_a_day(type, route.driving + more) ||
+           !needs_no_rest(type, route.driving + more, route.working + more + served);
 }
 
 }  // namespace tandem

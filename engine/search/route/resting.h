@@ -6,8 +6,8 @@
 
 namespace tandem {
 
-// Tell whether a rest is taken on a route.
-bool any_rest(const VehicleType& type, const Route& route, View<const Stop, 1> stops);
+// Tell whether a rest is taken on a timed route.
+bool any_rest(const VehicleType& type, const Route& route);
 
 // Write times as soon as possible, with the rests that rules ask for placed so that the route ends
 // as soon as possible. In place; false if a rule is broken.

@@ -19,6 +19,7 @@ from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import with_breaks
+from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
 
@@ -92,7 +93,7 @@ def test_search_finds_the_cheapest_plan_with_breaks(seed: int) -> None:
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
-CHANGES = with_gaps, with_setups, with_drone_types
+CHANGES = with_gaps, with_setups, with_drone_types, with_shipments
 
 
 def mixed(seed: int) -> Problem:

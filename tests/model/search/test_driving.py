@@ -18,6 +18,7 @@ from tests.model.driving_law import Law, offences
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_gaps, with_setups
 from tests.model.tiny_driving import drawn_rules, with_driving
+from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
 
@@ -119,7 +120,7 @@ def test_search_finds_the_cheapest_plan_with_rests(seed: int) -> None:
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
-CHANGES = with_gaps, with_setups
+CHANGES = with_gaps, with_setups, with_shipments
 
 
 def mixed(seed: int) -> Problem:
