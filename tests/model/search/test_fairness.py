@@ -1,8 +1,9 @@
 """Prices of the plan as a whole: by hand, and the search against all plans of tiny problems."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from itertools import permutations
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -11,10 +12,13 @@ from model.engine.instance import pack
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MM_PER_KM, Balance, Customer, Depot, Fairness, Problem, Travel, VehicleType,
+    MM_PER_KM, Balance, Customer, Depot, Fairness, Measure, Problem, Travel,
+    VehicleType,
 )
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
+from tests.model.tiny import draw_tiny, with_duty, with_pickups, with_reloads
+from tests.model.tiny_shipments import with_shipments
 
 MINUTE = 60_000
 ONLY_END = Fairness(makespan_cost_per_hour=60.0)
@@ -68,7 +72,7 @@ def cheapest(problem: Problem) -> float:
 
 
 def searched(problem: Problem, turns: int = 600) -> Solution:
-    nobody = Solution((), tuple(range(1, problem.num_nodes)))
+    nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     found = improve(problem, pack([problem]), nobody, SearchConfig(turns=turns))
     evaluation = check(problem, found.solution)
     assert evaluation.violations == ()
@@ -85,3 +89,13 @@ def test_search_finds_the_cheapest_plan_as_a_whole(seed: int, fairness: Fairness
     found = check(problem, searched(problem)).cost
     assert found.total == pytest.approx(cheapest(problem), rel=1e-9)
     assert found.makespan > 0 or fairness.balance is not None
+
+
+@pytest.mark.parametrize("draw", [draw_tiny, with_pickups, with_reloads, with_duty, with_shipments])
+def test_search_counts_as_the_judge_does_whatever_else_is_stated(
+        draw: Callable[..., Problem]) -> None:
+    for seed, measure in enumerate(get_args(Measure)):
+        rng = np.random.default_rng(seed)
+        problem = draw_tiny(rng) if draw is draw_tiny else draw(rng, draw_tiny(rng))
+        fairness = Fairness(30.0 * (seed % 2), Balance(measure, 1.0 + seed))
+        searched(replace(problem, fairness=fairness), turns=60)
