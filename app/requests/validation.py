@@ -144,6 +144,21 @@ def _matrix_errors(draft: Draft) -> Errors:
                                f"There are {len(matrix.distances)} rows here and "
                                f"{len(matrix.durations)} in durations: send both for the same "
                                "places.")
+            else:
+                yield from _null_errors(path, matrix.durations, matrix.distances)
+
+
+def _null_errors(path: Path, durations: Sequence[Row], distances: Sequence[Row]) -> Errors:
+    """Tell of legs that one table has and the other has not."""
+    for index, (seconds, metres) in enumerate(zip(durations, distances, strict=True)):
+        if len(seconds) == len(metres):
+            unlike = np.flatnonzero(np.isnan(seconds) != np.isnan(metres))
+            unlike = unlike[unlike != index]
+            if len(unlike):
+                yield error_at("MATRIX_NULL", (*path, "distances", index, int(unlike[0])),
+                               "durations and distances don't agree on whether there is such a "
+                               "leg: state null in both, or in neither.")
+                return
 
 
 def _table_errors(path: Path, table: Sequence[Row]) -> Errors:
@@ -155,7 +170,7 @@ def _table_errors(path: Path, table: Sequence[Row]) -> Errors:
                                f"The matrix has {size} rows and this one has {len(row)} entries: "
                                "make it square, one row and one column per place.")
                 return
-    if size and min(row.min() for row in table) < 0:
+    if size and any((row < 0).any() for row in table):
         negative = [(i, j) for i, row in enumerate(table)
                     for j in np.flatnonzero(row < 0).tolist()]
         more = f" ({len(negative)} entries of this matrix are.)"

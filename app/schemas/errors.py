@@ -74,6 +74,7 @@ ErrorCode = Literal[
     "MATRIX_SIZE",
     "MATRIX_NEGATIVE",
     "MATRIX_VALUE",
+    "MATRIX_NULL",
     "MISSING_SPEED",
     "TWO_SPEEDS",
     "SPEED_PROFILE_ORDER",
@@ -285,8 +286,7 @@ def json_path(location: Iterable[str | int]) -> str:
     return path
 
 
-NO_LEG = ("A leg that isn't there is stated as 1000000000 in both tables: no vehicle drives it "
-          "within a shift.latest or a max_trip_distance.")
+NO_LEG = "A leg that isn't there is stated as null in both tables."
 
 
 def schema_errors(found: Sequence[ErrorDetails]) -> list[InputError]:
@@ -332,7 +332,7 @@ def schema_error(details: ErrorDetails) -> InputError:
     code = cast(ErrorCode, kind) if kind in _STATED_CODES else _CODES.get(kind, "WRONG_TYPE")
     if location[:1] == ("matrices",) and len(location) > 3:
         code = "MATRIX_VALUE"
-        if details.get("input", ...) is None or kind == "less_than_equal":
+        if kind == "less_than_equal":
             message = f"{message[:-1]}. {NO_LEG}"
     return InputError(code=code, path=json_path(location), message=message)
 

@@ -46,7 +46,8 @@ MAX_PLACES = MAX_CUSTOMERS + MAX_DEPOTS + MAX_LAUNCH_SITES + 1
 """Most rows of a matrix, and columns: what `location_index` can name."""
 
 _Row = Annotated[Row, HeldAsArray(Annotated[
-    list[Annotated[float, Field(le=MAX_AMOUNT)]], Field(fail_fast=True, max_length=MAX_PLACES)])]
+    list[Annotated[float, Field(le=MAX_AMOUNT)] | None],
+    Field(fail_fast=True, max_length=MAX_PLACES)])]
 Table = Annotated[list[_Row], Field(fail_fast=True, max_length=MAX_PLACES)]
 
 LOCATION_TEXT = (

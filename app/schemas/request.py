@@ -63,11 +63,12 @@ class MatrixInput(Input):
 
     durations: Table = Field(
         description="Travel durations in seconds, `durations[from][to]`. The diagonal counts only "
-        "between two places that share a row."
+        "between two places that share a row. Null: there is no such leg."
     )
     distances: Table | None = Field(
         None,
-        description="Distances in metres, `distances[from][to]`. Null: computed from locations.",
+        description="Distances in metres, `distances[from][to]`, null where `durations` are. Null: "
+        "computed from locations.",
     )
 
 

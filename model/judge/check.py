@@ -21,7 +21,7 @@ from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
 from model.judge.past_rules import begins_with, past_violations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
 from model.judge.timing import read_decision, resume_trip, schedule_trip
-from model.problem import REST, UNREACHABLE, DroneType, Problem, VehicleType
+from model.problem import MAX_QUANTITY, REST, UNREACHABLE, DroneType, Problem, VehicleType
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Trip
 
 NOTHING_KNOWN: Mapping[int, "JudgedRoute"] = MappingProxyType({})
@@ -180,9 +180,8 @@ def _unreadable(problem: Problem, route: Route, path: str) -> Iterator[Violation
             continue
         yield from _unreadable_stops(problem, trip, trip_path)
         yield from _unreadable_breaks(vehicle_type, trip, trip_path)
-        if vehicle_type.flies:
-            legs = pairwise([stop.node for stop in trip.stops])
-            yield from _unreachable(problem, vehicle_type, legs, trip_path)
+        legs = pairwise([stop.node for stop in trip.stops])
+        yield from _unreachable(problem, vehicle_type, legs, trip_path)
         if vehicle_type.drones is None and trip.sorties:
             yield Violation("COUNT", "sorties of a vehicle without drones", trip_path)
         elif vehicle_type.drones is not None:
@@ -237,13 +236,16 @@ def _unreadable_sortie(
 
 def _unreachable(problem: Problem, flyer: DroneType | VehicleType,
                  legs: Iterable[tuple[int, int]], path: str) -> Iterator[Violation]:
-    """Which of some legs can't be flown, up to one from or to a node that isn't there."""
+    """Which of some legs can't be gone, up to one from or to a node that isn't there."""
     travel = problem.travel[flyer.travel]
+    drives = isinstance(flyer, VehicleType) and not flyer.flies
     for leg in legs:
         if not all(0 <= node < problem.num_nodes for node in leg):
             return
         if UNREACHABLE in (travel.duration.item(*leg), travel.distance.item(*leg)):
             yield Violation("UNREACHABLE", f"no flight from node {leg[0]} to {leg[1]}", path)
+        elif drives and travel.duration.item(*leg) >= MAX_QUANTITY:
+            yield Violation("UNREACHABLE", f"no way from node {leg[0]} to {leg[1]}", path)
 
 
 def _mismatches(stated: Trip, timed: Trip, path: str) -> Iterator[Violation]:

@@ -272,6 +272,14 @@ def _driving(attempt: Attempt) -> Diagnosis:
                      f"{attempt.vehicle_type.id} may be at the wheel, or at work.", None, None)
 
 
+def _unreachable(attempt: Attempt) -> Diagnosis:
+    trip = attempt.solution.routes[0].trips[0]
+    if attempt.vehicle_type.flies or trip.sorties:
+        return unreachable_broken(attempt)
+    return Diagnosis("UNREACHABLE", f"The matrices of {attempt.vehicle_type.id} have no leg to it "
+                     "from where its trips begin, or none back.")
+
+
 DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "VEHICLE": _vehicle,
     "SKILLS": _skills,
@@ -279,7 +287,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "CAPACITY": _capacity,
     "PAYLOAD": _payload,
     "PICKUP_ORDER": _pickup_order,
-    "UNREACHABLE": unreachable_broken,
+    "UNREACHABLE": _unreachable,
     "MAX_RANGE": max_range_broken,
     "WIND": wind_broken,
     "ENDURANCE": endurance_broken,

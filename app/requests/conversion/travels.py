@@ -1,6 +1,6 @@
 """Travel matrices of a request, from locations or the client's matrices, equal ones built once."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import replace
 from functools import cached_property
 from typing import Literal, NamedTuple
@@ -19,10 +19,13 @@ from app.requests.conversion.units import thousandths
 from app.requests.conversion.winds import Winds
 from app.requests.conversion.work import COMPUTED, legs_seconds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
+from app.schemas.fields import MAX_AMOUNT
 from app.schemas.request import MatrixInput, RoadsInput
 from app.schemas.rows import Row
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
-from model.problem import UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel
+from model.problem import (
+    MAX_QUANTITY, UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel,
+)
 from model.problem.straight import fits
 from model.travel.matrices import (
     embed,
@@ -71,6 +74,19 @@ def _is_handled(flyer: Flyer) -> bool:
     """Tell whether legs to depots and from there are longer than others, in the engine's tables."""
     return isinstance(flyer, VehicleTypeInput) and (
         flyer.launch_duration + flyer.recovery_duration > 0)
+
+
+def _without_ways(durations: FloatArray, distances: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Return legs of which those that aren't there last as long as may be said.
+
+    They are no longer than the longest other, so that nothing hangs on how dear they would be.
+    """
+    missing = np.isnan(durations)
+    if not missing.any():
+        return durations, distances
+    longest = float(distances[~missing].max(initial=0.0))
+    return (np.where(missing, MAX_AMOUNT, durations),
+            np.where(missing, longest, distances))
 
 
 class Travels:
@@ -133,6 +149,10 @@ class Travels:
         """Return the matrices built so far."""
         return tuple(self._travels)
 
+    def lack_ways(self, used: Collection[int]) -> bool:
+        """Tell whether any of some matrices has legs that aren't there."""
+        return any(self._travels[index].longest()[0] >= MAX_QUANTITY for index in used)
+
     def drive(self, vehicle_type: VehicleTypeInput) -> tuple[int, SpeedProfile | None]:
         """Return the index of the trucks' matrices, and their speeds by time of day."""
         key, profile = self._driving(vehicle_type)
@@ -188,7 +208,8 @@ class Travels:
             duration = self._travels[0].duration[:]
             if nowhere is not None:
                 duration = np.delete(np.delete(duration, nowhere, 0), nowhere, 1)
-            points = embed(duration)
+            there_is = duration < MAX_QUANTITY
+            points = embed(np.where(there_is, duration, duration.max(where=there_is, initial=0)))
         # Whoever ends anywhere is seen to do so amid all places.
         return points if nowhere is None else np.insert(points, nowhere, points.mean(axis=0), 0)
 
@@ -295,7 +316,7 @@ class Travels:
             durations /= key.speed
             distances = (self._ground.legs_m if matrix.distances is None
                          else self._at_places(matrix.distances))
-            return matrix_travel(durations, distances, self._preparing.pause)
+            return matrix_travel(*_without_ways(durations, distances), self._preparing.pause)
         if key.means == "road":
             return self._build_on_roads(key)
         if key.means == "drive":

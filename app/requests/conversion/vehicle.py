@@ -13,7 +13,8 @@ from app.schemas.driving import DrivingRulesInput
 from app.schemas.drones import DronesInput, TurnaroundInput
 from app.schemas.vehicle import BreakInput, OvertimeInput, VehicleTypeInput
 from model.problem import (
-    UNLIMITED, Break, Depot, DrivingRules, DroneType, Overtime, VehicleType, within_hours,
+    MAX_QUANTITY, UNLIMITED, Break, Depot, DrivingRules, DroneType, Overtime, VehicleType,
+    within_hours,
 )
 
 
@@ -59,7 +60,19 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         breaks=tuple([_break(each) for each in stated.breaks]),
         driving=_driving(stated.driving_rules),
     ))
+    kind = _in_time(kind, travels)
     return _flying(kind, stated, travels, decimals, amounts) if stated.flies else kind
+
+
+def _in_time(kind: VehicleType, travels: Travels) -> VehicleType:
+    """Return vehicles whose work is over before any leg would be that isn't there."""
+    if not travels.lack_ways({kind.travel, *(each.travel for each in kind.drone_types)}):
+        return kind
+    most, overtime = MAX_QUANTITY - 1, kind.overtime
+    if overtime is not None:
+        most //= 2
+        overtime = replace(overtime, max_duration=min(overtime.max_duration, most))
+    return replace(kind, latest=min(kind.latest, most), overtime=overtime)
 
 
 def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decimals: Sequence[int],
