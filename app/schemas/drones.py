@@ -57,6 +57,14 @@ class Flyer(Protocol):
         """Largest payload."""
 
     @property
+    def count(self) -> int:
+        """How many there are of it."""
+
+    @property
+    def endurance(self) -> float | None:
+        """Seconds of a flight."""
+
+    @property
     def speed_kmh(self) -> float | None:
         """Airspeed."""
 

@@ -352,6 +352,12 @@ class VehicleTypeInput(Input):
         return [(("drones", index), drones) for index, drones in enumerate(self.drones)]
 
     @property
+    def flyers_by_path(self) -> list[tuple[tuple[str | int, ...], Flyer]]:
+        """What flies, if there were any of it, and the path of where it is stated."""
+        own: list[tuple[tuple[str | int, ...], Flyer]] = [((), self)] if self.flies else []
+        return [*own, *self.drones_by_path]
+
+    @property
     def drone_types(self) -> list[DronesInput]:
         """The drones of each type."""
         return [drones for _, drones in self.drones_by_path]

@@ -14,7 +14,7 @@ from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.energy import charges, sortie_energy
-from model.judge.flight_limits import flight_limits, one_km_more
+from model.judge.flight_limits import flight_limits, hub_limits, one_km_more
 from model.judge.freshness import excess_aboard
 from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
@@ -146,6 +146,8 @@ def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
         if kind in one_each.values():
             yield from _type_limits(bench, kind)
         yield from _fleet_limits(bench, kind)
+    for field, kind, richer in hub_limits(bench.problem, bench.plan.solution):
+        yield Limit(field, "vehicle_type", kind, "unit", 0.0, richer, gives_trips=True)
 
 
 def _customer_limits(bench: Bench) -> Iterator[Limit]:

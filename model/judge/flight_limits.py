@@ -5,8 +5,10 @@ from dataclasses import replace
 from typing import Literal
 
 from model.judge.clock import MS_PER_MINUTE
+from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import TripMetrics
-from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, VehicleType
+from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Depot, Problem, VehicleType
+from model.solution import Solution
 
 _Changed = tuple[str, Literal["minute", "km"], float | None, VehicleType]
 """A field, the unit of one more, how many are left, and the type with one more."""
@@ -22,6 +24,29 @@ def flight_limits(kind: VehicleType, trip: TripMetrics | None) -> Iterator[_Chan
         yield "endurance", "minute", slack, replace(kind, endurance=longer)
     if kind.max_range is not None:
         yield "max_range", "km", None, replace(kind, max_range=one_km_more(kind.max_range))
+
+
+def hub_limits(problem: Problem, solution: Solution) -> Iterator[tuple[str, int, Problem]]:
+    """Yield what a plan leaves nothing of at depots of vehicles that fly, a type of those each.
+
+    With one more there.
+    """
+    for k, kind in enumerate(problem.vehicle_types):
+        depot = problem.depots[kind.depot]
+        if depot.batteries is not None and lacks_battery(problem, kind, solution):
+            yield "depot.batteries", k, _with_depot(
+                problem, kind.depot, replace(depot, batteries=depot.batteries + 1))
+        trips = [len(route.trips) for route in solution.routes if route.vehicle_type == k]
+        if depot.chargers is not None and any(
+                lacks_charger(problem, kind, number, solution) for number in trips):
+            yield "depot.chargers", k, _with_depot(
+                problem, kind.depot, replace(depot, chargers=depot.chargers + 1))
+
+
+def _with_depot(problem: Problem, node: int, depot: Depot) -> Problem:
+    depots = [*problem.depots]
+    depots[node] = depot
+    return replace(problem, depots=tuple(depots))
 
 
 def one_km_more(distance: int) -> int:

@@ -11,9 +11,7 @@ from app.schemas.vehicle import VehicleTypeInput
 def rule_warnings(survey: Survey) -> Warnings:
     """Yield a warning for each number that is looser than that of a rule named beside it."""
     for index, kind in enumerate(survey.request.fleet):
-        own = [((), kind)] if kind.flies else []
-        flyers: list[tuple[tuple[str | int, ...], Flyer]] = [*own, *kind.drones_by_path]
-        for inner, flyer in flyers:
+        for inner, flyer in kind.flyers_by_path:
             if flyer.preset is None:
                 continue
             looser = _looser(flyer, RULES[flyer.preset])

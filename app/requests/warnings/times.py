@@ -217,7 +217,7 @@ def _working(survey: Survey, index: int, kind: VehicleTypeInput) -> Warnings:
 
 
 def _endurance(index: int, kind: VehicleTypeInput) -> Warnings:
-    for inner, drones in kind.drones_by_path:
+    for inner, drones in kind.flyers_by_path:
         endurance = drones.endurance
         slow = drones.speed_kmh is not None and drones.speed_kmh < SLOWEST_KMH
         if endurance is None or slow or not drones.count or not 0 < endurance <= SHORT_ENDURANCE:

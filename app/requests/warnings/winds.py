@@ -5,7 +5,7 @@ import numpy as np
 from app.requests.conversion.winds import Winds
 from app.requests.warnings.survey import Survey
 from app.requests.warnings.warning import Warnings, amount_text, customers_text, warning_at
-from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput
+from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
 from model.problem import BoolArray, FloatArray
 from model.travel.matrices import LocalProjection
 from model.travel.wind import Breeze, Wind
@@ -17,7 +17,7 @@ def wind_warnings(survey: Survey) -> Warnings:
     if winds.is_steady or not len(survey.bases) or not len(survey.customers):
         return
     for index, kind in enumerate(survey.request.fleet):
-        for inner, drones in kind.drones_by_path:
+        for inner, drones in kind.flyers_by_path:
             felt = winds.flown(kind, drones)
             if len(felt) < 2 or not drones.count or drones.profile in (
                     survey.request.matrices or {}):
@@ -34,12 +34,13 @@ def wind_warnings(survey: Survey) -> Warnings:
                     "or plan a shorter shift.")
 
 
-def _lost(survey: Survey, drones: DronesInput, felt: tuple[Breeze, ...]) -> BoolArray:
+def _lost(survey: Survey, drones: Flyer, felt: tuple[Breeze, ...]) -> BoolArray:
     """Mark the customers a drone reaches from the nearest base and back in some wind, not in all.
     """
     away = _metres(survey)
-    service = np.array([each.service_duration if drones.service_duration is None
-                        else drones.service_duration for each in survey.customers])
+    own = drones.service_duration if isinstance(drones, DronesInput) else None
+    service = np.array([each.service_duration if own is None else own
+                        for each in survey.customers])
     airspeed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
     limit = np.inf if drones.endurance is None else drones.endurance
     lengths = np.hypot(*away.T)

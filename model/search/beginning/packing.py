@@ -33,6 +33,11 @@ SOONER = 0.3
 """What putting off the trips behind counts, by what waiting does."""
 
 
+FEW_LEFT_OUT = 3
+"""Trips that may be left out where that saves a vehicle: its customers fit into others at the
+least, and no move of a search empties a vehicle of many trips."""
+
+
 def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
                   nodes: Sequence[int] | None = None, beside: Sequence[Route] = (),
                   orders: int = 1) -> list[Route]:
@@ -40,7 +45,8 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
 
     Those with the least leeway come first, each where its vehicle waits least before and behind; on
     another vehicle where it fits between no trips. What no vehicle can fly is left out, or for what
-    routes `beside` leave no batteries, fewest customers first. Of several `orders` the best counts.
+    routes `beside` leave no batteries, fewest customers first. Of several `orders` the best counts,
+    and a few trips are left out, too, where that saves a vehicle that costs something.
     Routes have no times yet. `nodes` are the problem's, by the numbers that trips have.
     """
     kind = problem.vehicle_types[k]
@@ -49,13 +55,12 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
         trips = sorted(trips, key=len, reverse=True)[:stock.batteries]
     timing = _Timing(problem, kind, nodes or range(problem.num_nodes))
     legs = [leg for leg in map(timing.leg, trips) if leg is not None]
-    rng = np.random.default_rng(0)
-    packed = [_packed(kind, sorted(legs, key=lambda leg: leg.leeway), stock.chargers)]
-    for _ in range(orders - 1):
-        share = rng.uniform(1.0 - SHAKEN, 1.0 + SHAKEN, len(legs)).tolist()
-        order = sorted(range(len(legs)), key=lambda index: legs[index].slack * share[index])
-        packed.append(_packed(kind, [legs[index] for index in order], stock.chargers))
-    rows = min(packed, key=lambda rows: (-sum(len(row.legs) for row in rows), len(rows)))
+    rows = _best_packed(kind, legs, stock.chargers, orders)
+    if orders > 1 and kind.fixed_cost > 0 and len(rows) > 1:
+        fewer = _best_packed(replace(kind, count=len(rows) - 1, numbers=()), legs, stock.chargers,
+                             orders)
+        if _num_trips(rows) - _num_trips(fewer) <= FEW_LEFT_OUT:
+            rows = fewer
     return [Route(k, number, tuple([_trip(kind, leg.trip) for leg in row.legs]))
             for number, row in enumerate(rows)]
 
@@ -218,6 +223,22 @@ def _packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int) -> list[_Row
             rows.append(row)
         row.put(place, leg)
     return rows
+
+
+def _best_packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int,
+                 orders: int) -> list[_Row]:
+    """Return as many trips as there is room for, on as few vehicles, of several orders."""
+    rng = np.random.default_rng(0)
+    packed = [_packed(kind, sorted(legs, key=lambda leg: leg.leeway), chargers)]
+    for _ in range(orders - 1):
+        share = rng.uniform(1.0 - SHAKEN, 1.0 + SHAKEN, len(legs)).tolist()
+        order = sorted(range(len(legs)), key=lambda index: legs[index].slack * share[index])
+        packed.append(_packed(kind, [legs[index] for index in order], chargers))
+    return min(packed, key=lambda rows: (-_num_trips(rows), len(rows)))
+
+
+def _num_trips(rows: Sequence[_Row]) -> int:
+    return sum(len(row.legs) for row in rows)
 
 
 def _trip(kind: VehicleType, customers: Sequence[int]) -> Trip:

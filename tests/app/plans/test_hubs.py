@@ -266,3 +266,23 @@ def test_a_day_goes_on_with_the_batteries_that_are_left(
     went_on = planned(searching, request | {"replan": {"plan": plan, "freeze_before": now}})
     assert len(trips_of(went_on)) <= number - 1
     assert went_on["hubs"][0]["batteries_left"] == number - 1 - len(trips_of(went_on))
+
+
+def test_the_best_places_are_those_that_the_hub_has_batteries_for(
+        searching: httpx.Client, smallest: Request) -> None:
+    request = by_air(ones(smallest))
+    plan = planned(searching, request)
+    number = len(trips_of(plan))
+
+    def fits(batteries: int) -> Any:
+        request["depots"][0]["batteries"] = batteries
+        new = request["customers"][0] | {"id": "late", "demand": request["fleet"][0]["capacity"]}
+        reply = searching.post("/fit", json={"problem": request, "plan": plan,
+                                             "new_customer": new})
+        assert reply.status_code == 200, reply.text
+        return reply.json()["places"]
+
+    enough = fits(number + 1)[0]
+    assert enough["by"] == "drone"
+    assert not enough["reasons"]
+    assert all(place["reasons"] for place in fits(number))

@@ -96,6 +96,22 @@ def test_battery_more_lets_a_drone_go(tiny_problem, customers, truck, drones):
     assert found["drones.turnaround.batteries"] == (0.0, pytest.approx(2.0))
 
 
+@pytest.mark.parametrize("stock", ["batteries", "chargers"])
+def test_battery_or_charger_more_at_a_hub_lets_a_vehicle_fly_again(tiny_problem, customers, truck,
+                                                                   stock):
+    charge = 10**6 if stock == "chargers" else 0
+    watts = (1000, 1000)
+    energy = Energy(10**12, 0.5, (0, 1000), watts, watts, watts, watts, charge=charge)
+    flying = replace(truck, count=1, capacity=(3000,), max_trips=9, flies=True, energy=energy)
+    problem = tiny_problem(*customers, truck=flying)
+    hub = replace(problem.depots[0], **{stock: 1 if stock == "batteries" else 0})
+    problem = replace(problem, depots=(hub,))
+    solution = replace(plan(problem, route(A, B, C)), unassigned=(D,))
+    found = binding(problem, solution, D)
+    assert found[f"depot.{stock}"][1] >= 1000
+    assert binding(problem, solution, A).keys().isdisjoint({"depot.batteries", "depot.chargers"})
+
+
 def test_watt_hour_lets_a_drone_go(tiny_problem, customers, truck, drones):
     watts = (30_000, 30_000)
     # A minute there and one back: a watt-hour.

@@ -537,6 +537,8 @@ export default {
     max_range: 'Die Entfernung zu Kunden',
     drones_max_range: 'Die Entfernung zu Kunden',
     drones_max_wind_kmh: 'Der stärkste Wind',
+    depot_batteries: 'Die geladenen Akkus im Depot',
+    depot_chargers: 'Die Ladeplätze im Depot',
     drones_turnaround_batteries: 'Die Zahl der Akkus',
     drones_turnaround_charge_w: 'Die Ladeleistung für Drohnen',
     drones_energy_battery_wh: 'Der Akku der Drohnen',

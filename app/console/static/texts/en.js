@@ -523,6 +523,8 @@ export default {
     max_range: 'The distance to customers',
     drones_max_range: 'The distance to customers',
     drones_max_wind_kmh: 'The strongest wind',
+    depot_batteries: 'Charged batteries at the depot',
+    depot_chargers: 'Places to charge at the depot',
     drones_turnaround_batteries: 'The number of batteries',
     drones_turnaround_charge_w: 'The power to charge drones',
     drones_energy_battery_wh: 'The battery of drones',

@@ -145,6 +145,10 @@ CHANGES: dict[str, tuple[Callable[[Request], Any], str, str]] = {
     "flights in minutes": (
         lambda request: request["fleet"][0]["drones"].update(endurance=30),
         "ENDURANCE_LOOKS_LIKE_MINUTES", "$.fleet[0].drones.endurance"),
+    "trips in minutes": (
+        lambda request: (request["fleet"][0].pop("drones"),
+                         of_fleet(flies=True, endurance=30)(request)),
+        "ENDURANCE_LOOKS_LIKE_MINUTES", "$.fleet[0].endurance"),
     "small fleet": (of_fleet(count=1), "FLEET_TOO_SMALL", "$.fleet[0].capacity"),
     "few cooled": (
         lambda request: (request["fleet"].append(
