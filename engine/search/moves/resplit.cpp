@@ -116,6 +116,13 @@ Int depot_between(const ProblemData& data, Int k, View<const Line, 1> line, Int 
     return place;
 }
 
+// Tell whether nobody is between two places of the line, but maybe launch sites.
+bool are_idle(const ProblemData& data, View<const Line, 1> line, Int begin, Int end) {
+    ++begin;
+    while (begin < end && line[begin].node < data.num_depots) ++begin;
+    return begin >= end;
+}
+
 // Tell whether the customers between two places of the line are too much for a truck.
 //
 // There may be no room for so many stops and sorties then, so that it has to be known before.
@@ -186,8 +193,7 @@ bool Resplit::draw() {
     slot_ = now.where[node].slot;
     if (slot_ < 0 || data_.type[now.route[slot_].type].drones != 1) return false;
     type_ = now.route[slot_].type;
-    // Two routes that may have stops at launch sites are planned anew one by one.
-    other_ = uniform(rng) < together_share && !has_halts(data_) ? partner(node) : nowhere;
+    other_ = uniform(rng) < together_share ? partner(node) : nowhere;
     part_ = {0, now.route[slot_].length - 1};
     if (other_ < 0) part_ = window(stop_beside(now, node));
     lines_ = {};
@@ -330,7 +336,7 @@ Places Resplit::change_order(View<Line, 1> line, Int length) const {
 // Cut a route's places in the line, `begin` to `end`, at least cost; return that. In place; maybe
 // infinite.
 double Resplit::split_between(Int begin, Int end) const {
-    if (end <= begin + 1) return 0.0;
+    if (are_idle(data_, searcher_.scratch->line, begin, end)) return 0.0;
     const View<Line, 1> line = behind(searcher_.scratch->line.view(), begin);
     const Int count = end - begin + 1;
     if (overloads(data_, type_, line, 0, count - 1)) return infinite_cost;
@@ -348,7 +354,7 @@ bool Resplit::write_between(Int slot, Int begin, Int end) const {
     if (route.length > 0) --now.used[type_];
     route.length = route.sorties = route.trips = 0;
     now.cost[slot] = 0.0;
-    if (end <= begin + 1) return true;
+    if (are_idle(data_, searcher_.scratch->line, begin, end)) return true;
     route.type = type_;
     ++now.used[type_];
     append(now, spare, 0, part_.first, slot);
