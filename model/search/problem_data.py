@@ -11,6 +11,7 @@ from model.engine.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.evaluation import evaluate
 from model.search.halts import Halts, halts_of
+from model.search.needless_flights import without_needless_flights
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.neighbourhood.numbering import renumbered
 from model.search.route.layout import MEASURES, PlanPrices, ProblemData
@@ -32,7 +33,9 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     if neighbourhood is None:
         neighbourhood = make_neighbourhood(problem, instance)
     instance = renumbered(instance, neighbourhood.numbering)
-    if not moves.flights:
+    if moves.flights:
+        instance, moves = without_needless_flights(problem, instance, moves)
+    else:
         instance = grounded(instance)
     types, evaluation = instance.type[0], evaluate(instance)
     if problem.fairness.is_stated:

@@ -43,7 +43,7 @@ class Heat:
     leg: float  # cost between two customers
     types: int  # of vehicles
     drones: bool  # some type has drones
-    single_drones: bool  # some type has one
+    single_drones: bool  # some type has one, and a choice whom it flies to
     small_moves: bool  # trips of such are annealed by small moves
     large: bool  # there are thousands of customers, and loads alone limit routes
     from_trucks: bool  # the search began with a plan for trucks alone
@@ -58,9 +58,11 @@ class Heat:
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(data, searcher)
         drones = data.type["drones"][:data.num_types]
+        # Where parts of trips have ends of shipments alone, none is split, but many fly.
+        split = data.strategy.resplit or (bool((drones == 1).any()) and len(data.pair) > 0)
         large = is_large and are_alike(data) and only_loads_limit(data)
         return cls(cost / served, leg_cost(data, searcher), data.num_types,
-                   bool((drones > 0).any()), bool((drones == 1).any()), data.strategy.small_moves,
+                   bool((drones > 0).any()), split, data.strategy.small_moves,
                    large, from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
