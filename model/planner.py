@@ -281,7 +281,8 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     begun = None if first is None else first.solution
     turns = options.search_iterations
     terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
-    whole = turns == 0 or bool(problem.shipments) or problem.fairness.is_stated
+    whole = (turns == 0 or bool(problem.shipments) or bool(problem.relations)
+             or problem.fairness.is_stated)
     joint = None if whole else find_joint(problem, terms.ended)
     if joint is None:
         return _search(problem, instance, begun, options, deadline, listener)

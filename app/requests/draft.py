@@ -14,6 +14,7 @@ from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.fairness import FairnessInput
 from app.schemas.fields import Location
 from app.schemas.launch_site import LaunchSiteInput
+from app.schemas.relation import RelationInput
 from app.schemas.request import (
     AirspaceInput, DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput,
     OptionsInput, ReplanInput,
@@ -64,6 +65,8 @@ class Draft:
     incompatible_goods: Sequence[IncompatibleGoodsInput] = ()
     launch_sites: Sequence[LaunchSiteInput | None] | None = ()
     fairness: FairnessInput | None = None
+    relations: Sequence[RelationInput] = ()
+    shipment_ends: frozenset[str] = frozenset()  # names among customers
 
     def places(self, customers: bool = True) -> Iterator[Placed]:
         """Yield depots, launch sites, customers unless they are not asked for, and where vehicles

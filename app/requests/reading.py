@@ -161,6 +161,8 @@ def _whole_draft(request: PlanRequest) -> Draft:
         incompatible_goods=request.incompatible_goods,
         launch_sites=request.launch_sites,
         fairness=request.fairness,
+        relations=request.relations,
+        shipment_ends=frozenset(end.id for each in request.shipments for end in each.ends()),
     )
 
 

@@ -15,6 +15,7 @@ from app.requests.fleet_validation import (
     hours_errors, shift_errors, speed_errors, turnaround_errors,
 )
 from app.requests.plan_validation import Names, replan_errors
+from app.requests.relation_validation import relation_errors
 from app.requests.site_validation import site_errors
 from app.requests.wind_validation import wind_errors
 from app.schemas.customer import CustomerInput
@@ -47,6 +48,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *service_errors(draft),
         *_goods_errors(draft),
         *_fairness_errors(draft),
+        *relation_errors(draft),
         *shift_errors(draft),
         *hours_errors(draft),
         *break_errors(draft),

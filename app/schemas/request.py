@@ -21,12 +21,13 @@ from app.schemas.limits import (
     DEFAULT_POLICY, MAX_CUSTOMERS, MAX_NUM_SAMPLES, MAX_THREADS, MAX_TIME_LIMIT, MAX_VEHICLES,
 )
 from app.schemas.plan import PlanInput
+from app.schemas.relation import RelationInput
 from app.schemas.shipment import ShipmentInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
 from app.schemas.airspace import Zones
 from app.schemas.wind import Wind, WindInput
-from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE
+from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE, MOST_RELATIONS
 
 MAX_VEHICLE_TYPES = 100
 MAX_NO_FLY = 10_000
@@ -347,6 +348,9 @@ class PlanRequest(Input):
     )
     fairness: FairnessInput = Field(
         FairnessInput(), description="What the plan costs as a whole: its end, and unequal work.")
+    relations: Annotated[list[RelationInput], Field(max_length=2 * MOST_RELATIONS)] = Field(
+        [], description="Who goes with whom, and who doesn't."
+    )
     unassigned_cost: Money | None = Field(
         None,
         description="Cost of each customer left out who states none. Null: these must be served; "

@@ -57,6 +57,8 @@ def wild_request(rng: random.Random) -> Data:
         _add_matrices(rng, request)
     if rng.random() < 0.1:
         request["fairness"] = wild_fairness(rng)
+    if rng.random() < 0.25:
+        _relate(rng, request)
     if rng.random() < 0.5:
         _tame(rng, request, dimensions)
     return request
@@ -299,6 +301,20 @@ def _keep_apart(rng: random.Random, request: Data) -> None:
     request["incompatible_goods"] = [
         {"goods": rng.sample(GOODS, rng.randint(2, 3)), "scope": rng.choice(("trip", "vehicle"))}
         for _ in range(rng.randint(1, 2))]
+
+
+def _relate(rng: random.Random, request: Data) -> None:
+    """Let some customers go together, or apart; now and then one who isn't there. In place."""
+    names = [customer["id"] for customer in request["customers"]]
+    if len(names) < 2:
+        return
+    request["relations"] = [
+        {"kind": rng.choice(("together", "together", "apart")),
+         "customers": rng.sample(names, rng.randint(2, min(4, len(names)))),
+         "scope": rng.choice(("vehicle", "trip"))}
+        for _ in range(rng.randint(1, 3))]
+    if rng.random() < 0.02:
+        request["relations"][0]["customers"][0] = "nobody"
 
 
 def _serve_by_type(rng: random.Random, request: Data) -> None:

@@ -52,11 +52,14 @@ typedef struct tandem_price {
 } tandem_price;
 
 /* Bits of the goods at a node that some others must not go with, and of those others: on one trip
-   with them, and on one vehicle. Nobody has a row where nothing is incompatible. */
+   with them, and on one vehicle. Bits of the relations by which a customer goes with others: on one
+   trip, and by one vehicle. Nobody has a row where all may go with all. */
 typedef struct tandem_goods {
     int64_t held;
     int64_t barred_on_trip;
     int64_t barred_on_vehicle;
+    int64_t kept_on_trip;
+    int64_t kept_on_vehicle;
 } tandem_goods;
 
 /* Charged batteries, and places to charge, for vehicles that fly from a depot: how many there are,
@@ -288,6 +291,9 @@ typedef struct tandem_vehicle {
     int64_t taken;             /* likewise, by now */
     int64_t barred_on_trip;    /* goods that may not be added */
     int64_t barred_on_vehicle; /* likewise */
+    int64_t kept_on_trip;      /* relations of who is on this trip */
+    int64_t kept_by_vehicle;   /* likewise on any trip of this vehicle */
+    int64_t parted;            /* relations of who is on trips, or vehicles, that are over */
     int64_t load[9];           /* left, by dimension */
     int64_t aboard[9];         /* of pickups, by dimension */
 } tandem_vehicle;
@@ -520,6 +526,7 @@ typedef struct tandem_trip {
     int64_t release;
     int64_t distance;
     int64_t barred;
+    int64_t kept; /* relations by which others go on this trip */
     int64_t load[3];
 } tandem_trip;
 
@@ -538,6 +545,7 @@ typedef struct tandem_route {
     int64_t driving; /* at the wheel, of a driver who mustn't rest by rules, far if there are rests */
     int64_t stamp;  /* stands for what the route is; 0 while a turn changes it */
     int64_t barred;
+    int64_t kept; /* relations by which others go by this vehicle */
 } tandem_route;
 
 /* Where a customer is served. */

@@ -1,5 +1,6 @@
 #include "simulation/aboard.h"
 
+#include "rules/company.h"
 #include "simulation/meeting.h"
 
 namespace tandem {
@@ -67,9 +68,11 @@ Taken total_there(const Setting& setting, const Vehicle& vehicle, View<const Dro
     return {before, there + (is_customer ? total_picked(setting.amount, node) : 0)};
 }
 
-// Bar what a customer's goods must not go with.
-void bar_goods(const Setting& setting, Vehicle& vehicle, Int node) {
+// Bar what a customer's goods must not go with, and keep together who goes with him.
+void take_company(const Setting& setting, Vehicle& vehicle, Int node) {
     if (!some_apart(setting.goods)) return;
+    vehicle.kept_on_trip |= kept_on_trip(setting.goods[node]);
+    vehicle.kept_by_vehicle |= kept_by_vehicle(setting.goods[node]);
     vehicle.barred_on_trip |= barred_on_trip(setting.goods[node]);
     vehicle.barred_on_vehicle |= barred_on_vehicle(setting.goods[node]);
 }
@@ -118,7 +121,7 @@ bool holds_all(const Setting& setting, const Vehicle& vehicle, View<const Drone,
 
 void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> drones, Int node,
                bool is_customer) {
-    if (is_customer) bar_goods(setting, vehicle, node);
+    if (is_customer) take_company(setting, vehicle, node);
     if (num_tiers(setting.amount) == 0) {
         if (is_customer) take_demand(setting, vehicle, node);
         return;
@@ -140,7 +143,8 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
 bool may_carry(const Setting& setting, const Vehicle& vehicle, Int node) {
     return is_within(setting, vehicle, node) &&
            (!some_apart(setting.goods) ||
-            go_together(setting.goods[node], vehicle.barred_on_trip, vehicle.barred_on_vehicle));
+            (go_together(setting.goods[node], vehicle.barred_on_trip, vehicle.barred_on_vehicle) &&
+             joins_anybody(setting.goods[node], vehicle.parted)));
 }
 
 bool may_launch(const Setting& setting, const Vehicle& vehicle, Int node) {
@@ -153,7 +157,7 @@ Int given_by_flight(const Setting& setting, Int node) {
 }
 
 void load_flight(const Setting& setting, Vehicle& vehicle, Int node) {
-    bar_goods(setting, vehicle, node);
+    take_company(setting, vehicle, node);
     vehicle.given += given_by_flight(setting, node);
     if (num_tiers(setting.amount) == 0) take_demand(setting, vehicle, node);
     for (Int number = 0; number < num_tiers(setting.amount); ++number) {

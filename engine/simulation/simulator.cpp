@@ -7,6 +7,7 @@
 #include "guard.h"
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/company.h"
 #include "rules/driving.h"
 #include "rules/flight.h"
 #include "rules/load.h"
@@ -203,8 +204,13 @@ bool open_legal(const Instance& instance, const State& state, Int r, Int k) {
         return false;
     }
     const Size& size = instance.size[b];
+    const View<const Goods, 1> goods = instance.goods[b];
+    const Int parted = state.vehicle[r].parted | state.vehicle[r].kept_by_vehicle;
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
-        if (state.fresh(b, k, node) && !state.served(r, node)) return true;
+        if (state.fresh(b, k, node) && !state.served(r, node) &&
+            (!some_apart(goods) || joins_anybody(goods[node], parted))) {
+            return true;
+        }
     }
     return false;
 }

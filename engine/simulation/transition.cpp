@@ -176,6 +176,7 @@ void come_home(const Setting& setting, Vehicle& vehicle) {
     vehicle.distance = vehicle.launched = 0;
     vehicle.next_start = vehicle.free + setting.type.reload_duration;
     vehicle.barred_on_trip = 0;
+    vehicle.parted |= std::exchange(vehicle.kept_on_trip, 0);
     empty(setting.type, vehicle);
 }
 
@@ -292,7 +293,9 @@ void open_vehicle(const Instance& instance, State& state, Int r, Int k) {
     const View<const VehicleType, 1> types = instance.type[state.problem[r]];
     const VehicleType& type = types[k];
     Vehicle& vehicle = state.vehicle[r];
+    const Int parted = vehicle.parted | vehicle.kept_by_vehicle;
     clear_vehicle(vehicle);
+    vehicle.parted = parted;
     vehicle.type = k;
     vehicle.index = state.used(r, k)++;
     vehicle.node = type.begins_at;

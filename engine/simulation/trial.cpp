@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rules/breaks.h"
+#include "rules/company.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
@@ -131,6 +132,12 @@ bool attempt(const Rollout& rollout, OpenVehicle& open, Int reload, Service serv
     return service.by_drone ? launch(open, service.node) : drive(open, service.node);
 }
 
+// Tell whether a customer may go on a further trip of a vehicle, by who has gone before.
+bool may_follow(const Goods& company, const Vehicle& vehicle) {
+    return go_together(company, 0, vehicle.barred_on_vehicle) &&
+           joins_anybody(company, vehicle.parted | vehicle.kept_on_trip);
+}
+
 }  // namespace
 
 bool carries_parcels(const OpenVehicle& open) {
@@ -185,7 +192,7 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     const View<const Goods, 1> goods = instance.goods[b];
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || is_delivery(instance.pair[b], node)) continue;
-        if (some_apart(goods) && !go_together(goods[node], 0, vehicle.barred_on_vehicle)) continue;
+        if (some_apart(goods) && !may_follow(goods[node], vehicle)) continue;
         if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
             legal_by_trial(rollout, place, {node, false}, outlook)) {
             return true;

@@ -1,26 +1,52 @@
-"""What some customers ask for, as rows of numbers: goods kept apart, setups, weights."""
+"""What some customers ask for, as rows of numbers: goods, company, setups, weights."""
 
 import numpy as np
 
-from model.problem import Customer, IntArray, Problem
+from model.problem import BoolArray, Customer, IntArray, Problem
 
 
-def goods_rows(problem: Problem) -> list[tuple[int, int, int]]:
-    """Return the goods at all customers."""
-    named = sorted(frozenset().union(*(each.goods for each in problem.incompatible_goods)))
+def company_rows(problem: Problem) -> list[tuple[int, int, int, int, int]]:
+    """Return for all customers what goods they have, and who goes with them, as bits."""
+    rows = [list(row) for row in _goods_rows(problem)]
+    first, next_bit = problem.num_depots, {False: 1 << len(_named(problem)), True: 1}
+    for relation in problem.relations:
+        kept, on_trip = relation.keeps_together, relation.scope == "trip"
+        # Apart: whoever is held bars all others like him.
+        fields = (3 if on_trip else 4,) if kept else (0, 1 if on_trip else 2)
+        for node in relation.nodes:
+            for field in fields:
+                rows[node - first][field] |= next_bit[kept]
+        next_bit[kept] <<= 1
+    return [(held, barred, all_day, trip, vehicle)
+            for held, barred, all_day, trip, vehicle in rows]
+
+
+def clash_by_themselves(problem: Problem) -> BoolArray:
+    """Mark the customers whose own goods are kept apart."""
+    return np.array([bool(held & (on_trip | on_vehicle))
+                     for held, on_trip, on_vehicle, *_ in _goods_rows(problem)], np.bool_)
+
+
+def _named(problem: Problem) -> list[str]:
+    return sorted(frozenset().union(*(each.goods for each in problem.incompatible_goods)))
+
+
+def _goods_rows(problem: Problem) -> list[tuple[int, int, int, int, int]]:
+    """Return the goods at all customers; nobody goes with anybody."""
+    named = _named(problem)
     bit = {goods: 1 << index for index, goods in enumerate(named)}
     barred = {(scope, goods): sum(bit[other] for other in frozenset().union(
                   *(each.goods for each in problem.incompatible_goods
                     if each.scope == scope and goods in each.goods)) - {goods})
               for scope in ("trip", "vehicle") for goods in named}
 
-    def row(customer: Customer) -> tuple[int, int, int]:
+    def row(customer: Customer) -> tuple[int, int, int, int, int]:
         held = on_trip = on_vehicle = 0
         for goods in customer.goods & bit.keys():
             held |= bit[goods]
             on_trip |= barred["trip", goods]
             on_vehicle |= barred["vehicle", goods]
-        return held, on_trip, on_vehicle
+        return held, on_trip, on_vehicle, 0, 0
 
     return [row(customer) for customer in problem.customers]
 

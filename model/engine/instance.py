@@ -10,7 +10,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from model.engine.amount_rows import padded, write_amounts
-from model.engine.asked import goods_rows, has_setups, most_asked_for, setup_rows, weight_rows
+from model.engine.asked import (
+    clash_by_themselves, company_rows, has_setups, most_asked_for, setup_rows, weight_rows,
+)
 from model.engine.battery_rows import battery_row, full_row, powers_row
 from model.engine.breaks import break_row, driving_row
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
@@ -122,7 +124,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
-    apart = any(problem.incompatible_goods for problem in problems)
+    apart = any(problem.limits_company for problem in problems)
     forbidden = any(problem.forbids_launches for problem in problems)
     instance = Instance(
         size=np.zeros(rows, dtype_of("tandem_size")),
@@ -238,8 +240,8 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
         instance.max_time_aboard[row, depots:nodes] = [
             FAR if customer.max_time_aboard is None else customer.max_time_aboard
             for customer in problem.customers]
-    if problem.incompatible_goods:
-        instance.goods[row, depots:nodes] = goods_rows(problem)
+    if problem.limits_company:
+        instance.goods[row, depots:nodes] = company_rows(problem)
     if has_setups(problem):
         instance.setup[row, :nodes] = setup_rows(problem)
 
@@ -381,8 +383,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem,
         if kind.max_range is not None:
             fits &= in_range(problem, kind, kind.max_range)
         if problem.incompatible_goods:
-            goods = instance.goods[row, customers]
-            fits &= goods["held"] & (goods["barred_on_trip"] | goods["barred_on_vehicle"]) == 0
+            fits &= ~clash_by_themselves(problem)
         if index == part_of:
             served = fits & (by_drone if kind.flies else by_truck)
             instance.can_drive[row, index, customers] = served & (kind.max_stops != 0)

@@ -10,6 +10,7 @@ from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
+from model.judge.company import plan_company, route_company
 from model.judge.fairness import fairness_cost
 from model.judge.hours import hours_violations
 from model.judge.hubs import hub_violations
@@ -51,7 +52,8 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
     routes = [known.get(index) or judge_route(problem, route, f"routes[{index}]", past)
               for index, route in enumerate(solution.routes)]
     violations = [*_assignment_violations(problem, solution, routes),
-                  *_fleet_violations(problem, solution), *hub_violations(problem, solution)]
+                  *_fleet_violations(problem, solution), *hub_violations(problem, solution),
+                  *plan_company(problem, [judged.nodes for judged in routes])]
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
     for judged in routes:
@@ -99,6 +101,7 @@ def judge_route(problem: Problem, route: Route, path: str,
     violations += hours_violations(problem, trips)
     violations += route_violations(problem, vehicle_type, trips, measured, path,
                                    len(known) == len(trips))
+    violations += route_company(problem, trips, path)
     return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes)
 
 

@@ -12,6 +12,7 @@ from itertools import chain
 from math import ceil
 
 from model.judge.check import check
+from model.judge.company import kept_off, who_decides
 from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
@@ -65,7 +66,8 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
     first = next(tried)
     for attempt in chain((first,), tried):
         if not attempt.codes:
-            return _unused(problem, solution, index, attempt)
+            return _in_company(problem, solution, index, node) or _unused(
+                problem, solution, index, attempt)
         if time.perf_counter() >= until:
             return _unknown(index, vehicle_type.id)
     if first.codes <= BY_LEGS:
@@ -173,6 +175,25 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
                   else None)
         return Reason(index, "COST", f"{at_price}.", remedy)
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
+
+
+def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> Reason | None:
+    """Say by which relation no vehicle of a type that is left serves a customer; None if one may.
+    """
+    kind = problem.vehicle_types[index]
+    kept = who_decides(problem, solution, node)
+    if kept is not None:
+        names, vehicle = kept
+        name = problem.vehicle_types[vehicle.type].vehicle_name(vehicle.number)
+        why = f"It is to be served together with {names}, which {name} serves"
+        room = ", and has no room for it" if vehicle.type == index else ""
+        return Reason(index, "RELATION", f"{why}{room}.")
+    barred = kept_off(problem, solution, index, node)
+    if not barred or len(barred) < kind.count:
+        return None
+    return Reason(index, "RELATION", f"It is kept apart from {', '.join(barred.values())}, whom "
+                  f"{kind.id} serves.", f"fits with one more vehicle of {kind.id}"
+                  if kind.part_of in (None, kind.id) else None)
 
 
 def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int) -> Reason | None:

@@ -16,6 +16,9 @@ def lifted(problem: Problem, node: int) -> Iterator[tuple[str, Problem]]:
         yield "skills", with_customer(problem, node, replace(customer, skills=frozenset()))
     if customer.served_by != "either":
         yield "served_by", with_customer(problem, node, replace(customer, served_by="either"))
+    if any(node in each.nodes for each in problem.relations):
+        yield "relations", replace(problem, relations=tuple(
+            each for each in problem.relations if node not in each.nodes))
     if any(customer.goods & each.goods for each in problem.incompatible_goods):
         yield "goods", with_customer(problem, node, replace(customer, goods=frozenset()))
 

@@ -220,6 +220,7 @@ def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -
         goods = instance.goods
         away = goods["barred_on_trip"] | goods["barred_on_vehicle"]
         apart = goods["held"][:, None, :] & away[:, :, None] != 0
+        apart &= ~np.eye(apart.shape[1], dtype=np.bool_)
         seen["barred"] = apart.sum(axis=2) / np.maximum(instance.size["customers"], 1)[:, None]
 
 

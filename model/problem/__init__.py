@@ -13,6 +13,7 @@ from model.problem.quantities import (
     FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
     UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, Int32Array, IntArray, UIntArray,
 )
+from model.problem.relation import MOST_RELATIONS, Relation
 from model.problem.shipment import Shipment
 from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel
@@ -20,9 +21,10 @@ from model.problem.travel import Travel
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
     "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
-    "MOST_INCOMPATIBLE", "MS_PER_HOUR", "REST", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS",
-    "Balance", "BoolArray", "Break", "Customer", "Depot", "DepotKind", "DrivingRules", "DroneType",
-    "Energy", "Fairness", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Measure",
-    "Overtime", "Pickups", "Points", "Problem", "ServedBy", "Shipment", "SpeedProfile",
-    "StraightLegs", "Travel", "UIntArray", "VehicleType", "within_hours",
+    "MOST_INCOMPATIBLE", "MOST_RELATIONS", "MS_PER_HOUR", "REST", "UNLIMITED", "UNREACHABLE",
+    "USUAL_DECIMALS", "Balance", "BoolArray", "Break", "Customer", "Depot", "DepotKind",
+    "DrivingRules", "DroneType", "Energy", "Fairness", "FloatArray", "IncompatibleGoods",
+    "Int32Array", "IntArray", "Measure", "Overtime", "Pickups", "Points", "Problem", "Relation",
+    "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray", "VehicleType",
+    "within_hours",
 ]

@@ -13,6 +13,7 @@ from model.problem.fleet import VehicleType
 from model.problem.quantities import (
     MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
 )
+from model.problem.relation import MOST_RELATIONS, Relation
 from model.problem.shipment import Shipment
 from model.problem.travel import Travel
 
@@ -37,6 +38,7 @@ class Problem:
     may_stop: BoolArray | None = None  # (vehicle type, depot) at launch sites; None: any at any
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
+    relations: tuple[Relation, ...] = ()  # of customers who are no ends of shipments
     shipments: tuple[Shipment, ...] = ()  # whose ends are customers that ask for nothing else
     fairness: Fairness = UNPRICED
     num_dimensions: int = field(init=False)
@@ -63,8 +65,7 @@ class Problem:
             require(self.may_stop.dtype == np.bool_, "may_stop dtype", self.may_stop.dtype)
             require(self.may_stop.shape == (len(self.vehicle_types), self.num_depots),
                     "may_stop shape", self.may_stop.shape)
-        named = frozenset().union(*(each.goods for each in self.incompatible_goods))
-        require(len(named) <= MOST_INCOMPATIBLE, "incompatible goods", len(named))
+        self._require_company()
         for matrix in self.travel:
             require(matrix.duration.shape == (self.num_nodes, self.num_nodes), "travel shape",
                      matrix.duration.shape)
@@ -87,6 +88,16 @@ class Problem:
                      "vehicle_costs shape", costs.shape)
             require_rate("vehicle_costs", float(costs.min(initial=0.0)))
             require_rate("vehicle_costs", float(costs.max(initial=0.0)))
+
+    def _require_company(self) -> None:
+        named = frozenset().union(*(each.goods for each in self.incompatible_goods))
+        require(len(named) <= MOST_INCOMPATIBLE, "incompatible goods", len(named))
+        together = sum(each.keeps_together for each in self.relations)
+        apart = len(self.relations) - together + len(named)
+        require(max(together, apart) <= MOST_RELATIONS, "relations", len(self.relations))
+        for each in self.relations:
+            require(self.num_depots <= min(each.nodes) and max(each.nodes) < self.num_nodes
+                    and self.shipment_at.keys().isdisjoint(each.nodes), "relations", each.nodes)
 
     def _require_pairs(self) -> None:
         ends = [node for each in self.shipments for node in (each.pickup, each.delivery)]
@@ -235,6 +246,24 @@ class Problem:
         number = {node: index for index, node in enumerate(nodes)}
         return tuple([each.renumbered(number) for each in self.shipments
                       if each.pickup in number and each.delivery in number])
+
+    def relations_among(self, nodes: Sequence[int]) -> tuple[Relation, ...]:
+        """Return what relations say of some nodes, by their numbers there."""
+        if not self.relations:
+            return ()
+        number = {node: index for index, node in enumerate(nodes)}
+        left = [each.among(number) for each in self.relations]
+        return tuple([each for each in left if each is not None])
+
+    @cached_property
+    def limits_company(self) -> bool:
+        """Tell whether it matters who goes with whom."""
+        return bool(self.incompatible_goods or self.relations)
+
+    @cached_property
+    def keeps_together(self) -> bool:
+        """Tell whether some customers go with others."""
+        return any(each.keeps_together for each in self.relations)
 
     @cached_property
     def limits_time_between(self) -> bool:

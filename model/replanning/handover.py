@@ -14,6 +14,7 @@ from model.judge.timing import (
 )
 from model.problem import Problem
 from model.replanning.amend import customers_of, repaired_route, without
+from model.replanning.company import in_company
 from model.replanning.kept import Kept
 from model.replanning.remainder import Remainder
 from model.solution import Route, Solution, Trip
@@ -84,7 +85,7 @@ def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
 
 def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
     """Return a plan of what is left without the customers for whom rules are broken."""
-    routes = [_mended(left, decision) for decision in decisions]
+    routes = [_mended(left, decision) for decision in in_company(left.problem, [*decisions])]
     made = [route for route in routes if route is not None]
     return complete(left.problem, tuple(_within_stock(left.problem, made)))
 

@@ -14,6 +14,7 @@ from model.judge.hubs import taken_at_hubs
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
 from model.replanning.amend import customers_of
+from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
 from model.replanning.workers import Worker, from_now_on
 
@@ -93,10 +94,13 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
         shipments=problem.shipments_among(source),
+        relations=relations_left(problem, owners, {
+            node: index for index, node in enumerate(nodes, len(source) - len(nodes))}),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
         travel=tuple(each.among(np.array(source)) for each in problem.travel),
         may_serve=_table(problem, past, kinds, owners, nodes)
-        & _goods_table(problem, kept, kinds, owners, nodes),
+        & _goods_table(problem, kept, kinds, owners, nodes)
+        & company_table(problem, kept, kinds, owners, nodes),
         vehicle_costs=problem.vehicle_costs_of(kinds, nodes))
     return Remainder(left, tuple(source), kinds, owners)
 

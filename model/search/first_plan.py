@@ -7,7 +7,7 @@ from model.search.beginning.either_way import shortest_routes
 from model.search.beginning.packing import packed_routes
 from model.search.beginning.savings import by_nearest, cost_by_savings, savings_routes
 from model.search.neighbourhood.numbering import Numbering
-from model.search.route.layout import ProblemData
+from model.search.route.layout import ProblemData, are_kept
 from model.search.problem_data import are_alike, can_be_linked, from_one_place, may_be_turned
 from model.solution import Route, Solution, Stop, Trip
 
@@ -30,12 +30,19 @@ def first_plan(problem: Problem, data: ProblemData,
     if not are_alike(data) and not all_fly:
         joined = can_be_linked(data) and from_one_place(data)
         return Solution(tuple(_by_types(problem, data)) if joined else (), everyone)
+    data = _without_company(data)
     if data.num_types > 1:
         data = data._replace(can=by_nearest(data))
     routes: list[Route] = []
     for k in range(data.num_types):
         routes += _routes_of_type(problem, data, k, numbering, routes)
     return Solution(tuple(routes), everyone)
+
+
+def _without_company(data: ProblemData) -> ProblemData:
+    """Return data in which nobody may serve who goes together with others."""
+    kept = are_kept(data)
+    return data._replace(can=data.can & ~kept) if kept.any() else data
 
 
 def _by_types(problem: Problem, data: ProblemData) -> list[Route]:

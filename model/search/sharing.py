@@ -5,7 +5,7 @@ import numpy as np
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
-from model.search.route.layout import OTHERS, ProblemData
+from model.search.route.layout import OTHERS, ProblemData, are_kept
 from model.search.route.state import ALL, Searcher
 
 DIVIDED_FROM = 200
@@ -42,7 +42,8 @@ class Crew:
             return self._rooms
         routes = int(whole.count.active)
         self._divided = (whole.count.customers >= DIVIDED_FROM
-                         and routes >= FEWEST_ROUTES * threads and len(self._data.hub) == 0)
+                         and routes >= FEWEST_ROUTES * threads and len(self._data.hub) == 0
+                         and not are_kept(self._data).any())
         if self._divided:
             self._divide()
             return self._parts

@@ -62,7 +62,8 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         Customers on any sortie; 1 where there are none.
     """
     linked = bool(evaluation["by_distance"].all())
-    whole = not problem.shipments  # else parts of trips have ends of shipments alone
+    # Else parts of trips may have ends of shipments alone, or part who goes together.
+    whole = not (problem.shipments or problem.keeps_together)
     # Who else has how much work counts wherever somebody is inserted.
     fair = problem.fairness.is_stated
     scan_all = fair or problem.num_customers < SCAN_ALL_BELOW

@@ -19,10 +19,12 @@ from model.judge.timing import Operation
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
 from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
     Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred, timed_trips,
 )
+from tests.model.tiny_company import companions
 
 MINUTE = 60_000
 
@@ -372,8 +374,11 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
                 yield place * NUM_KINDS + RETURN
     if vehicle is None or (vehicle.is_idle and vehicle.trips
                            and vehicle.trips[-1].nodes[-1] == home):
-        left = problem if vehicle is None else without_taken(
-            problem, (judge(problem, vehicle, None)[0],))
+        left = problem
+        if vehicle is not None:
+            route, _ = judge(problem, vehicle, None)
+            left, alone = without_taken(problem, (route,)), companions(problem, customers_of(route))
+            customers = [node for node in customers if node not in alone]
         for kind, vehicle_type in enumerate(problem.vehicle_types):
             if used[kind] < vehicle_type.count and _is_useful(
                     left, Vehicle(kind, used[kind]), customers, any_start):

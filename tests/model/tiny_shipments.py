@@ -32,4 +32,6 @@ def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) ->
         shipments.append(Shipment(
             str(index), pickup, delivery, amount,
             _limit(rng, 3, 25, MINUTE), _limit(rng, 1, 4, 1000)))
-    return replace(problem, customers=tuple(customers), shipments=tuple(shipments))
+    taken = {node for each in shipments for node in (each.pickup, each.delivery)}
+    return replace(problem, customers=tuple(customers), shipments=tuple(shipments), relations=tuple(
+        each for each in problem.relations if taken.isdisjoint(each.nodes)))

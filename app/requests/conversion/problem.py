@@ -20,7 +20,7 @@ from app.schemas.fairness import FairnessInput
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
 from model.problem import (
-    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Problem, Shipment,
+    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Problem, Relation, Shipment,
 )
 
 
@@ -67,8 +67,8 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         vehicle_costs=costs,
         may_stop=placed.may_stop(kinds, None if serves is None else serves[:, len(customers):]),
         must_serve=request.unassigned_cost is None,
-        incompatible_goods=tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
-                                 for each in request.incompatible_goods),
+        incompatible_goods=_apart(request),
+        relations=_relations(request, len(depots)),
         shipments=shipments,
         fairness=_fairness(request.fairness),
     )
@@ -97,6 +97,21 @@ def _fairness(stated: FairnessInput) -> Fairness:
     balance = stated.balance
     return Fairness(stated.makespan_cost_per_hour,
                     None if balance is None else Balance(balance.measure, balance.cost))
+
+
+def _apart(request: PlanRequest) -> tuple[IncompatibleGoods, ...]:
+    """Return the goods that are kept apart."""
+    return tuple(IncompatibleGoods(frozenset(each.goods), each.scope)
+                 for each in request.incompatible_goods)
+
+
+def _relations(request: PlanRequest, num_depots: int) -> tuple[Relation, ...]:
+    """Return who goes with whom."""
+    if not request.relations:
+        return ()
+    node = {customer.id: index for index, customer in enumerate(request.customers, num_depots)}
+    return tuple(Relation(each.kind, tuple(node[name] for name in each.customers), each.scope)
+                 for each in request.relations)
 
 
 def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],

@@ -41,10 +41,12 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     SearchCounts& count = *searcher.count;
     for (Int node = 0; node < data.num_nodes; ++node) now.where[node].slot = nowhere;
     double cost = 0.0;
+    Int kept = 0;  // relations of who is on routes before, none of whom others may join
     for (Int slot = 0; slot < num_routes; ++slot) {
         data.deadline.go_on_late();
         Route& route = now.route[slot];
-        if (refresh(data, now, slot)) {
+        if (refresh(data, now, slot) && (route.kept & kept) == 0) {
+            kept |= route.kept;
             ++now.used[route.type];
             cost += now.cost[slot];
             locate(now, slot);

@@ -7,6 +7,7 @@
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/route/edit.h"
+#include "search/route/goods.h"
 #include "search/route/rarer.h"
 
 namespace tandem {
@@ -28,18 +29,21 @@ void for_each_flown(const Fleet& fleet, Int slot, Half half, const Visit& visit)
     }
 }
 
-// Tells whether a customer's goods may go with those of half of a trip.
+// Tells whether a customer may go with those of half of a trip.
 bool goods_may_join_half(const ProblemData& data, const Fleet& fleet, Int slot, Half half,
                          Int node) {
     if (!goods_count(data)) return true;
     const View<const Stop, 1> stops = fleet.stop[slot];
-    Int barred = 0;
+    Company there{0, 0};
+    const auto add = [&](Int other) {
+        there.barred |= barred_on_trip(data.goods[other]);
+        there.kept |= kept_on_trip(data.goods[other]);
+    };
     for (Int q = half.first; q <= half.last; ++q) {
-        if (stops[q].kind == customer_stop) barred |= barred_on_trip(data.goods[stops[q].node]);
+        if (stops[q].kind == customer_stop) add(stops[q].node);
     }
-    for_each_flown(fleet, slot, half,
-                   [&](Int other) { barred |= barred_on_trip(data.goods[other]); });
-    return go_together(data.goods[node], barred, fleet.route[slot].barred);
+    for_each_flown(fleet, slot, half, add);
+    return may_accompany(data.goods[node], there, fleet.route[slot]);
 }
 
 // Tells whether a trip split behind stop `p` may be two, a customer more at the split, by what is

@@ -138,6 +138,31 @@ void try_routes(const Insertion& insertion) {
     }
 }
 
+// Tries a customer on more trips of a route.
+void try_trips_of(const Insertion& insertion, Int slot) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& now = searcher.now;
+    const Int k = now.route[slot].type;
+    if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
+        !goods_may_follow(data, now, slot, node) ||
+        !may_take_off(data, searcher, k, data.type[k].depot, now.route[slot].trips)) {
+        return;
+    }
+    if (is_paired(data.pair, node)) {
+        if (data.can(k, 0, node)) try_pair_trips(insertion, slot);
+        return;
+    }
+    if (data.can(k, 0, node)) {
+        if (is_apart(data, k)) {
+            offer_trips_apart(insertion, slot);
+        } else {
+            offer_trips(insertion, slot);
+        }
+    }
+    if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
+    if (has_halts(data) && data.can(k, 1, node)) offer_halt_trips(insertion, slot);
+}
+
 // Lists a customer behind, and on flights from, the stops beside another, on its trip.
 void offer_beside(const Insertion& insertion, Int other) {
     const auto [data, searcher, node, enlarge, best] = insertion;
@@ -220,32 +245,21 @@ void find_beside(const Insertion& insertion) {
 bool opens_route(const Move& move) { return move.kind == new_route || move.kind == new_flight; }
 
 void try_trips(const Insertion& insertion, Int number) {
-    const auto [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& now = searcher.now;
+    const Searcher& searcher = insertion.searcher;
     const Int active = searcher.count->active;
     const Int first = number < active ? below(searcher.rng, active) : 0;
     for (Int index = first; index < first + std::min(number, active); ++index) {
-        const Int slot = searcher.active[index < active ? index : index - active];
-        const Int k = now.route[slot].type;
-        if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
-            !goods_may_follow(data, now, slot, node) ||
-            !may_take_off(data, searcher, k, data.type[k].depot, now.route[slot].trips)) {
-            continue;
-        }
-        if (is_paired(data.pair, node)) {
-            if (data.can(k, 0, node)) try_pair_trips(insertion, slot);
-            continue;
-        }
-        if (data.can(k, 0, node)) {
-            if (is_apart(data, k)) {
-                offer_trips_apart(insertion, slot);
-            } else {
-                offer_trips(insertion, slot);
-            }
-        }
-        if (data.can(k, 1, node)) offer_flight_trips(insertion, slot);
-        if (has_halts(data) && data.can(k, 1, node)) offer_halt_trips(insertion, slot);
+        try_trips_of(insertion, searcher.active[index < active ? index : index - active]);
     }
+    take_cheapest(insertion);
+}
+
+void find_at_home(const Insertion& insertion, Int slot) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Int k = searcher.now.route[slot].type;
+    if (!data.can(k, 0, node) && !data.can(k, 1, node)) return;
+    try_route(insertion, slot);
+    try_trips_of(insertion, slot);
     take_cheapest(insertion);
 }
 

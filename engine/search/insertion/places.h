@@ -27,4 +27,7 @@ bool opens_route(const Move& move);
 // Follows `find_place` or `find_beside`. Where these are not all routes, they are drawn.
 void try_trips(const Insertion& insertion, Int number);
 
+// Finds the cheapest insertion of a customer on one route, on its trips as they are and on more.
+void find_at_home(const Insertion& insertion, Int slot);
+
 }  // namespace tandem

@@ -13,6 +13,7 @@
 #include "search/moves/halting.h"
 #include "search/route/edit.h"
 #include "search/route/fairness.h"
+#include "search/route/goods.h"
 #include "search/route/hubs.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -111,6 +112,28 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
 // Tells whether there is room for several trips of a vehicle.
 bool several_trips(const Searcher& searcher) { return searcher.now.trip.shape(1) > 2; }
 
+// Finds where a customer is inserted best, who goes with nobody served. In place.
+void find_anywhere(const Insertion& insertion, bool opens, bool scan_all) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    Int tried = 0;
+    if (opens) {
+        try_new_route(data, searcher, node, best);
+    } else if (!scan_all) {
+        find_beside(insertion);
+        if (several_trips(searcher) &&
+            (opens_route(best.move) || uniform(searcher.rng) < more_trips)) {
+            tried = drawn_for_trips;
+        }
+    }
+    if (best.cost == infeasible) {
+        find_place(insertion);
+        if (best.cost == infeasible || uniform(searcher.rng) < more_trips) {
+            tried = searcher.count->active;
+        }
+    }
+    if (tried > 0) try_trips(insertion, tried);
+}
+
 }  // namespace
 
 Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng) {
@@ -156,30 +179,19 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         }
         if (has_halts(data) && uniform(searcher.rng) < halting_share)
             halt_for(data, searcher, node);
-        const bool opens = opens_first && index == first;
+        const Int home = home_of(data, searcher, node);
+        const bool opens = opens_first && index == first && home == nowhere;
         Best best{data.strategy.blink, searcher.rng};
         if (weight > 0.0) {
             best.shares = shares_of(data, searcher);
             best.weight = weight;
         }
         const Insertion insertion{data, searcher, node, enlarge, best};
-        Int tried = 0;
-        if (opens) {
-            try_new_route(data, searcher, node, best);
-        } else if (!scan_all) {
-            find_beside(insertion);
-            if (several_trips(searcher) &&
-                (opens_route(best.move) || uniform(searcher.rng) < more_trips)) {
-                tried = drawn_for_trips;
-            }
+        if (home == nowhere) {
+            find_anywhere(insertion, opens, scan_all);
+        } else if (home >= 0) {
+            find_at_home(insertion, home);
         }
-        if (best.cost == infeasible) {
-            find_place(insertion);
-            if (best.cost == infeasible || uniform(searcher.rng) < more_trips) {
-                tried = count.active;
-            }
-        }
-        if (tried > 0) try_trips(insertion, tried);
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = best.cost < left_out || opens;
         if (best.cost == infeasible || !wanted || !insert(data, searcher, node, best.move)) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "randomness.h"
+#include "rules/company.h"
 #include "search/route/edit.h"
+#include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 
@@ -12,6 +14,7 @@ namespace {
 
 constexpr double average_removed = 10;
 constexpr double longest_share = 0.25;     // of a long route, where longer strings are allowed
+constexpr double company_share = 0.5;      // how often those who go with a customer go as well
 constexpr double flight_only_share = 0.5;  // how often a drone's customer goes alone, as a string
 
 // Marks strings of customers to be removed.
@@ -65,15 +68,21 @@ private:
     Removed& removed_;
 };
 
-// Mark all customers of a route. In place.
-void mark_all(const Fleet& fleet, Int slot, Removed& removed) {
+// Call `visit` with each customer of a route.
+template <class Visit>
+void for_each_served(const Fleet& fleet, Int slot, const Visit& visit) {
     const Route& route = fleet.route[slot];
     for (const Stop& stop : fleet.stop[slot].first(route.length)) {
-        if (stop.kind == customer_stop) removed.mark(stop.node);
+        if (stop.kind == customer_stop) visit(stop.node);
     }
     for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        for (Int visit = 0; visit < sortie.count; ++visit) removed.mark(sortie.nodes[visit]);
+        for (Int index = 0; index < sortie.count; ++index) visit(sortie.nodes[index]);
     }
+}
+
+// Mark all customers of a route. In place.
+void mark_all(const Fleet& fleet, Int slot, Removed& removed) {
+    for_each_served(fleet, slot, [&](Int node) { removed.mark(node); });
 }
 
 // Tell whether a slot is in a list.
@@ -129,6 +138,19 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
         node = rank < near.size() ? near[rank] : nowhere;
     }
     return {num_touched, seed};
+}
+
+void mark_company(const ProblemData& data, const Fleet& fleet, View<std::uint64_t, 1> rng,
+                  Removed& removed, Int first) {
+    if (!goods_count(data)) return;
+    for (Int index = first; index < removed.count; ++index) {
+        const Int node = removed.absent[index], kept = kept_by_vehicle(data.goods[node]);
+        if (kept == 0 || uniform(rng) >= company_share) continue;
+        const Int slot = fleet.where[node].slot;
+        for_each_served(fleet, slot, [&](Int other) {
+            if ((kept_by_vehicle(data.goods[other]) & kept) != 0) removed.mark(other);
+        });
+    }
 }
 
 void remove_marked(const ProblemData& data, Fleet& fleet, Int slot, Removed& removed,

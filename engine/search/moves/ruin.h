@@ -32,6 +32,11 @@ struct Chosen {
 Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
               View<Int, 1> touched);
 
+// Mark, every other time, those who go with a customer marked behind the first so many, so that
+// they can go elsewhere together. In place.
+void mark_company(const ProblemData& data, const Fleet& fleet, View<std::uint64_t, 1> rng,
+                  Removed& removed, Int first);
+
 // Take the marked customers out of a route; all, if the rest breaks a rule. In place.
 void remove_marked(const ProblemData& data, Fleet& fleet, Int slot, Removed& removed,
                    View<Int, 1> moved);

@@ -151,6 +151,7 @@ private:
         const auto [num_touched, seed] =
             choose(data_, searcher_, longest_string(searcher_, num_trips()), removed,
                    searcher_.scratch->moved);
+        mark_company(data_, now, searcher_.rng, removed, before);
         if (first > 0) try_near(data_, searcher_, seed, first, before);
         for (Int slot : searcher_.scratch->moved.view().first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {

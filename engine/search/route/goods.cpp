@@ -1,22 +1,36 @@
 #include "search/route/goods.h"
 
+#include <algorithm>
+
 namespace tandem {
 namespace {
 
-// Put a customer's goods on a trip. In place; false if something there bars them.
+// Put a customer on a trip. In place; false if something there bars his goods.
 bool take(const Goods& goods, Route& route, Trip& trip) {
     if (!go_together(goods, trip.barred, route.barred)) return false;
     trip.barred |= barred_on_trip(goods);
     route.barred |= barred_on_vehicle(goods);
+    trip.kept |= kept_on_trip(goods);
+    route.kept |= kept_by_vehicle(goods);
     return true;
+}
+
+// Tell whether customers who go on one trip are on several.
+bool parts_any(View<const Trip, 1> trips) {
+    Int seen = 0;
+    return std::any_of(trips.begin(), trips.end(), [&](const Trip& trip) {
+        const bool again = (seen & trip.kept) != 0;
+        seen |= trip.kept;
+        return again;
+    });
 }
 
 }  // namespace
 
 bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> stops,
                 View<Trip, 1> trips, View<const Sortie, 1> sorties) {
-    route.barred = 0;
-    for (Trip& trip : trips.first(route.trips)) trip.barred = 0;
+    route.barred = route.kept = 0;
+    for (Trip& trip : trips.first(route.trips)) trip.barred = trip.kept = 0;
     for (const Stop& stop : stops.first(route.length)) {
         if (stop.kind == customer_stop && !take(goods[stop.node], route, trips[stop.trip])) {
             return false;
@@ -28,7 +42,20 @@ bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> st
             if (!take(goods[sortie.nodes[visit]], route, trip)) return false;
         }
     }
-    return true;
+    return route.trips < 2 || !parts_any(trips.first(route.trips));
+}
+
+Int home_of(const ProblemData& data, const Searcher& searcher, Int node) {
+    const Int kept = goods_count(data) ? kept_by_vehicle(data.goods[node]) : 0;
+    if (kept == 0) return nowhere;
+    Int home = nowhere;
+    for (const Int slot : searcher.active.first(searcher.count->active)) {
+        const Route& route = searcher.now.route[slot];
+        if (route.length == 0 || (route.kept & kept) == 0) continue;
+        if (home != nowhere) return elsewhere;
+        home = slot;
+    }
+    return home;
 }
 
 }  // namespace tandem

@@ -1,26 +1,45 @@
-// Goods that must not be carried together: what each trip and each route bars.
+// Who goes with whom: goods that each trip and each route bars, and whom they keep together.
 #pragma once
 
+#include "rules/company.h"
 #include "rules/load.h"
 #include "search/route/layout.h"
 #include "search/route/rarer.h"
 
 namespace tandem {
 
-// Write what the trips of a route bar, and all of it. In place; false if goods clash.
+// Write what the trips of a route bar and keep together, and all of it. In place; false if goods
+// clash, or customers are parted.
 bool take_goods(View<const Goods, 1> goods, Route& route, View<const Stop, 1> stops,
                 View<Trip, 1> trips, View<const Sortie, 1> sorties);
 
-// Tell whether a customer's goods may go on a trip.
-inline bool goods_may_join(const ProblemData& data, const Fleet& fleet, Int slot, Int trip,
-                           Int node) {
-    return !goods_count(data) ||
-           go_together(data.goods[node], fleet.trip(slot, trip).barred, fleet.route[slot].barred);
+// What a trip, or a part of one, bars and keeps together.
+struct Company {
+    Int barred;
+    Int kept;
+};
+
+// Tell whether a customer may go with some on a trip, which is on a route or would be.
+inline bool may_accompany(const Goods& goods, Company there, const Route& route) {
+    return go_together(goods, there.barred, route.barred) &&
+           joins_trip(goods, there.kept, route.kept);
 }
 
-// Tell whether a customer's goods may go on another trip of a route.
-inline bool goods_may_follow(const ProblemData& data, const Fleet& fleet, Int slot, Int node) {
-    return !goods_count(data) || go_together(data.goods[node], 0, fleet.route[slot].barred);
+// Tell whether a customer may go on a trip, by his goods and by who goes with him.
+inline bool goods_may_join(const ProblemData& data, const Fleet& fleet, Int slot, Int trip,
+                           Int node) {
+    const Trip& on = fleet.trip(slot, trip);
+    return !goods_count(data) ||
+           may_accompany(data.goods[node], {on.barred, on.kept}, fleet.route[slot]);
 }
+
+// Tell whether a customer may go on another trip of a route, likewise.
+inline bool goods_may_follow(const ProblemData& data, const Fleet& fleet, Int slot, Int node) {
+    return !goods_count(data) || may_accompany(data.goods[node], {0, 0}, fleet.route[slot]);
+}
+
+// Return the only route that may serve a customer since others are there; `nowhere` if any may, and
+// `elsewhere` if none.
+Int home_of(const ProblemData& data, const Searcher& searcher, Int node);
 
 }  // namespace tandem

@@ -37,6 +37,7 @@ def divide(problem: Problem, plan: Solution, count: int,
     for each in problem.shipments:
         if each.pickup in heir_of:
             heir_of[each.delivery] = heir_of[each.pickup]
+    _gather_company(problem, plan, owner, heir_of)
     for node, heir in heir_of.items():
         left_out[heir].append(node)
     size = np.bincount(owner, weight, minlength=count) + [len(each) for each in left_out]
@@ -45,6 +46,21 @@ def divide(problem: Problem, plan: Solution, count: int,
         Region(Solution(tuple(plan.routes[index] for index in np.flatnonzero(owner == number)),
                         tuple(left_out[number])), tuple(spare[number]))
         for number in range(count) if size[number])
+
+
+def _gather_company(problem: Problem, plan: Solution, owner: IntArray,
+                    heir_of: dict[int, int]) -> None:
+    """Let who is left out be in the region of those with whom they go. In place."""
+    if not problem.keeps_together:
+        return
+    region = {node: int(owner[index]) for index, route in enumerate(plan.routes)
+              for node in customers_of(route)}
+    for each in problem.relations:
+        if each.keeps_together:
+            served = [region[node] for node in each.nodes if node in region]
+            left = [node for node in each.nodes if node in heir_of]
+            for node in left:
+                heir_of[node] = served[0] if served else heir_of[left[0]]
 
 
 def _seen(centre: FloatArray, depot: FloatArray, rng: np.random.Generator) -> FloatArray:

@@ -1,5 +1,6 @@
 """A region of a plan as a problem of its own, whose costs are the region's share of the whole's."""
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -62,6 +63,11 @@ def part_of(problem: Problem, region: Region) -> Part:
     may_serve = problem.may_serve
     if may_serve is not None:
         may_serve = may_serve[np.ix_(np.array(kinds), chosen[first:] - first)]
+    parted = _parted(problem, region, nodes)
+    if parted:
+        if may_serve is None:
+            may_serve = np.ones((len(kinds), len(customers)), np.bool_)
+        may_serve[:, [node in parted for node in customers]] = False
     may_stop = None if problem.may_stop is None else problem.may_stop[kinds]
     return Part(replace(
         problem, depots=_depots_for(problem, region),
@@ -72,7 +78,18 @@ def part_of(problem: Problem, region: Region) -> Part:
         coordinates=problem.coordinates[chosen],
         may_serve=may_serve, vehicle_costs=problem.vehicle_costs_of(kinds, customers),
         may_stop=may_stop, shipments=problem.shipments_among(nodes),
+        relations=problem.relations_among(nodes),
     ), nodes, vehicles)
+
+
+def _parted(problem: Problem, region: Region, nodes: Collection[int]) -> set[int]:
+    """Return those left out who go with somebody of another region."""
+    if not problem.keeps_together:
+        return set()
+    there = frozenset(nodes)
+    return {node for each in problem.relations if each.keeps_together
+            and not there.issuperset(each.nodes) for node in each.nodes}.intersection(
+                region.plan.unassigned)
 
 
 def _depots_for(problem: Problem, region: Region) -> tuple[Depot, ...]:

@@ -107,6 +107,13 @@ class ProblemData(NamedTuple):
     deadline: IntArray  # (2,) when the search must end, as `model.engine.alarm` says
 
 
+def are_kept(data: ProblemData) -> BoolArray:
+    """Mark the nodes (none where nobody is) of customers who go together with others."""
+    company = data.goods
+    kept: BoolArray = (company["kept_on_trip"] | company["kept_on_vehicle"]) != 0
+    return kept
+
+
 class Fleet(NamedTuple):
     """Routes, one a slot; the last two slots are scratch."""
 

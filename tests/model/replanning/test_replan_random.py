@@ -21,6 +21,7 @@ from tests.model.tiny import (
     with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
     with_table, with_turnaround,
 )
+from tests.model.tiny_company import with_relations
 from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
 )
@@ -45,6 +46,7 @@ def part_of(problem: Problem, customers: list[int]) -> Problem:
                    travel=tuple(Travel(kind.duration[grid], kind.distance[grid])
                                 for kind in problem.travel),
                    coordinates=problem.coordinates[nodes],
+                   relations=problem.relations_among(nodes),
                    may_serve=None if problem.may_serve is None else
                    problem.may_serve[:, np.array(customers) - problem.num_depots],
                    vehicle_costs=problem.vehicle_costs_of(
@@ -291,7 +293,7 @@ def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("change", [
     with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once,
-    with_ranges, with_few_airborne, with_few_launch_places, with_storms])
+    with_ranges, with_few_airborne, with_few_launch_places, with_storms, with_relations])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],

@@ -21,6 +21,7 @@ from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Problem, VehicleTyp
 from model.problem.travel import Matrix
 from model.solution import Route, Solution
 from tests.model.mask_oracle import costs_nothing
+from tests.model.tiny_company import companions
 
 STEP = 30_000
 """Departures are tried every half minute: enough where all else is in whole minutes."""
@@ -51,11 +52,14 @@ def cheapest_cost(problem: Problem) -> float:
                 more = (*used[:kind], used[kind] + 1, *used[kind + 1:])
                 for size in range(len(left)):
                     for others in combinations(left[1:], size):
-                        rest = tuple(node for node in left[1:] if node not in others)
-                        for own, cost in routes[kind, (left[0], *others)].items():
-                            total = tuple(map(add, taken, own))
-                            if all(map(le, total, stock)):
-                                best = min(best, cost + cheapest(rest, more, total))
+                        alone = companions(problem, (left[0], *others))
+                    rest = tuple(node for node in left[1:]
+                                 if node not in others and node not in alone)
+                    parted = sum(without[node] for node in left if node in alone)
+                    for own, cost in routes[kind, (left[0], *others)].items():
+                        total = tuple(map(add, taken, own))
+                        if all(map(le, total, stock)):
+                            best = min(best, cost + parted + cheapest(rest, more, total))
         return best
 
     return cheapest(everyone, (0,) * len(kinds), (0,) * len(stock))

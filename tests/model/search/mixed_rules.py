@@ -10,6 +10,7 @@ from tests.model.tiny import (
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
     with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
 )
+from tests.model.tiny_company import with_relations
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
 )
@@ -148,6 +149,11 @@ def all_rules_goods_apart(rng: np.random.Generator) -> Problem:
 
 def all_rules_vehicle_costs(rng: np.random.Generator) -> Problem:
     return with_vehicle_costs(rng, all_rules(rng))
+
+
+def all_rules_in_company(rng: np.random.Generator) -> Problem:
+    problem = with_relations(rng, all_rules(rng))
+    return with_goods(rng, problem) if rng.random() < 0.2 else problem
 
 
 def all_rules_setups(rng: np.random.Generator) -> Problem:

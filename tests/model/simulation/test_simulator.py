@@ -13,6 +13,7 @@ from model.problem import UNLIMITED, Customer, Depot, DroneType, Problem, Travel
 from model.simulation.actions import (
     DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN, apply, encode_action, reset,
 )
+from model.search.regions.region import customers_of
 from model.simulation.extract import extract
 from model.solution import Route
 from tests.model.mask_oracle import MINUTE, Vehicle, after, judge, legal_codes
@@ -26,6 +27,7 @@ from tests.model.tiny import (
     with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
     with_table, with_turnaround,
 )
+from tests.model.tiny_company import companions, with_relations
 from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
 from tests.model.tiny_prices import with_vehicle_costs
@@ -177,7 +179,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
     few_at_hubs_among_all, with_storms,
     storms_among_all, fliers_in_range, with_launch_sites, few_airborne_in_no_time,
-    with_vehicle_costs])
+    with_vehicle_costs, with_relations])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):
@@ -197,7 +199,8 @@ def with_pickups_and_all_else(rng: np.random.Generator, problem: Problem) -> Pro
 
 
 def with_some(rng: np.random.Generator, problem: Problem, *changes: Change) -> Problem:
-    for change in (*changes, with_own_durations, with_goods, with_setups, with_limits_aboard):
+    for change in (*changes, with_own_durations, with_goods, with_setups, with_limits_aboard,
+                   with_relations):
         if rng.random() < 0.6:
             problem = change(rng, problem)
     return problem
@@ -253,8 +256,9 @@ def test_shipments_are_picked_up_exactly_if_they_can_be_delivered(change: Change
 def assert_exact(problem: Problem, rng: np.random.Generator, seed: int) -> None:
     """Compare the mask with the oracle's along a random rollout, and another with the checker."""
     for codes, position in walk(problem, rng):
+        gone = [node for route in position.closed for node in customers_of(route)]
         expected = list(legal_codes(without_taken(problem, position.closed), position.vehicle,
-                                    position.served, position.used))
+                                    position.served | companions(problem, gone), position.used))
         assert sorted(codes) == sorted(expected), f"seed {seed}"
     rollout = roll([problem], seed).rollouts[0]
     evaluation = check(problem, extract(problem, pack([problem]), rollout.actions))

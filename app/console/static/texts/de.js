@@ -554,6 +554,7 @@ export default {
     served_by: 'Ob ein Fahrzeug oder eine Drohne ihn bedienen muss',
     skills: 'Die Anforderungen, die er stellt',
     goods: 'Seine Güter, getrennt von anderen',
+    relations: 'Mit wem er fährt',
     pickups: 'Die Reihenfolge der Abholungen',
   },
   wind: {
@@ -997,6 +998,7 @@ export default {
     hover_w_per_kg: 'Schweben je kg',
     id: 'Name',
     info: 'Hinweise',
+    kind: 'Art',
     kg_per_unit: 'kg je Einheit',
     lands: 'Landet',
     late_cost: 'Kosten zu spät',
@@ -1041,12 +1043,14 @@ export default {
     profile: 'Fahrzeugart',
     recovery_duration: 'Aufnahmedauer',
     release_time: 'Bereit ab',
+    relations: 'Wer mit wem fährt',
     reload_depots: 'Weitere Depots',
     reload_duration: 'Nachladedauer',
     reserve: 'Reserve',
     revisits: 'Kommt zurück',
     search_iterations: 'Suchschritte',
     seed: 'Zufallszahl',
+    scope: 'Bereich',
     served_by: 'Bedient von',
     service_duration: 'Servicezeit',
     service_duration_by_type: 'Servicezeit je Typ',
@@ -1153,6 +1157,10 @@ export default {
     stops: 'Stopps',
     load: 'Ladung',
     distance: 'Kilometer',
+    together: 'zusammen',
+    apart: 'getrennt',
+    vehicle: 'von einem Fahrzeug',
+    trip: 'auf einer Fahrt',
   },
   help: {
     CustomerInput: {
@@ -1432,6 +1440,11 @@ export default {
       measure: 'Was verglichen wird.',
       cost: 'Preis der Quadrate der Abstände vom Mittel, geteilt durch das Mittel.',
     },
+    RelationInput: {
+      kind: 'Ob sie zusammen fahren oder keine zwei von ihnen.',
+      customers: 'Ihre Namen, durch Kommas getrennt. Wer ausgelassen wird, bindet niemanden.',
+      scope: 'Ob das für alle Fahrten eines Fahrzeugs gilt oder für jede Fahrt.',
+    },
     PlanRequest: {
       fairness: 'Was der Plan als Ganzes kostet.',
       currency: 'Worin Kosten angegeben sind, etwa EUR.',
@@ -1440,6 +1453,7 @@ export default {
       planar_unit: 'Meter je Einheit von x und y.',
       planar_rounding: 'Wie Strecken auf der Ebene gerundet werden.',
       launch_sites: 'Orte, an denen Fahrzeuge allein für ihre Drohnen halten dürfen.',
+      relations: 'Kunden, die ein Fahrzeug bedient oder von denen es keine zwei bedient.',
       unassigned_cost:
         'Was es kostet, einen Kunden auszulassen, der nichts anderes angibt. Leer: ' +
         'Alle müssen bedient werden, soweit es geht.',
@@ -1517,6 +1531,7 @@ export default {
     EMPTY_FLEET: 'Es gibt keinen Fahrzeugtyp: Fügen Sie einen hinzu.',
     UNKNOWN_DEPOT: 'Ein Depot dieses Namens gibt es nicht.',
     UNKNOWN_CUSTOMER: 'Einen Kunden dieses Namens gibt es nicht.',
+    CONTRADICTION: 'Eine andere Beziehung sagt das Gegenteil.',
     UNKNOWN_VEHICLE: 'Die Flotte hat kein Fahrzeug dieses Namens.',
     UNKNOWN_VEHICLE_TYPE: 'Die Flotte hat keinen Fahrzeugtyp dieses Namens.',
     UNKNOWN_DRONE: 'Das Fahrzeug hat keine Drohne dieses Namens.',
@@ -1683,6 +1698,7 @@ export default {
     RELEASE: 'Das Paket ist noch nicht da.',
     UNREACHABLE: 'Kein Weg führt dorthin.',
     GOODS: 'Seine Güter müssen von anderen getrennt bleiben.',
+    RELATION: 'Eine Beziehung sagt, mit wem er fährt.',
     UNAVAILABLE: 'Das Fahrzeug ist ausgefallen.',
     PINNED: 'Er ist bei einem anderen Fahrzeug festgehalten.',
     ORDER: 'Die Reihenfolge der Festgehaltenen würde sich ändern.',

@@ -540,6 +540,7 @@ export default {
     served_by: 'Whether a truck or a drone must serve it',
     skills: 'The skills that it needs',
     goods: 'Its goods, kept apart from others',
+    relations: 'With whom it goes',
     pickups: 'The order of pickups',
   },
   wind: {
@@ -983,6 +984,7 @@ export default {
     hover_w_per_kg: 'Hover w per kg',
     id: 'Name',
     info: 'Info',
+    kind: 'Kind',
     kg_per_unit: 'Kg per unit',
     lands: 'Lands',
     late_cost: 'Late cost',
@@ -1027,12 +1029,14 @@ export default {
     profile: 'Profile',
     recovery_duration: 'Recovery duration',
     release_time: 'Release time',
+    relations: 'Who goes with whom',
     reload_depots: 'Reload depots',
     reload_duration: 'Reload duration',
     reserve: 'Reserve',
     revisits: 'Revisits',
     search_iterations: 'Search iterations',
     seed: 'Seed',
+    scope: 'Scope',
     served_by: 'Served by',
     service_duration: 'Service duration',
     service_duration_by_type: 'Service duration by type',
@@ -1139,6 +1143,10 @@ export default {
     stops: 'stops',
     load: 'load',
     distance: 'kilometres',
+    together: 'together',
+    apart: 'apart',
+    vehicle: 'by one vehicle',
+    trip: 'on one trip',
   },
   help: {
     CustomerInput: {
@@ -1409,6 +1417,11 @@ export default {
       measure: 'What of each vehicle is compared.',
       cost: 'Price of the squares of the differences from the mean, by the mean.',
     },
+    RelationInput: {
+      kind: 'Whether they go together, or no two of them do.',
+      customers: 'Their names, with commas between. Whoever is left out binds nobody.',
+      scope: 'Whether this is said of all trips of a vehicle, or of each trip.',
+    },
     PlanRequest: {
       fairness: 'What the plan costs as a whole.',
       currency: 'What costs are in, such as EUR.',
@@ -1417,6 +1430,7 @@ export default {
       planar_unit: 'Metres per unit of x and y.',
       planar_rounding: 'How distances on the plane are rounded.',
       launch_sites: 'Places where trucks may stop for their drones alone.',
+      relations: 'Customers whom one vehicle serves, or no two of whom it does.',
       unassigned_cost:
         'What leaving out a customer costs who states nothing else. Empty: all must be ' +
         'served as far as possible.',
@@ -1493,6 +1507,7 @@ export default {
     EMPTY_FLEET: 'There is no vehicle type: add one.',
     UNKNOWN_DEPOT: 'There is no depot of this name.',
     UNKNOWN_CUSTOMER: 'There is no customer of this name.',
+    CONTRADICTION: 'Another relation says the contrary.',
     UNKNOWN_VEHICLE: 'The fleet has no vehicle of this name.',
     UNKNOWN_VEHICLE_TYPE: 'The fleet has no vehicle type of this name.',
     UNKNOWN_DRONE: 'The vehicle has no drone of this name.',
@@ -1639,6 +1654,7 @@ export default {
     RELEASE: 'The parcel is not there yet.',
     UNREACHABLE: 'No way leads there.',
     GOODS: 'Its goods must be kept apart from others.',
+    RELATION: 'A relation says with whom it goes.',
     UNAVAILABLE: 'The vehicle has broken down.',
     PINNED: 'It is pinned to another vehicle.',
     ORDER: 'The order of those locked would change.',

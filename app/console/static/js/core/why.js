@@ -30,6 +30,7 @@ const ITS_OWN = [
   'served_by',
   'skills',
   'goods',
+  'relations',
 ];
 
 /** Rules by which drones alone are held. */

@@ -195,6 +195,8 @@ function Places({ request }) {
       )}
       <${Field} name="launch_sites" schema=${properties.launch_sites} keys=${['launch_sites']}
         request=${request} onChange=${edit} />
+      <${Field} name="relations" schema=${properties.relations} keys=${['relations']}
+        request=${request} onChange=${edit} />
       <div class="buttons"><button type="button" onClick=${addDepot}>
         ${t('customers.addDepot')}</button>
         <button type="button" onClick=${clear}>${t('customers.empty')}</button></div>

@@ -1,0 +1,90 @@
+"""Who goes with whom: relations between customers, of those who are served."""
+
+from collections.abc import Iterator, Sequence
+
+from model.judge.past import Vehicle
+from model.judge.rules import TimedTrip, Violation
+from model.problem import Problem, Relation
+from model.solution import Route, Solution
+
+
+def route_company(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
+    """Relations that a route doesn't keep, each once."""
+    if not problem.relations:
+        return
+    served = [frozenset(timed.decision.customers(problem.num_depots)) for timed in trips]
+    for relation in problem.relations:
+        there = [(index, node) for index, nodes in enumerate(served)
+                 for node in relation.nodes if node in nodes]
+        broken = [(one, other) for number, one in enumerate(there) for other in there[number + 1:]
+                  if _is_broken(relation, one[0] == other[0])]
+        if broken:
+            (_, one), (index, other) = broken[-1]
+            where = trips[index].path if relation.scope == "trip" else path
+            yield _violation(problem, relation, one, other, where)
+
+
+def plan_company(problem: Problem, served: Sequence[Sequence[int]]) -> Iterator[Violation]:
+    """Relations that routes break together, by whom each of them serves."""
+    for relation in problem.relations:
+        if not relation.keeps_together:
+            continue
+        there = [(number, node) for number, nodes in enumerate(served)
+                 for node in relation.nodes if node in nodes]
+        number, other = there[-1] if there else (0, 0)
+        if there and there[0][0] != number:
+            yield _violation(problem, relation, there[0][1], other, f"routes[{number}]")
+
+
+def words_of(relation: Relation) -> str:
+    """Say what a relation asks of two customers."""
+    where = "on one trip" if relation.scope == "trip" else "by one vehicle"
+    return f"{'may not be' if relation.kind == 'apart' else 'are to be'} served {where}"
+
+
+def _is_broken(relation: Relation, is_one_trip: bool) -> bool:
+    """Tell whether two whom a vehicle serves, on one trip or not, break a relation."""
+    if relation.scope == "vehicle":
+        return not relation.keeps_together
+    return relation.keeps_together != is_one_trip
+
+
+def _violation(problem: Problem, relation: Relation, one: int, other: int,
+               path: str) -> Violation:
+    names = " and ".join(problem.customer_at(node).id for node in (one, other))
+    return Violation("RELATION", f"customers {names} {words_of(relation)}", path)
+
+
+def who_decides(problem: Problem, solution: Solution, node: int) -> tuple[str, Vehicle] | None:
+    """Return with whom a customer is to be served, and by which vehicle; None if with nobody."""
+    for relation in problem.relations:
+        if not relation.keeps_together or node not in relation.nodes:
+            continue
+        for route in solution.routes:
+            there = [other for other in relation.nodes if other in _served(route)]
+            if there:
+                names = " and ".join(problem.customer_at(other).id for other in there)
+                return names, Vehicle(route.vehicle_type, route.vehicle)
+    return None
+
+
+def kept_off(problem: Problem, solution: Solution, kind: int, node: int) -> dict[Vehicle, str]:
+    """Return the vehicles of a type that don't serve a customer, and from whom that keeps him."""
+    found: dict[Vehicle, str] = {}
+    for relation in problem.relations:
+        if relation.kind != "apart" or relation.scope == "trip" or node not in relation.nodes:
+            continue
+        for route in solution.routes:
+            there = [other for other in relation.nodes if other in _served(route)]
+            if there and route.vehicle_type == kind:
+                name = problem.customer_at(there[0]).id
+                found.setdefault(Vehicle(kind, route.vehicle), name)
+    return found
+
+
+def _served(route: Route) -> frozenset[int]:
+    """Return whom a route serves."""
+    trips = route.trips
+    return frozenset([
+        *(stop.node for trip in trips for stop in trip.customer_stops),
+        *(visit.node for trip in trips for sortie in trip.sorties for visit in sortie.visits)])

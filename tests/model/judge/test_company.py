@@ -1,0 +1,44 @@
+from dataclasses import replace
+
+import pytest
+
+from model.judge.check import check
+from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.problem import Relation
+from model.solution import Solution
+from tests.model.judge.test_check import A_THEN_B, C_BY_DRONE, codes, plan
+
+A, B, C, D = range(1, 5)
+EACH_ALONE = TripDecision((0, A, 0)), TripDecision((0, B, 0))
+
+
+@pytest.mark.parametrize(("kind", "scope", "nodes", "trips", "broken"), [
+    ("together", "trip", (A, B), (A_THEN_B,), []),
+    ("together", "trip", (A, B), EACH_ALONE, ["RELATION"]),
+    ("together", "trip", (A, C), (C_BY_DRONE,), []),
+    ("together", "vehicle", (A, B), EACH_ALONE, []),
+    ("together", "vehicle", (A, D), EACH_ALONE, []),
+    ("apart", "trip", (A, B), (A_THEN_B,), ["RELATION"]),
+    ("apart", "trip", (A, B, C), (C_BY_DRONE,), ["RELATION"]),
+    ("apart", "trip", (A, B), EACH_ALONE, []),
+    ("apart", "vehicle", (A, B), EACH_ALONE, ["RELATION"]),
+    ("apart", "vehicle", (A, C, D), EACH_ALONE, []),
+])
+def test_relations_bind_those_who_are_served(
+    kind, scope, nodes, trips, broken, tiny_problem, customers, truck, drones
+):
+    problem = replace(
+        tiny_problem(*customers, truck=replace(truck, max_trips=2, drones=drones)),
+        relations=(Relation(kind, nodes, scope),))
+    assert codes(problem, plan(problem, *trips)) == broken
+
+
+@pytest.mark.parametrize(("kind", "broken"), [("together", ["RELATION"]), ("apart", [])])
+def test_two_vehicles_part_who_goes_together(kind, broken, tiny_problem, customers, truck):
+    problem = replace(tiny_problem(*customers, truck=replace(truck, count=2)),
+                      relations=(Relation(kind, (A, B)),))
+    routes = tuple(schedule(problem, RouteDecision(0, number, (trip,)))
+                   for number, trip in enumerate(EACH_ALONE))
+    violations = check(problem, Solution(routes, (C, D))).violations
+    assert [each.code for each in violations] == broken
+    assert [each.path for each in violations] == ["routes[1]"] * len(broken)
