@@ -20,7 +20,7 @@ def within_hours(depots: Sequence[Depot], kind: VehicleType) -> VehicleType:
     """
     opens, closes = depots[kind.begins_at].earliest, depots[kind.ends_at].latest
     over, overtime = 0 if kind.overtime is None else kind.overtime.max_duration, kind.overtime
-    if overtime is not None and closes < kind.latest + over:
+    if overtime is not None and closes < min(kind.latest + over, UNLIMITED):
         left = closes - kind.latest
         overtime = replace(overtime, max_duration=left) if left > 0 else None
     return replace(kind, earliest=max(kind.earliest, opens), latest=min(kind.latest, closes),

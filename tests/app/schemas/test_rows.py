@@ -37,7 +37,13 @@ def test_rows_are_written_as_they_were_read() -> None:
         held.model_dump())
 
 
-@pytest.mark.parametrize("entry", ["null", "true", '"1"', "[1]", "1e400", "1000000001"])
+def test_a_leg_that_is_none_is_written_as_it_was_read() -> None:
+    held = matrix("[[0, null], [2.5, 0]]")
+    assert np.isnan(held.durations[0][1])
+    assert json.loads(held.model_dump_json())["durations"] == [[0, None], [2.5, 0]]
+
+
+@pytest.mark.parametrize("entry", ["true", '"1"', "[1]", "1e400", "1000000001"])
 def test_an_entry_that_is_none_is_told_by_its_place(entry: str) -> None:
     with pytest.raises(ValidationError) as refused:
         matrix(f"[[0, 1], [0, {entry}, {entry}]]")
@@ -54,4 +60,5 @@ def test_the_schema_is_that_of_lists() -> None:
     for mode in ("validation", "serialization"):
         rows = MatrixInput.model_json_schema(mode=mode)["properties"]["durations"]["items"]
         assert rows["type"] == "array"
-        assert rows["items"] == {"type": "number", "maximum": 1_000_000_000}
+        assert rows["items"] == {
+            "anyOf": [{"type": "number", "maximum": 1_000_000_000}, {"type": "null"}]}
