@@ -98,6 +98,10 @@ def break_errors(draft: Draft) -> Errors:
 def driving_errors(draft: Draft) -> Errors:
     """Say which driving rules lack a number, or can't be kept beside what else is stated."""
     for path, kind in draft.vehicle_types():
+        if kind.max_travel_duration is not None and kind.speed_profile:
+            yield error_at("TRAVEL_DURATION_WITH", (*path, "speed_profile"),
+                           "Legs whose length changes with the time of day can't be bounded yet: "
+                           "leave speed_profile out, or max_travel_duration.")
         rules = kind.driving_rules
         if rules is None:
             continue
@@ -199,8 +203,9 @@ def _is_countable(draft: Draft, drones: Flyer, energy: EnergyInput) -> bool:
     return is_countable(drones, energy, decimals, [counted(each, decimals) for each in asked])
 
 
-TRUCKS = ("breaks", "driving_rules", "drones", "speed_profile", "start_location",
-          "start_location_index", "max_sorties", "max_airborne", "truck_waits", "revisits")
+TRUCKS = ("breaks", "driving_rules", "drones", "speed_profile", "max_travel_duration",
+          "start_location", "start_location_index", "max_sorties", "max_airborne",
+          "truck_waits", "revisits")
 """Fields of a vehicle type that nothing has which flies by itself."""
 
 FLYING = ("altitude", "endurance", "max_range", "max_wind_kmh", "preset", "launch_duration",

@@ -216,6 +216,11 @@ class VehicleTypeInput(Input):
     driving_rules: DrivingRulesInput | None = Field(
         None, description="Rests that each driver has to take, beside `breaks`. Null: none."
     )
+    max_travel_duration: Duration | None = Field(
+        None,
+        description="Longest time on legs in seconds, of all trips of a vehicle: without service, "
+        "waiting, setups and breaks. Null: no limit.",
+    )
     max_trip_distance: Metres | None = Field(
         None, description="Longest drive of one trip in metres. Null: no limit."
     )

@@ -140,7 +140,8 @@ def _vehicle_type(rng: random.Random, dimensions: int) -> Data:
 
 def _flying(rng: random.Random, kind: Data, dimensions: int) -> Data:
     """Return a type that flies by itself, which has mostly nothing that only trucks have."""
-    for name in ("drones", "speed_profile", "max_sorties", "max_airborne", "truck_waits"):
+    for name in ("drones", "speed_profile", "max_travel_duration", "max_sorties", "max_airborne",
+                 "truck_waits"):
         if rng.random() < 0.98:
             kind.pop(name, None)
     return kind | {
@@ -154,7 +155,7 @@ def _flying(rng: random.Random, kind: Data, dimensions: int) -> Data:
 
 
 def _truck(rng: random.Random, dimensions: int) -> Data:
-    return {
+    kind = {
         "count": rng.choice((1, 1, 2, 3, 10_000)),
         "capacity": _amounts(rng, dimensions, (0, 5, 10, 10, 40, 1e-3, LONGEST)),
         **_maybe(rng, 0.6, costs={"fixed": rng.choice((0, 20, RICHEST)),
@@ -173,11 +174,15 @@ def _truck(rng: random.Random, dimensions: int) -> Data:
         **_maybe(rng, 0.2, max_sorties=rng.choice((0, 1, 2, 1_000_000))),
         **_maybe(rng, 0.2, max_airborne=rng.choice((1, 1, 2, 1_000_000))),
         **_maybe(rng, 0.2, truck_waits=rng.random() < 0.7),
+        **_maybe(rng, 0.2, max_travel_duration=rng.choice((0, 1, 1800, 28800, LONGEST))),
         **_maybe(rng, 0.3, max_trip_distance=rng.choice((0, 1, 1e4, 1e5, LONGEST))),
         **_maybe(rng, 0.4, max_trips=rng.choice((1, 2, 3, 1000)),
                  reload_duration=rng.choice((0, 0, 600, LONGEST))),
         **_maybe(rng, 0.2, skills=rng.sample(SKILLS[:3], rng.randint(1, 3))),
         **_maybe(rng, 0.5, drones=_drones_aboard(rng, dimensions))}
+    if "speed_profile" in kind and rng.random() < 0.98:
+        kind.pop("max_travel_duration", None)
+    return kind
 
 
 def _shift(rng: random.Random) -> Data:
@@ -284,8 +289,8 @@ def _tame(rng: random.Random, request: Data, dimensions: int) -> None:
                 customer.pop(name, None)
     for kind in request["fleet"]:
         kind["capacity"] = [20] * dimensions
-        for name in ("max_working_duration", "max_trip_distance", "shift", "speed_profile",
-                     "max_stops"):
+        for name in ("max_working_duration", "max_travel_duration", "max_trip_distance", "shift",
+                     "speed_profile", "max_stops"):
             if rng.random() < 0.6:
                 kind.pop(name, None)
         drones = kind.get("drones") or []

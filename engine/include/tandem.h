@@ -105,6 +105,7 @@ typedef struct tandem_vehicle_type {
     int64_t usual_end;
     int64_t usual_working;
     int64_t max_trip_distance;
+    int64_t max_travel_duration; /* what driving rules allow in a day, if that is less */
     int64_t max_trips;
     int64_t max_stops;
     int64_t max_sorties;
@@ -158,7 +159,6 @@ typedef struct tandem_vehicle_type {
     int64_t must_rest;
     int64_t rest_durations[3]; /* of a whole rest, and of the first and the second part of one */
     int64_t max_driving;
-    int64_t max_driving_per_day;
     int64_t max_work;
     int64_t driven_before;
     int64_t worked_before;
@@ -280,6 +280,7 @@ typedef struct tandem_vehicle {
     int64_t crew;              /* end of the recoveries here */
     int64_t free;              /* end of the launches after them as if none was held back */
     int64_t distance;          /* of the trip */
+    int64_t travel;            /* on legs, of all trips */
     int64_t start_best;        /* latest known start of the first trip that costs nothing */
     int64_t departure_best;    /* the departure that follows from it */
     int64_t next_start;        /* earliest start of the next trip */
@@ -539,6 +540,7 @@ typedef struct tandem_route {
     int64_t end;
     int64_t cum;
     int64_t working;
+    int64_t travel; /* on legs, if that is limited */
     int64_t offset;
     int64_t awaited;
     int64_t unpaid; /* breaks */
@@ -603,6 +605,7 @@ typedef struct tandem_chain {
     int64_t last;   /* of its first customer, the last */
     int64_t length; /* likewise, how many there are */
     int64_t busy;   /* likewise, how long to serve them and to drive from one to the next takes */
+    int64_t travel; /* likewise, how long the legs between them are */
 } tandem_chain;
 
 /* What a chain carries, by its first customer. */

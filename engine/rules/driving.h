@@ -69,11 +69,6 @@ inline bool may_need_rest(const VehicleType& type, const Driver& driver, Int dri
     return limits_work(type) || driver.driven + driving > type.max_driving;
 }
 
-// Whether a driver may drive so long in a day.
-inline bool may_drive_in_a_day(const VehicleType& type, Int driving) {
-    return type.driven_before + driving <= type.max_driving_per_day;
-}
-
 // Whether a rest may come next: the second part of one behind the first alone.
 inline bool may_rest(const VehicleType& type, const Driver& driver, Int number) {
     if (number == whole_rest) return true;

@@ -87,6 +87,14 @@ inline Int usual_working(const VehicleType& type) { return type.usual_working; }
 // How far the truck may drive on a trip.
 inline Int longest_trip(const VehicleType& type) { return type.max_trip_distance; }
 
+// Whether the time of a vehicle on legs is limited.
+inline bool limits_travel(const VehicleType& type) { return type.max_travel_duration < unlimited; }
+
+// Whether a vehicle may be on legs so long, on all its trips together.
+inline bool may_travel(const VehicleType& type, Int travel) {
+    return travel <= type.max_travel_duration;
+}
+
 // How many customers the truck may serve itself on a trip, `unlimited` if any number.
 inline Int most_stops(const VehicleType& type) { return type.max_stops; }
 

@@ -140,7 +140,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Int home = setting.type.ends_at;
     const Int reach = longest_trip(setting.type) - vehicle.distance;
     const Int began = is_idle ? 0 : log.trip[trips - 1].start;
-    const Room room = room_of(open);
+    Room room = room_of(open);
+    if (is_idle && !may_travel_home(setting, vehicle.travel, here)) room.sortie = false;
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
     const bool laden = carries_parcels(open);
@@ -163,7 +164,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
         const bool is_held = trying || is_pickup(setting.pair, node) ||
                              (!is_idle && began < release_of(setting.node[node]));
         if (room.stop && instance.can_drive(b, k, node) &&
-            legs(here, node) + legs(node, home) <= reach) {
+            legs(here, node) + legs(node, home) <= reach &&
+            may_travel_by(setting, vehicle.travel, here, node)) {
             const Verdict verdict =
                 is_held ? Verdict::unsure : judge_drive(open, earliest, node, outlooks[found]);
             add_if_legal(verdict, {node, false});
@@ -259,6 +261,7 @@ void apply(const Instance& instance, State& state, Int r, Int action) {
         Vehicle& vehicle = open.vehicle;
         const Int travel = open.setting.type.travel;
         vehicle.distance += instance.distance(b, travel, vehicle.node, target);
+        vehicle.travel += travel_of(open.setting, vehicle.node, target);
         drive(open, target);
     }
     improve_departure(open);

@@ -95,28 +95,36 @@ bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Order 
     return visit(aboard);
 }
 
+// How far a trip has come, and how long the vehicle has been on legs.
+struct Way {
+    Int distance;
+    Int travel;
+};
+
 // How many customers the truck has served on its trip.
 Int served_on_trip(const VehicleLog& log) {
     return log.count.stops - log.trip[log.count.trips - 1].first_stop - 1;
 }
 
 // Tell whether a trip may be so long, and stop so often, that serves some more before it is home.
-bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, Int distance,
+bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, Way way,
                      const Order& order) {
     const VehicleType& type = open.setting.type;
     Int here = open.vehicle.node;
     for (const Int node : order) {
-        distance += legs(here, node);
+        way.distance += legs(here, node);
+        way.travel += travel_of(open.setting, here, node);
         here = node;
     }
-    return distance + legs(here, type.ends_at) <= longest_trip(type) &&
+    return way.distance + legs(here, type.ends_at) <= longest_trip(type) &&
+           may_travel_home(open.setting, way.travel, here) &&
            allows_stops(type, served_on_trip(open.log) + static_cast<Int>(order.size()));
 }
 
 // Serve some and go home, from where the trip has come so far; false if that isn't legal.
-bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Int distance, const Order& order) {
+bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Way way, const Order& order) {
     auto& [setting, vehicle, log, drones] = open;
-    if (!order.empty() && !is_within_reach(open, legs, distance, order)) return false;
+    if (!order.empty() && !is_within_reach(open, legs, way, order)) return false;
     for (const Int node : order) {
         if (!drive(open, node)) return false;
     }
@@ -155,15 +163,19 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     const auto& [setting, vehicle, log, drones] = open;
     const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
     const Int start = reload == no_reload ? vehicle.node : reload;
-    Int distance = reload == no_reload ? vehicle.distance : 0;
-    if (!by_drone) distance += legs(start, node);
+    Way way = {reload == no_reload ? vehicle.distance : 0, vehicle.travel};
+    if (reload != no_reload) way.travel += travel_of(setting, vehicle.node, reload);
+    if (!by_drone) {
+        way.distance += legs(start, node);
+        way.travel += travel_of(setting, start, node);
+    }
     if (!attempt(rollout, open, reload, service)) return false;
     const Int here = log.count.stops - 1;
     const Order aboard = some_paired(setting.pair) ? parcels_aboard(setting, log) : Order();
     bool is_first = true;
     const bool legal = any_order(setting, legs, vehicle.node, aboard, [&](const Order& order) {
         if (!std::exchange(is_first, false)) attempt(rollout, open, reload, service);
-        return serve_and_end(open, legs, distance, order);
+        return serve_and_end(open, legs, way, order);
     });
     if (!legal) return false;
     if (by_drone) {
@@ -190,14 +202,18 @@ bool may_reload(const Rollout& rollout, Int place, Outlook& outlook) {
     }
     const Size& size = instance.size[b];
     const View<const Goods, 1> goods = instance.goods[b];
+    const Setting setting = setting_of(instance, b, k);
+    const Int travel = vehicle.travel + travel_of(setting, vehicle.node, place);
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || is_delivery(instance.pair[b], node)) continue;
         if (some_apart(goods) && !may_follow(goods[node], vehicle)) continue;
         if (instance.can_drive(b, k, node) && legs(place, node) + legs(node, home) <= reach &&
+            may_travel_by(setting, travel, place, node) &&
             legal_by_trial(rollout, place, {node, false}, outlook)) {
             return true;
         }
         if (instance.can_fly(b, k, node) && legs(place, home) <= reach &&
+            may_travel_home(setting, travel, place) &&
             legal_by_trial(rollout, place, {node, true}, outlook)) {
             return true;
         }

@@ -410,8 +410,7 @@ std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, I
         for (Int index = log.trip[trip].first_stop + 1; index < behind; ++index) {
             const LoggedStop& before = log.stop[index - 1];
             const Int to = log.stop[index].node;
-            const Int duration =
-                setting.drive(before.node, to) - setup_after(setting.setup, before.node, to);
+            const Int duration = travel_of(setting, before.node, to);
             if (!drive_rested(setting.type, Rests(before.rests), before.leave, duration, driver)) {
                 return std::nullopt;
             }
@@ -425,7 +424,7 @@ bool has_rested(const Setting& setting, const VehicleLog& log) {
     if (!has_driving_rules(setting.type)) return true;
     Int driven = 0;
     const std::optional<Driver> driver = driver_of(setting, log, driven);
-    return driver && may_drive_in_a_day(setting.type, driven) &&
+    return driver && may_travel(setting.type, driven) &&
            may_still_work(setting.type, *driver, log.stop[log.count.stops - 1].leave);
 }
 

@@ -10,6 +10,7 @@
 #include "rules/driving.h"
 #include "rules/flown_trip.h"
 #include "rules/pair.h"
+#include "rules/shift.h"
 #include "rules/window.h"
 #include "simulation/state.h"
 
@@ -59,6 +60,23 @@ inline Int travel_arrival(const Setting& setting, Int origin, Int to, Int leave)
     return leg_end(setting.type, setting.profile_time, setting.profile_factor,
                    setting.drive(origin, to), leave) +
            setup_beside(setting.type, setting.setup, origin, to);
+}
+
+// How long the truck is on a leg, without setup, where speeds don't change.
+inline Int travel_of(const Setting& setting, Int origin, Int to) {
+    return setting.drive(origin, to) - setup_after(setting.setup, origin, to);
+}
+
+// Whether a vehicle that has been on legs for so long may go home from a node.
+inline bool may_travel_home(const Setting& setting, Int travel, Int here) {
+    return !limits_travel(setting.type) ||
+           may_travel(setting.type, travel + travel_of(setting, here, setting.type.ends_at));
+}
+
+// Whether it may go to a node first.
+inline bool may_travel_by(const Setting& setting, Int travel, Int here, Int node) {
+    return !limits_travel(setting.type) ||
+           may_travel_home(setting, travel + travel_of(setting, here, node), node);
 }
 
 // When a leg ends, by when it begins, without setup.

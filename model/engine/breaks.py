@@ -49,9 +49,17 @@ def break_row(kind: VehicleType) -> tuple[int | tuple[int, ...], ...]:
 def driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
     """Return whether a driver has to rest, and what `tandem_vehicle_type` says of that."""
     if rules is None:
-        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, UNLIMITED, 0, 0
-    return (1, (rules.rest, *(rules.split or (0, 0))), rules.max_driving,
-            rules.max_driving_per_day, rules.max_work, rules.driven_before, rules.worked_before)
+        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0
+    return (1, (rules.rest, *(rules.split or (0, 0))), rules.max_driving, rules.max_work,
+            rules.driven_before, rules.worked_before)
+
+
+def longest_travel(kind: VehicleType) -> int:
+    """Return how long a vehicle may be on legs: the tighter of what it and its rules state."""
+    limits = [UNLIMITED] if kind.max_travel_duration is None else [kind.max_travel_duration]
+    if kind.driving is not None and kind.driving.max_driving_per_day < UNLIMITED:
+        limits.append(kind.driving.max_driving_per_day - kind.driving.driven_before)
+    return min(limits)
 
 
 class RestingDriver:

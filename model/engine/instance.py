@@ -14,7 +14,7 @@ from model.engine.asked import (
     clash_by_themselves, company_rows, has_setups, most_asked_for, setup_rows, weight_rows,
 )
 from model.engine.battery_rows import battery_row, full_row, powers_row
-from model.engine.breaks import break_row, driving_row
+from model.engine.breaks import break_row, driving_row, longest_travel
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
@@ -281,8 +281,9 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         kind.count, travel, kind.depot, kind.begins_at, kind.ends_at,
         _changes_ends(kind), kind.earliest, kind.busy_until,
         int(kind.works_since is not None), *_limits_of_work(kind),
-        _limit(kind.max_trip_distance), kind.max_trips, _limit(kind.max_stops),
-        _most_sorties(kind), kind.most_airborne, int(kind.truck_waits), kind.reload_duration,
+        _limit(kind.max_trip_distance), longest_travel(kind), kind.max_trips,
+        _limit(kind.max_stops), _most_sorties(kind), kind.most_airborne, int(kind.truck_waits),
+        kind.reload_duration,
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
         drone_variant, *battery_row(energy), int(kind.flies), int(kind.takes_batteries),

@@ -13,6 +13,7 @@ from typing import Literal, NamedTuple
 from model.judge.alternatives import Findings, halt_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
+from model.judge.driving import travel_duration
 from model.judge.energy import charges, sortie_energy
 from model.judge.flight_limits import flight_limits, hub_limits, one_km_more
 from model.judge.freshness import excess_aboard
@@ -269,6 +270,13 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
                  else _in_minutes(kind.max_working_duration - measured.working_duration))
         longer = kind.max_working_duration + MS_PER_MINUTE
         yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
+    if kind.max_travel_duration is not None:
+        slack = None
+        if found is not None:
+            trips = bench.plan.solution.routes[found.route].trips
+            slack = _in_minutes(kind.max_travel_duration - travel_duration(trips))
+        longer = kind.max_travel_duration + MS_PER_MINUTE
+        yield ("max_travel_duration", "minute", slack, replace(kind, max_travel_duration=longer))
     yield from _duty_limits(kind, measured, trip)
     yield from flight_limits(kind, trip)
     if kind.max_trip_distance is not None:

@@ -12,6 +12,7 @@ from model.judge.diagnosis import (
 from model.judge.flight_diagnoses import (
     endurance_broken, energy_broken, max_range_broken, unreachable_broken, wind_broken,
 )
+from model.judge.driving import travel_duration
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import amounts
@@ -95,6 +96,19 @@ def _trip_distance(attempt: Attempt) -> Diagnosis:
         "RANGE",
         f"A trip there and back is {in_km(excess)} longer than a trip may be.",
         if_stated(f"fits if trips could be {in_km(excess)} longer", enough),
+        with_type(attempt, changed),
+    )
+
+
+def _travel_duration(attempt: Attempt) -> Diagnosis:
+    kind, limit = attempt.vehicle_type, attempt.vehicle_type.max_travel_duration or 0
+    travel = travel_duration(attempt.solution.routes[0].trips)
+    excess = up_to_tenth(travel - limit, MS_PER_MINUTE)
+    changed = replace(kind, max_travel_duration=min(limit + excess, MAX_QUANTITY))
+    return Diagnosis(
+        "TRAVEL_DURATION",
+        f"The way there and back takes {in_minutes(excess)} more than {kind.id} may travel.",
+        if_stated(f"fits if {kind.id} could travel {in_minutes(excess)} longer", limit + excess),
         with_type(attempt, changed),
     )
 
@@ -293,6 +307,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "ENDURANCE": endurance_broken,
     "ENERGY": energy_broken,
     "TRIP_DISTANCE": _trip_distance,
+    "TRAVEL_DURATION": _travel_duration,
     "LAUNCH": _launch,
     "MAX_STOPS": _stops,
     "MAX_SORTIES": _sorties,

@@ -32,6 +32,12 @@ def spells(trip: Trip) -> Iterator[Spell]:
         yield Spell(left, there.arrival, False, stop)
 
 
+def travel_duration(trips: Iterable[Trip]) -> int:
+    """Return how long a truck is on the legs of its trips."""
+    return sum([spell.end - spell.begin for trip in trips for spell in spells(trip)
+                if not spell.is_break])
+
+
 class Driver:
     """What is counted of a driver since the last rest."""
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from operator import gt
 
 from model.judge.breaks import broken_breaks
-from model.judge.driving import broken_driving
+from model.judge.driving import broken_driving, travel_duration
 from model.judge.energy import charges, sortie_energy
 from model.judge.flown_trips import airborne, trip_charges
 from model.judge.freshness import excess_aboard
@@ -377,6 +377,10 @@ def route_violations(
         yield Violation("BREAK", message, path if number is None else trips[number].path)
     for number, message in broken_driving(vehicle_type, [timed.trip for timed in trips]):
         yield Violation("DRIVING", message, trips[number].path)
+    travel, limit = travel_duration(timed.trip for timed in trips), vehicle_type.max_travel_duration
+    if limit is not None and travel > limit:
+        message = f"is on legs for {seconds(travel)}, at most {seconds(limit)} are allowed"
+        yield Violation("TRAVEL_DURATION", message, path)
     limit = vehicle_type.max_working_duration
     if limit is not None and metrics.working_duration > limit + over:
         message = (f"works {seconds(metrics.working_duration)}, at most {seconds(limit)} are "

@@ -13,6 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from model.judge.clock import MS_PER_MINUTE
+from model.judge.driving import travel_duration
 from model.judge.metrics import allowed_overtime
 from model.judge.network import NEVER, Network, network_of
 from model.judge.past import EVERYTHING_OPEN
@@ -29,7 +30,8 @@ MOST_CUSTOMERS = 250
 MOST_NAMES = 5
 """So many customers on a way are named."""
 
-BY_LEGS = frozenset({"TIME_WINDOW", "TIME_ABOARD", "SHIFT", "WORKING_DURATION", "TRIP_DISTANCE"})
+BY_LEGS = frozenset({"TIME_WINDOW", "TIME_ABOARD", "SHIFT", "WORKING_DURATION", "TRIP_DISTANCE",
+                     "TRAVEL_DURATION"})
 """Rules that shorter legs may keep."""
 
 
@@ -190,6 +192,11 @@ def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | 
         km = f"{decimal(more * 1000 // MM_PER_KM)} km"
         return Lacking("RANGE", f"would drive {km} more than a trip may be long",
                        replace(vehicles, max_trip_distance=min(limit + more, MAX_QUANTITY)))
+    if codes == {"TRAVEL_DURATION"}:
+        limit = vehicles.max_travel_duration or 0
+        more = _up_to_tenth(travel_duration(timed.route.trips) - limit, MS_PER_MINUTE)
+        return Lacking("TRAVEL_DURATION", f"would travel {_minutes(more)} more than it may",
+                       replace(vehicles, max_travel_duration=min(limit + more, MAX_QUANTITY)))
     return None
 
 

@@ -107,6 +107,7 @@ class VehicleType:
     last_by_shift: int = UNLIMITED  # last end, with overtime, if its depot didn't close before
     max_working_duration: int | None = None
     max_trip_distance: int | None = None
+    max_travel_duration: int | None = None  # on legs, of all its trips together
     overtime: Overtime | None = None  # None: shift and working duration can't be exceeded
     max_trips: int = 1
     max_stops: int | None = None  # customers that the truck itself serves on a trip
@@ -154,7 +155,8 @@ class VehicleType:
         for duration in self.service_durations.values():
             require_quantity(f"vehicle type {self.id} service_durations", duration)
         for name in ("earliest", "reload_duration", "busy_until", "max_working_duration",
-                     "max_trip_distance", "max_stops", "max_sorties", "max_airborne"):
+                     "max_trip_distance", "max_travel_duration", "max_stops", "max_sorties",
+                     "max_airborne"):
             require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
         for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
                      "cost_per_load_km", "co2_kg_per_km", "co2_kg_per_kwh"):
@@ -197,6 +199,8 @@ class VehicleType:
         """Raise `ValueError` unless a driver may rest by rules beside what else is stated."""
         alone = not (self.breaks or self.flies or self.drones or self.speed_profile)
         require(alone or self.driving is None, f"vehicle type {self.id} driving", self.driving)
+        require(self.max_travel_duration is None or not (self.flies or self.speed_profile),
+                f"vehicle type {self.id} max_travel_duration", self.max_travel_duration)
 
     @property
     def has_begun(self) -> bool:

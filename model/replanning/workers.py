@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 from operator import le
 from typing import Literal
 
+from model.judge.driving import travel_duration
 from model.judge.flown_trips import charged_between
 from model.judge.freshness import first_departure
 from model.judge.hubs import is_charged
@@ -58,11 +59,15 @@ def find_workers(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept]) -> 
         way_on = route.way_on
         if way_on is not None and _can_go_on(problem, route, way_on.aboard, home_by):
             home = min(way_on.planned_end, home_by)
-            later = _later(problem, past, route, home, home_by)
-            workers.append(_rest_of_trip(problem, route, way_on,
-                                         home_by if later is None else home))
+            planned = _planned_travel(problem, route, way_on)
+            later = _later(problem, past, route, home, home_by, _travelled(route) + planned)
+            rest = _rest_of_trip(problem, route, way_on, home_by if later is None else home)
+            if later is not None and rest.kind.max_travel_duration is not None:
+                rest = replace(rest, kind=replace(rest.kind, max_travel_duration=planned))
+            workers.append(rest)
         else:
-            later = _later(problem, past, route, route.end, home_by)
+            later = _later(problem, past, route, route.end, home_by,
+                           travel_duration(route.route.trips))
         if later is not None:
             workers.append(later)
     workers += _others(problem, past, kept)
@@ -134,6 +139,18 @@ def _driven(problem: Problem, route: Kept) -> tuple[int, int]:
     return sum(map(distance.item, nodes[:-2], nodes[1:-1])), distance.item(*nodes[-2:])
 
 
+def _travelled(route: Kept) -> int:
+    """Return how long a vehicle has been on legs, the way home left out."""
+    *trips, last = route.route.trips
+    return travel_duration((*trips, replace(last, stops=last.stops[:-1])))
+
+
+def _planned_travel(problem: Problem, route: Kept, way_on: WayOn) -> int:
+    """Return how long a vehicle is on legs on the rest of its trip, by the plan given."""
+    duration = problem.travel[problem.vehicle_types[route.vehicle.type].travel].duration
+    return sum(map(duration.item, way_on.planned.nodes, way_on.planned.nodes[1:]))
+
+
 def _load(problem: Problem, route: Kept, aboard: Sequence[int]) -> tuple[int, ...]:
     """Return what the rest of a trip has to leave room for beside what it delivers and picks up.
 
@@ -192,7 +209,9 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
             and all(count is None or count >= 0
                     for count in (*_counts_left(problem, route), *_batteries_left(problem, route)))
             and all(map(le, _load(problem, route, aboard), kind.capacity))
-            and (limit is None or sum(_driven(problem, route)) <= limit))
+            and (limit is None or sum(_driven(problem, route)) <= limit)
+            and (kind.max_travel_duration is None
+                 or travel_duration(route.route.trips) <= kind.max_travel_duration))
 
 
 def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) -> Worker:
@@ -205,6 +224,7 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
     own = replace(
         _own_type(problem, route, way_on.ready, home_by, 1), end=trip.nodes[-1],
         max_trip_distance=_left(kind.max_trip_distance, _driven(problem, route)[0]),
+        max_travel_duration=_left(kind.max_travel_duration, _travelled(route)),
         max_stops=stops, max_sorties=sorties,
         drones=drones[0] if drones else None, more_drones=tuple(drones[1:]),
         initial_load=_load(problem, route, way_on.aboard),
@@ -215,16 +235,19 @@ def _rest_of_trip(problem: Problem, route: Kept, way_on: WayOn, home_by: int) ->
     return Worker(route.vehicle, own, way_on.aboard, place)
 
 
-def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int) -> Worker | None:
+def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int,
+           travelled: int) -> Worker | None:
     """Return what trips a vehicle can begin that is back at `home`; None if there are none."""
     kind = problem.vehicle_types[route.vehicle.type]
     ready = max(past.now, home + kind.reload_duration)
     trips_left = kind.max_trips - len(route.route.trips)
     place = route.decision.trips[-1].nodes[-1]
+    travel_left = _left(kind.max_travel_duration, travelled)
     if (route.vehicle in past.unavailable or trips_left < 1 or ready > home_by
-            or place not in kind.reload_places):
+            or place not in kind.reload_places or (travel_left or 0) < 0):
         return None
     own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place,
+                  max_travel_duration=travel_left,
                   charge_left=charged_between(problem, kind, route.route.trips, ready),
                   has_charger=is_charged(problem, route.route))
     return Worker(route.vehicle, replace(own, works_since=home) if kind.cost_per_hour else own)

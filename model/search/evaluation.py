@@ -21,8 +21,7 @@ def evaluate(instance: Instance) -> Records:
     costly = np.any([rates[name] > 0 for name in WORK_RATES], axis=0)
     rests = types["must_rest"] > 0
     timed = costly | (types["max_working_duration"] < UNLIMITED) | rests
-    retimed = types["speed_changes"] != NO_PROFILE
-    retimed = retimed | (types["breaks"] > 0)
+    retimed = (types["speed_changes"] != NO_PROFILE) | (types["breaks"] > 0)
     flies = types["flies"] > 0
     retimed = retimed | any_aboard(types, (types["charge"] > 0) & ((types["drones"] > 0) | flies))
     retimed = retimed | any_aboard(types, (types["storms"] > 0) & (types["drones"] > 0))
@@ -37,6 +36,8 @@ def evaluate(instance: Instance) -> Records:
     held_back = early | ((retimed | limited) & timed)
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
+    # So is how long it travels, though nothing is held back for that.
+    timed = timed | (types["max_travel_duration"] < UNLIMITED)
     # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
     # one trip that waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)

@@ -33,7 +33,7 @@ def with_fliers(rng: np.random.Generator, problem: Problem, share: float = 0.7) 
         endurance = int(rng.integers(3, 26)) * MINUTE if rng.random() < 0.7 else UNLIMITED
         return replace(
             kind, flies=True, travel=1, drones=None, more_drones=(), charge_left=(),
-            speed_profile=None, endurance=endurance,
+            speed_profile=None, max_travel_duration=None, endurance=endurance,
             launch_duration=int(rng.integers(3)) * MINUTE,
             recovery_duration=int(rng.integers(3)) * MINUTE, energy=battery())
 

@@ -108,6 +108,8 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
         kind, drones=replace(_drones(kind), batteries=int(text))),
     "fits if .+ could work (.+) minutes? longer": lambda kind, text: replace(
         kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
+    "fits if .+ could travel (.+) minutes? longer": lambda kind, text: replace(
+        kind, max_travel_duration=(kind.max_travel_duration or 0) + _units(text, MINUTE)),
     "fits if trips could be (.+) km longer": lambda kind, text: replace(
         kind, max_trip_distance=(kind.max_trip_distance or 0) + _units(text, KM)),
     "fits if .+ may pick up at any tim(e)": lambda kind, _: replace(kind, pickups="any"),

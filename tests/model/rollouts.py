@@ -193,6 +193,8 @@ class Units:
             overtime=None if kind.overtime is None else self.overtime(kind.overtime),
             earliest=self.time * kind.earliest, latest=self.limit(kind.latest),
             max_working_duration=None if working is None else self.time * working,
+            max_travel_duration=(None if kind.max_travel_duration is None
+                                 else self.time * kind.max_travel_duration),
             max_range=None if kind.max_range is None else self.length * kind.max_range,
             max_trip_distance=None if distance is None else self.length * distance,
             reload_duration=self.time * kind.reload_duration,

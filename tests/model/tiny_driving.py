@@ -28,6 +28,7 @@ def with_driving(rng: np.random.Generator, problem: Problem) -> Problem:
         rules = drawn_rules(rng) if rng.random() < 0.8 else None
         if kind.drones or kind.flies or kind.speed_profile or kind.breaks:
             return kind
-        return replace(kind, driving=rules)
+        travel = int(rng.integers(8, 40)) * MINUTE if rng.random() < 0.3 else None
+        return replace(kind, driving=rules, max_travel_duration=travel)
 
     return replace(problem, vehicle_types=tuple(map(drawn, problem.vehicle_types)))

@@ -10,6 +10,7 @@
 #include "rules/window.h"
 #include "search/neighbourhood/tables.h"
 #include "search/route/rarer.h"
+#include "search/route/routes.h"
 
 namespace tandem {
 
@@ -77,6 +78,7 @@ void set_up_chain(const Chains& chains, Int node) {
         .last = node,
         .length = 1,
         .busy = place.service_duration(),
+        .travel = 0,
     };
 }
 
@@ -88,6 +90,17 @@ Int working(const Chains& chains, const Joint& joint) {
     const Int leaves = std::max(chain[tail].leave, chain[a].leave + way + chain[b].busy);
     const Int busy = std::max(chain[head].busy + way + chain[b].busy, leaves - latest);
     return leg(legs, type.begins_at, head).duration + busy + leg(legs, tail, type.ends_at).duration;
+}
+
+// Tells whether a vehicle may be on legs for so long that drives two routes as one.
+bool may_travel_as_one(const ProblemData& data, const Chains& chains, const Joint& joint) {
+    const VehicleType& type = chains.type;
+    return !limits_travel(type) ||
+           may_travel(type, travel_between(data, type, type.begins_at, joint.head) +
+                                chains.chain[joint.head].travel +
+                                travel_between(data, type, joint.a, joint.b) +
+                                chains.chain[joint.b].travel +
+                                travel_between(data, type, joint.tail, type.ends_at));
 }
 
 // Tells whether who flies by itself may fly two routes as one trip, as soon as all parcels are
@@ -263,11 +276,12 @@ void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, Vi
         const Int length = head.length + chain[b].length;
         if (joint.head == b || !allows_stops(type, length) ||
             !may_join(type, cargo[joint.head], cargo[b]) ||
-            !may_work(type, working(chains, joint)) ||
+            !may_work(type, working(chains, joint)) || !may_travel_as_one(data, chains, joint) ||
             (flies(type) && !flies_as_one(data, chains, joint))) {
             continue;
         }
         head.busy += way + chain[b].busy;
+        head.travel += travel_between(data, type, a, b) + chain[b].travel;
         link_up(chains, joint);
         head.length = length;
         add_cargo(cargo[joint.head], cargo[b]);

@@ -201,6 +201,11 @@ double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part pa
     }
     const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
     if (!may_work(type, working)) return infeasible;
+    if (limits_travel(type)) {
+        const Int changed = travel_on(data, type, fleet.stop[to], 0, fleet.route[to].length - 1) -
+                            travel_on(data, type, old, part.first, part.last);
+        if (!may_travel(type, route.travel + changed)) return infeasible;
+    }
     for (Int p = part.first; p < part.last; ++p) driven -= old[p].leg;
     double cost = double(driven) * data.rate[k].distance +
                   longer_cost(type, data.rate[k], route, finish, working);
@@ -370,6 +375,12 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
     }
     const Int time = place.end_of_service(arrival) + on.duration;
     if (time < behind.early) return infeasible;
+    if (limits_travel(type)) {
+        const Int more = travel_between(data, type, here.node, node) +
+                         travel_between(data, type, node, behind.node) -
+                         travel_between(data, type, here.node, behind.node);
+        if (!may_travel(type, route.travel + more)) return infeasible;
+    }
     if (bounds_trips(type)) {
         const Trip& trip = fleet.trip(slot, here.trip);
         const Added added{p, node, out.duration, on.duration};

@@ -197,7 +197,8 @@ private:
 bool is_walked(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     return !data.evaluation[route.type].priced && route.sorties == 0 &&
-           !bounds_trips(data.type[route.type]) && !has_driving_rules(data.type[route.type]);
+           !bounds_trips(data.type[route.type]) && !has_driving_rules(data.type[route.type]) &&
+           !limits_travel(data.type[route.type]);
 }
 
 }  // namespace

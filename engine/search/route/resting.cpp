@@ -264,7 +264,6 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
     clear_rests(type, stops.first(route.length));
     if (!drive_as_placed(data, route, stops, sorties)) return false;
     const Int driving = driving_on(data, type, stops.first(route.length));
-    if (!may_drive_in_a_day(type, driving)) return false;
     const Int departure = first_departure(data, route, stops, sorties);
     route.driving = driving;
     if (needs_no_rest(type, driving, route.end - departure)) return true;
@@ -295,8 +294,7 @@ bool may_have_to_rest(const ProblemData& data, const Fleet& fleet, Int slot, Int
                        leg(legs, node, stops[p + 1].node).duration - stops[p].gap;
     const Int more = std::max(Int{0}, longer);
     const Int served = data.place.by_truck(type)[node].service_duration();
-    return !may_drive_in_a_day(type, route.driving + more) ||
-           !needs_no_rest(type, route.driving + more, route.working + more + served);
+    return !needs_no_rest(type, route.driving + more, route.working + more + served);
 }
 
 }  // namespace tandem

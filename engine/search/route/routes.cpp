@@ -56,6 +56,21 @@ double vehicle_cost_on(const ProblemData& data, const Route& route, View<const S
 
 }  // namespace
 
+Int travel_between(const ProblemData& data, const VehicleType& type, Int from, Int to) {
+    return leg(legs_of(data.leg, type.travel), from, to).duration -
+           setup_after(data.setup, from, to);
+}
+
+Int travel_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
+              Int first, Int last) {
+    Int travel = 0;
+    for (Int p = first; p < last; ++p) {
+        if (stops[p].kind == end_stop) continue;
+        travel += travel_between(data, type, stops[p].node, stops[p + 1].node);
+    }
+    return travel;
+}
+
 bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Trip, 1> trips,
                 View<const Sortie, 1> sorties) {
     const Int k = route.type;
@@ -104,6 +119,10 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         }
     }
     route.trips = index + 1;
+    if (limits_travel(type)) {
+        route.travel = travel_on(data, type, stops, 0, route.length - 1);
+        if (!may_travel(type, route.travel)) return false;
+    }
     return !has_halts(data) || halts_in_order(data, route, stops, sorties);
 }
 

@@ -62,6 +62,23 @@ def test_a_rest_may_lie_in_waiting(service: httpx.Client, far: Request) -> None:
     assert breaks_of(waits)
 
 
+def test_the_longest_travel_duration_leaves_out_waiting_service_and_rests(
+        service: httpx.Client, far: Request) -> None:
+    far["customers"][1]["time_window"] = {"earliest": 30_000}
+    far["fleet"][0]["max_travel_duration"] = 21_600
+    assert planned(service, far)["status"] == "complete"
+    far["fleet"][0]["max_travel_duration"] = 21_599
+    plan = planned(service, far)
+    assert plan["unassigned"]
+    assert is_feasible(service, far, plan)
+    far["fleet"][0]["max_travel_duration"] = 10_000
+    reasons = [reason for left in planned(service, far)["unassigned"]
+               for reason in left["reasons"]]
+    assert {(reason["code"], reason["remedy"]) for reason in reasons} == {
+        ("TRAVEL_DURATION", "fits if van could travel 13.4 minutes longer"),
+        ("TRAVEL_DURATION", "fits if van could travel 87.9 minutes longer")}
+
+
 def test_a_day_that_is_too_long_is_told(service: httpx.Client, far: Request) -> None:
     far["fleet"][0]["driving_rules"] = {"preset": "eu-561", "driven_before": 10_000}
     far["customers"][1]["location"] = [9, 500]
@@ -88,7 +105,9 @@ def test_us_rules_bound_the_working_day(service: httpx.Client, far: Request) -> 
      "$.fleet[0].driving_rules.break_duration"),
     ({"driving_rules": {"preset": "eu-561", "split": [9]}}, "WRONG_LENGTH",
      "$.fleet[0].driving_rules.split"),
-    ({"breaks": [{"id": "lunch", "duration": 9}]}, "DRIVING_RULES_WITH", "$.fleet[0].breaks")])
+    ({"breaks": [{"id": "lunch", "duration": 9}]}, "DRIVING_RULES_WITH", "$.fleet[0].breaks"),
+    ({"driving_rules": None, "max_travel_duration": 9, "speed_profile": [
+        {"from": 0, "factor": 0.5}]}, "TRAVEL_DURATION_WITH", "$.fleet[0].speed_profile")])
 def test_what_cannot_be_kept_is_told(service: httpx.Client, far: Request, changes: Request,
                                      code: str, path: str) -> None:
     far["fleet"][0] |= changes

@@ -38,7 +38,8 @@ def drawn(rng: np.random.Generator) -> Problem:
             str(index), (1,), service_duration=int(rng.integers(0, 4)) * MINUTE,
             earliest=earliest * MINUTE, latest=min(UNLIMITED, latest * MINUTE)))
     truck = VehicleType("truck", 1, (3,), 0, cost_per_km=1.0, cost_per_hour=30.0,
-                        latest=60 * MINUTE, driving=drawn_rules(rng))
+                        latest=60 * MINUTE, driving=drawn_rules(rng),
+                        max_travel_duration=int(rng.integers(4, 40)) * MINUTE)
     return Problem((Depot("hub"),), tuple(customers), (truck,), (Travel(steps, steps),),
                    rng.random((3, 2)), unassigned_cost=60.0)
 
@@ -55,7 +56,8 @@ def soonest_end(problem: Problem, nodes: tuple[int, ...], start: int) -> float:
     limits = (rules.max_driving // MINUTE, rules.max_work // MINUTE)
     legs = [problem.travel[0].duration.item(*leg) // MINUTE
             for leg in pairwise(nodes)]
-    if rules.driven_before // MINUTE + sum(legs) > rules.max_driving_per_day // MINUTE:
+    if (rules.driven_before // MINUTE + sum(legs) > rules.max_driving_per_day // MINUTE
+            or sum(legs) * MINUTE > (kind.max_travel_duration or 0)):
         return np.inf
     first = (0, 0, rules.driven_before // MINUTE, rules.worked_before // MINUTE, False)
     at: dict[int, set[State]] = {start: {first}}

@@ -50,6 +50,7 @@ const FEW = 10;
 /** What a sweep begins with, of which those count that some vehicle type states. */
 const FIRST_FIELDS = [
   { path: 'fleet[*].max_working_duration', unit: 's' },
+  { path: 'fleet[*].max_travel_duration', unit: 's' },
   { path: 'fleet[*].capacity[0]', unit: '' },
   { path: 'fleet[*].count', unit: '' },
 ];

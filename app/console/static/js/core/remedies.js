@@ -93,6 +93,11 @@ const CHANGES = [
       add(request, [...type, 'max_trip_distance'], numberOf(more) * METRES_PER_KM),
   ],
   [
+    new RegExp(`^fits if .+ could travel ${NUMBER} minutes? longer$`),
+    (request, { type }, more) =>
+      add(request, [...type, 'max_travel_duration'], numberOf(more) * SECONDS_PER_MINUTE),
+  ],
+  [
     new RegExp(`^fits if its (?:last )?window closed ${NUMBER} minutes? later$`),
     (request, { customer }, more) =>
       closeLater(request, customer, windowsOf(getIn(request, customer)).length - 1, more),
