@@ -97,7 +97,7 @@ TEST_CASE("parts of a trip add up to the whole") {
 }
 
 TEST_CASE("goods are kept apart on a trip or on a vehicle") {
-    const Goods food = {1, 2, 4};
+    const Goods food = {1, 2, 4, 0, 0};
     CHECK(go_together(food, 2, 4));
     CHECK_FALSE(go_together(food, 1, 0));
     CHECK_FALSE(go_together(food, 0, 3));

@@ -123,10 +123,11 @@ def depth(shape: Data, points: Any, projection: LocalProjection) -> float:
 
 
 def flown_lines(plan: Data) -> list[Any]:
+    """Return all flights' ways, but those that the service had no time left to look for."""
     return [np.array(polyline.decode(line, 6))[:, ::-1]
             for route in plan["routes"] for trip in route["trips"] for sortie in trip["sorties"]
             for line in (*(visit["geometry"] for visit in sortie["customers"]),
-                         sortie["recovery_geometry"])]
+                         sortie["recovery_geometry"]) if line is not None]
 
 
 def judged(seed: int) -> tuple[int, int]:

@@ -3,14 +3,10 @@
 import json
 import uuid
 import xml.etree.ElementTree as ElementTree
-from pathlib import Path
 
 import httpx
 import pytest
 
-from app.serving.settings import Settings
-from tests.app.maps.airspace.published import circle, ed269, zone
-from tests.app.records.jobs.conftest import serving
 from tests.app.records.jobs.stepping import (
     NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
@@ -29,22 +25,6 @@ def test_plan_of_a_job_is_drawn(jobs: httpx.Client) -> None:
     assert root.tag == "{http://www.w3.org/2000/svg}svg"
     texts = {"".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text")}
     assert {"hub", "truck-1", *(f"c{number}" for number in range(1, NUM_CUSTOMERS + 1))} <= texts
-
-
-def test_zones_for_all_requests_are_drawn(tmp_path: Path) -> None:
-    path = tmp_path / "zones.json"
-    path.write_text(json.dumps(ed269(zone(circle(400, [25.0, 60.1]), name="Harbour"))["data"]))
-    request = request_of(0) | {"coordinate_system": "geographic", "planar_unit": 1.0}
-    for place in (*request["depots"], *request["customers"]):
-        place["location"] = [25 + place["location"][0] / 100, 60.11]
-    request["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
-    with serving(Settings(data_dir=tmp_path, role="all", airspace=(path,))) as jobs:
-        job = submit(jobs, request)
-        ended(jobs, job)
-        picture = jobs.get(f"/jobs/{job}/plan.svg")
-    assert picture.status_code == 200, picture.text
-    assert "Harbour" in picture.text
-    assert "flying is prohibited" in picture.text
 
 
 def test_plan_so_far_of_a_running_job_is_drawn(jobs: httpx.Client) -> None:

@@ -8,7 +8,6 @@ import { CostsTab } from './costs-tab.js';
 import { CustomersTab } from './customers-tab.js';
 import { DronesLine } from './drones-line.js';
 import { DriversTab } from './drivers-tab.js';
-import { ExportTab } from './export-tab.js';
 import { FleetTab } from './fleet-tab.js';
 import { HandBar } from './hand-bar.js';
 import { later } from './later.js';
@@ -18,6 +17,7 @@ import { SolveTab } from './solve-tab.js';
 import { UnassignedTab } from './unassigned-tab.js';
 import { t } from '../texts.js';
 
+const ExportTab = later(async () => (await import('./export-tab.js')).ExportTab);
 const ScenariosTab = later(async () => (await import('./scenarios-tab.js')).ScenariosTab);
 
 /** Views by tab, in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
