@@ -1,6 +1,5 @@
 """Pictures of jobs' plans over HTTP."""
 
-import json
 import uuid
 import xml.etree.ElementTree as ElementTree
 

@@ -1,4 +1,4 @@
-"""Pictures of jobs have the zones that hold for all requests: a service with a setting of its own."""
+"""Pictures of jobs have the zones that hold for all requests."""
 
 import json
 from pathlib import Path
