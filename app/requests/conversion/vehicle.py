@@ -72,7 +72,8 @@ def _in_time(kind: VehicleType, travels: Travels) -> VehicleType:
     if overtime is not None:
         most //= 2
         overtime = replace(overtime, max_duration=min(overtime.max_duration, most))
-    return replace(kind, latest=min(kind.latest, most), overtime=overtime)
+    latest = max(kind.earliest, min(kind.latest, most))
+    return replace(kind, latest=latest, overtime=overtime)
 
 
 def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decimals: Sequence[int],
