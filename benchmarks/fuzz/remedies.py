@@ -110,7 +110,8 @@ def alone(request: Data, customer: str, reason: Data) -> Data:
         "customers": [_of_one_type(each, kind) for each in request["customers"]
                       if each["id"] == customer],
         "fleet": [kind],
-        "unassigned_cost": price, "replan": None,
+        # Who is alone goes with nobody.
+        "unassigned_cost": price, "replan": None, "relations": [],
         # Numbers in JavaScript hold no larger seeds exactly.
         "options": request.get("options", {}) | {
             "time_limit": SECONDS, "search_iterations": None, "seed": 0}}
@@ -121,7 +122,9 @@ def _of_one_type(customer: Data, kind: Data) -> Data:
     durations = {name: duration
                  for name, duration in customer.get("service_duration_by_type", {}).items()
                  if name == kind["id"] or name.startswith(f"{kind['id']}/")}
-    customer = customer | {"service_duration_by_type": durations}
+    costs = {name: cost for name, cost in customer.get("vehicle_costs", {}).items()
+             if name == kind["id"] or name.startswith(f"{kind['id']}-")}
+    customer = customer | {"service_duration_by_type": durations, "vehicle_costs": costs}
     vehicles = customer.get("vehicles") or {}
     listed = [name for name in vehicles.values() if name is not None]
     if not listed:
