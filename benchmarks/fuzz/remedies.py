@@ -112,6 +112,9 @@ def alone(request: Data, customer: str, reason: Data) -> Data:
         "fleet": [kind],
         # Who is alone goes with nobody.
         "unassigned_cost": price, "replan": None, "relations": [],
+        # Sites may name other types.
+        "launch_sites": [{name: value for name, value in site.items() if name != "vehicles"}
+                         for site in request.get("launch_sites", [])],
         # Numbers in JavaScript hold no larger seeds exactly.
         "options": request.get("options", {}) | {
             "time_limit": SECONDS, "search_iterations": None, "seed": 0}}
