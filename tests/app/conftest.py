@@ -20,7 +20,9 @@ from app.schemas.limits import DEFAULT_POLICY
 from app.serving.settings import Settings
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
+from model.planner import (
+    ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, load_planner,
+)
 from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
 from tests.conftest import eventually
@@ -185,6 +187,14 @@ def searching() -> Iterator[httpx.Client]:
     """Return a client of a service that searches."""
     with serving(SearchingPlanner(), Settings(vroom_seconds=0.3)) as client:
         client.timeout = 300
+        yield ready(client)
+
+
+@pytest.fixture(scope="module")
+def service() -> Iterator[httpx.Client]:
+    """Return a client of a service that plans by the policies trained, and searches."""
+    settings = Settings()
+    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
         yield ready(client)
 
 

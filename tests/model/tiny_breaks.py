@@ -1,15 +1,34 @@
 """Tiny problems whose drivers have breaks; every time is a whole number of minutes."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
-from model.problem import Break, Problem, VehicleType
+from model.problem import UNLIMITED, Break, Customer, Depot, Problem, Travel, VehicleType
 from tests.model.tiny import MINUTE
 
 
 def _minutes(rng: np.random.Generator, low: int, high: int) -> int:
     return int(rng.integers(low, high + 1)) * MINUTE
+
+
+def short_day(rng: np.random.Generator, resting: Callable[[VehicleType], VehicleType]) -> Problem:
+    """Draw two customers with windows, and one truck as `resting` has it: an hour, all told."""
+    steps = rng.integers(1, 9, (3, 3)) * MINUTE
+    steps = np.minimum(steps, steps.T)
+    np.fill_diagonal(steps, 0)
+    customers = []
+    for index in range(2):
+        earliest = int(rng.integers(0, 30))
+        latest = earliest + int(rng.integers(0, 15)) if rng.random() < 0.7 else UNLIMITED
+        customers.append(Customer(
+            str(index), (1,), service_duration=int(rng.integers(0, 4)) * MINUTE,
+            earliest=earliest * MINUTE, latest=min(UNLIMITED, latest * MINUTE)))
+    truck = resting(VehicleType("truck", 1, (3,), 0, cost_per_km=1.0, cost_per_hour=30.0,
+                                latest=60 * MINUTE))
+    return Problem((Depot("hub"),), tuple(customers), (truck,), (Travel(steps, steps),),
+                   rng.random((3, 2)), unassigned_cost=60.0)
 
 
 def with_breaks(rng: np.random.Generator, problem: Problem) -> Problem:

@@ -1,15 +1,11 @@
 """Breaks of drivers, over HTTP."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
 
 from app.plans.pictures.drawing import draw_svg
-from app.serving.settings import Settings
-from model.planner import load_planner
-from tests.app.conftest import serving
 from tests.app.plans.asking import planned
 from tests.app.plans.pictures.conftest import scene_of
 from tests.app.plans.test_hubs import is_feasible
@@ -18,14 +14,6 @@ Request = dict[str, Any]
 
 NOON = {"id": "lunch", "duration": 1800, "start": {"earliest": 600, "latest": 1200},
         "after_departure": True}
-
-
-@pytest.fixture(scope="module")
-def service() -> Iterator[httpx.Client]:
-    """Return a client of a service that plans as it does."""
-    settings = Settings()
-    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
-        yield client
 
 
 @pytest.fixture

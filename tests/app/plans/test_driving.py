@@ -1,27 +1,15 @@
 """Rests that driving rules ask for, over HTTP."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
 
-from app.serving.settings import Settings
-from model.planner import load_planner
-from tests.app.conftest import serving
 from tests.app.plans.asking import planned
 from tests.app.plans.test_breaks import breaks_of
 from tests.app.plans.test_hubs import is_feasible
 
 Request = dict[str, Any]
-
-
-@pytest.fixture(scope="module")
-def service() -> Iterator[httpx.Client]:
-    """Return a client of a service that plans as it does."""
-    settings = Settings()
-    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
-        yield client
 
 
 @pytest.fixture

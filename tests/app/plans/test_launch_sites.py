@@ -1,27 +1,15 @@
 """Stops of trucks for their drones alone, over HTTP."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
-from tests.app.conftest import ready, serving
 from tests.app.plans.asking import documented, planned, planned_and_judged
 
-from app.serving.settings import Settings
-from model.planner import load_planner
 
 Request = dict[str, Any]
 
 SEARCHED = {"search_iterations": 300, "time_limit": 60}
-
-
-@pytest.fixture(scope="module")
-def searching() -> Iterator[httpx.Client]:
-    """Return a client of a service that plans by the policies trained, and searches."""
-    settings = Settings()
-    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
-        yield ready(client)
 
 
 @pytest.fixture
@@ -43,14 +31,14 @@ def site_stops(plan: Request) -> list[Request]:
             if stop["kind"] == "launch_site"]
 
 
-def test_a_truck_stops_where_nobody_ordered(searching: httpx.Client, far_off: Request) -> None:
-    plan = planned(searching, far_off)
+def test_a_truck_stops_where_nobody_ordered(service: httpx.Client, far_off: Request) -> None:
+    plan = planned(service, far_off)
     assert plan["unassigned"] == []
     (stop,) = site_stops(plan)
     assert (stop["id"], stop["service_start"], stop["lateness"]) == ("car park", 1200, 0)
     assert stop["waiting"] == stop["service_start"] - stop["arrival"]
     assert plan["cost"]["stops"] == 2.5
-    verdict = searching.post("/check", json={"problem": far_off, "plan": plan}).json()
+    verdict = service.post("/check", json={"problem": far_off, "plan": plan}).json()
     assert (verdict["feasible"], verdict["violations"]) == (True, [])
 
 
@@ -58,29 +46,29 @@ def test_a_truck_stops_where_nobody_ordered(searching: httpx.Client, far_off: Re
     ({"vehicles": {"forbidden": ["truck-1"]}}, "LAUNCH_SITE"),
     ({"time_window": {"latest": 1}}, "TIME_WINDOW")])
 def test_launch_sites_are_for_some_vehicles_at_some_time(
-        searching: httpx.Client, far_off: Request, change: Request, code: str) -> None:
-    plan = planned(searching, far_off)
+        service: httpx.Client, far_off: Request, change: Request, code: str) -> None:
+    plan = planned(service, far_off)
     far_off["launch_sites"][0] |= change
-    verdict = searching.post("/check", json={"problem": far_off, "plan": plan}).json()
+    verdict = service.post("/check", json={"problem": far_off, "plan": plan}).json()
     assert code in {broken["code"] for broken in verdict["violations"]}
-    assert [left_out["id"] for left_out in planned(searching, far_off)["unassigned"]] == ["isle"]
+    assert [left_out["id"] for left_out in planned(service, far_off)["unassigned"]] == ["isle"]
 
 
-def test_lines_and_reasons_know_launch_sites(searching: httpx.Client,
+def test_lines_and_reasons_know_launch_sites(service: httpx.Client,
                                              far_off: Request) -> None:
     far_off["options"] = SEARCHED | {"geometry": True}
-    plan = planned(searching, far_off)
+    plan = planned(service, far_off)
     (stop,) = site_stops(plan)
     assert stop["geometry"] is not None
     asked = {"problem": far_off, "plan": plan}
-    told = searching.post("/explain", json=asked | {"customer": "isle"}).json()
+    told = service.post("/explain", json=asked | {"customer": "isle"}).json()
     assert told["here"]["position"]["recovered_at"] == "car park"
-    assert searching.post("/explain", json=asked | {"drones": True}).status_code == 200
-    fits = searching.post("/fit", json=asked | {"customer": "A"})
+    assert service.post("/explain", json=asked | {"drones": True}).status_code == 200
+    fits = service.post("/fit", json=asked | {"customer": "A"})
     assert fits.status_code == 200, fits.text
 
 
-def test_a_truck_comes_back_to_whom_it_has_served(searching: httpx.Client,
+def test_a_truck_comes_back_to_whom_it_has_served(service: httpx.Client,
                                                   smallest: Request) -> None:
     """A truck at the end of a road flies to one side, drives on, and comes back for the other."""
     request = smallest | {
@@ -94,26 +82,26 @@ def test_a_truck_comes_back_to_whom_it_has_served(searching: httpx.Client,
                    "costs": {"per_km": 0, "per_hour": 10}, "max_sorties": 2, "drones": {
                        "count": 1, "capacity": [1], "speed_kmh": 36, "endurance": 210}}],
         "options": SEARCHED | {"search_iterations": 2000}}
-    plan = planned(searching, request)
+    plan = planned(service, request)
     assert plan["unassigned"] == []
-    assert searching.post("/check", json={"problem": request, "plan": plan}).json()["feasible"]
+    assert service.post("/check", json={"problem": request, "plan": plan}).json()["feasible"]
     for stop in site_stops(plan):
         assert stop["id"] in {"depot", "hut", "tip"}
-    alone = planned(searching, request | {"fleet": [request["fleet"][0] | {"revisits": False}]})
+    alone = planned(service, request | {"fleet": [request["fleet"][0] | {"revisits": False}]})
     assert plan["cost"]["total"] <= alone["cost"]["total"]
 
 
-def test_further_trips_go_to_launch_sites_too(searching: httpx.Client, far_off: Request) -> None:
+def test_further_trips_go_to_launch_sites_too(service: httpx.Client, far_off: Request) -> None:
     isle = far_off["customers"][1]
     far_off["customers"] = [isle, isle | {"id": "rock", "location": [100, 9000]}]
     far_off["fleet"][0] |= {"capacity": [1], "max_trips": 2}
-    plan = planned(searching, far_off)
+    plan = planned(service, far_off)
     assert plan["unassigned"] == []
     assert [stop["id"] for stop in site_stops(plan)] == ["car park", "car park"]
 
 
-def test_the_documented_example_stops_at_a_pier(searching: httpx.Client) -> None:
-    plan = planned_and_judged(searching, documented("launch_sites"))
+def test_the_documented_example_stops_at_a_pier(service: httpx.Client) -> None:
+    plan = planned_and_judged(service, documented("launch_sites"))
     assert plan["unassigned"] == []
     assert "pier" in {stop["id"] for stop in site_stops(plan)}
 
@@ -127,44 +115,44 @@ def test_the_documented_example_stops_at_a_pier(searching: httpx.Client) -> None
      "WINDOW_ENDS_BEFORE_START", "$.launch_sites[0].time_window"),
     ({"launch_sites": [{"id": "a", "location": [0, 0], "vehicles": {"allowed": ["bus"]}}]},
      "UNKNOWN_VEHICLE", "$.launch_sites[0].vehicles.allowed[0]")])
-def test_what_makes_no_sense_is_refused(searching: httpx.Client, far_off: Request, change: Request,
+def test_what_makes_no_sense_is_refused(service: httpx.Client, far_off: Request, change: Request,
                                         code: str, path: str) -> None:
-    reply = searching.post("/plan", json=far_off | change)
+    reply = service.post("/plan", json=far_off | change)
     assert reply.status_code == 422
     assert (code, path) in {(error["code"], error["path"]) for error in reply.json()["errors"]}
 
 
-def test_what_is_revisited_has_names_of_its_own(searching: httpx.Client, far_off: Request) -> None:
+def test_what_is_revisited_has_names_of_its_own(service: httpx.Client, far_off: Request) -> None:
     far_off["fleet"][0]["revisits"] = True
     far_off["launch_sites"][0]["id"] = "A"
-    (error,) = searching.post("/plan", json=far_off).json()["errors"]
+    (error,) = service.post("/plan", json=far_off).json()["errors"]
     assert (error["code"], error["path"]) == ("DUPLICATE_ID", "$.launch_sites[0].id")
 
 
-def test_a_truck_goes_on_to_a_launch_site(searching: httpx.Client, far_off: Request) -> None:
-    plan = planned(searching, far_off)
+def test_a_truck_goes_on_to_a_launch_site(service: httpx.Client, far_off: Request) -> None:
+    plan = planned(service, far_off)
     (stop,) = site_stops(plan)
     for now in (1, stop["arrival"] + 1, stop["service_start"] + 1):
-        again = planned(searching, far_off | {"replan": {"plan": plan, "freeze_before": now}})
+        again = planned(service, far_off | {"replan": {"plan": plan, "freeze_before": now}})
         assert again["unassigned"] == []
         assert site_stops(again) == [stop]
 
 
-def test_plans_with_launch_sites_are_sent_out(searching: httpx.Client, far_off: Request) -> None:
-    plan = planned(searching, far_off)
-    reply = searching.post("/dispatches", json={"problem": far_off, "plan": plan})
+def test_plans_with_launch_sites_are_sent_out(service: httpx.Client, far_off: Request) -> None:
+    plan = planned(service, far_off)
+    reply = service.post("/dispatches", json={"problem": far_off, "plan": plan})
     assert reply.status_code == 201, reply.text
 
 
-def test_rows_of_matrices_are_asked_for(searching: httpx.Client, far_off: Request) -> None:
+def test_rows_of_matrices_are_asked_for(service: httpx.Client, far_off: Request) -> None:
     for index, place in enumerate((*far_off["depots"], *far_off["customers"],
                                    *far_off["launch_sites"])):
         place["location_index"] = index
     table = [[0 if i == j else 60 for j in range(4)] for i in range(4)]
     far_off["matrices"] = {name: {"durations": table, "distances": table}
                            for name in ("truck", "drone")}
-    assert site_stops(planned(searching, far_off)) == []
+    assert site_stops(planned(service, far_off)) == []
     del far_off["launch_sites"][0]["location_index"]
-    (error,) = searching.post("/plan", json=far_off).json()["errors"]
+    (error,) = service.post("/plan", json=far_off).json()["errors"]
     assert (error["code"], error["path"]) == ("MISSING_LOCATION_INDEX",
                                               "$.launch_sites[0].location_index")

@@ -1,25 +1,13 @@
 """Who goes with whom, over HTTP and back."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import httpx
 import pytest
 
 from app.schemas.response import PlanReply
-from app.serving.settings import Settings
-from model.planner import load_planner
-from tests.app.conftest import ready, serving
 
 Request = dict[str, Any]
-
-
-@pytest.fixture(scope="module")
-def searching() -> Iterator[httpx.Client]:
-    """Return a client of a service that plans by the policies trained, and searches."""
-    settings = Settings()
-    with serving(load_planner(settings.weights_dir, settings.policies), settings) as client:
-        yield ready(client)
 
 
 @pytest.fixture
@@ -43,28 +31,28 @@ def vehicle_of(plan: dict[str, Any]) -> dict[str, str]:
     ([{"kind": "apart", "customers": ["A", "B"]},
       {"kind": "apart", "customers": ["A", "D"], "scope": "trip"}], {"AC", "BD"}),
 ])
-def test_customers_go_with_whom_relations_say(searching: httpx.Client, related: Request,
+def test_customers_go_with_whom_relations_say(service: httpx.Client, related: Request,
                                               relations: list[Any], pairs: set[str]) -> None:
     related["relations"] = relations
-    plan = searching.post("/plan", json=related).json()
+    plan = service.post("/plan", json=related).json()
     PlanReply.model_validate(plan)
     own = vehicle_of(plan)
     assert {"".join(sorted(each for each in own if own[each] == vehicle))
             for vehicle in own.values()} == pairs
-    checked = searching.post("/check", json={"problem": related, "plan": plan}).json()
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
     assert checked["feasible"], checked
     related["relations"] = [{"kind": "apart" if len(relations) == 1 else "together",
                              "customers": ["A", "C"] if len(relations) == 1 else ["A", "D"]}]
-    checked = searching.post("/check", json={"problem": related, "plan": plan}).json()
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
     assert [each["code"] for each in checked["violations"]] == ["RELATION"]
 
 
-def test_who_is_left_out_by_a_relation_is_told_which(searching: httpx.Client,
+def test_who_is_left_out_by_a_relation_is_told_which(service: httpx.Client,
                                                      related: Request) -> None:
     related["relations"] = [{"kind": "together", "customers": ["A", "C", "D"]},
                             {"kind": "apart", "customers": ["B", "C"]}]
     related["customers"][3]["demand"] = [2]
-    plan = searching.post("/plan", json=related).json()
+    plan = service.post("/plan", json=related).json()
     left, = plan["unassigned"]
     own = vehicle_of(plan)
     reason, = left["reasons"]
@@ -75,18 +63,18 @@ def test_who_is_left_out_by_a_relation_is_told_which(searching: httpx.Client,
     assert reason["message"] == (f"It is to be served together with A and C, which {own['A']} "
                                  "serves, and has no room for it.")
     asked = {"problem": related, "plan": plan, "customer": "D"}
-    assert searching.post("/explain", json=asked).status_code == 200
+    assert service.post("/explain", json=asked).status_code == 200
 
 
-def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(searching: httpx.Client,
+def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(service: httpx.Client,
                                                               related: Request) -> None:
     related["relations"] = [{"kind": "apart", "customers": ["A", "B", "C"]}]
-    plan = searching.post("/plan", json=related).json()
+    plan = service.post("/plan", json=related).json()
     left, = plan["unassigned"]
     assert [(each["code"], each["remedy"]) for each in left["reasons"]] == [
         ("RELATION", "fits with one more vehicle of truck")]
     related["fleet"][0]["count"] += 1
-    assert searching.post("/plan", json=related).json()["unassigned"] == []
+    assert service.post("/plan", json=related).json()["unassigned"] == []
 
 
 @pytest.mark.parametrize(("relations", "errors"), [
@@ -112,13 +100,13 @@ def test_relations_that_make_no_sense_are_refused(client: httpx.Client, related:
     assert [(each["code"], each["path"]) for each in told] == errors
 
 
-def test_one_vehicle_may_serve_apart_on_two_trips(searching: httpx.Client,
+def test_one_vehicle_may_serve_apart_on_two_trips(service: httpx.Client,
                                                   related: Request) -> None:
     related["relations"] = [
         {"kind": "together", "customers": ["A", "B"]},
         {"kind": "apart", "customers": ["A", "B"], "scope": "trip"}]
     related["fleet"][0] |= {"count": 1, "max_trips": 4}
-    plan = searching.post("/plan", json=related).json()
+    plan = service.post("/plan", json=related).json()
     assert plan["unassigned"] == []
     trips = [{stop["id"] for stop in trip["stops"]} for trip in plan["routes"][0]["trips"]]
     assert not any({"A", "B"} <= each for each in trips)

@@ -12,13 +12,13 @@ from model.engine.instance import pack
 from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import UNLIMITED, Break, Customer, Depot, Problem, Travel, VehicleType
+from model.problem import Break, Problem, VehicleType
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
-from tests.model.tiny_breaks import with_breaks
+from tests.model.tiny_breaks import short_day, with_breaks
 from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
@@ -28,28 +28,18 @@ MINUTE = 60_000
 
 def drawn(rng: np.random.Generator) -> Problem:
     """Draw two customers with windows, and one truck whose driver has one or two breaks."""
-    steps = rng.integers(1, 9, (3, 3)) * MINUTE
-    steps = np.minimum(steps, steps.T)
-    np.fill_diagonal(steps, 0)
-    customers = []
-    for index in range(2):
-        earliest = int(rng.integers(0, 30))
-        latest = earliest + int(rng.integers(0, 15)) if rng.random() < 0.7 else UNLIMITED
-        customers.append(Customer(
-            str(index), (1,), service_duration=int(rng.integers(0, 4)) * MINUTE,
-            earliest=earliest * MINUTE, latest=min(UNLIMITED, latest * MINUTE)))
-    breaks, opens = [], int(rng.integers(0, 15))
-    for number in range(int(rng.integers(1, 3))):
-        width = int(rng.integers(0, 8))
-        breaks.append(Break(
-            str(number), int(rng.integers(1, 6)) * MINUTE, opens * MINUTE, (opens + width) * MINUTE,
-            anywhere=bool(rng.random() < 0.4),
-            paid=bool(rng.random() < 0.6)))
-        opens += width + int(rng.integers(0, 8))
-    truck = VehicleType("truck", 1, (3,), 0, cost_per_km=1.0, cost_per_hour=30.0,
-                        breaks=tuple(breaks), latest=60 * MINUTE)
-    return Problem((Depot("hub"),), tuple(customers), (truck,), (Travel(steps, steps),),
-                   rng.random((3, 2)), unassigned_cost=60.0)
+    def resting(truck: VehicleType) -> VehicleType:
+        breaks, opens = [], int(rng.integers(0, 15))
+        for number in range(int(rng.integers(1, 3))):
+            width = int(rng.integers(0, 8))
+            breaks.append(Break(
+                str(number), int(rng.integers(1, 6)) * MINUTE, opens * MINUTE,
+                (opens + width) * MINUTE, anywhere=bool(rng.random() < 0.4),
+                paid=bool(rng.random() < 0.6)))
+            opens += width + int(rng.integers(0, 8))
+        return replace(truck, breaks=tuple(breaks))
+
+    return short_day(rng, resting)
 
 
 def placements(problem: Problem, legs: int) -> Iterator[tuple[BreakDecision, ...]]:

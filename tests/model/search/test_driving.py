@@ -9,7 +9,7 @@ import pytest
 from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import (
-    REST, UNLIMITED, Customer, Depot, DrivingRules, Problem, Travel, VehicleType,
+    REST, DrivingRules, Problem,
 )
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
@@ -17,6 +17,7 @@ from model.solution import Solution
 from tests.model.driving_law import Law, offences
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_gaps, with_setups
+from tests.model.tiny_breaks import short_day
 from tests.model.tiny_driving import drawn_rules, with_driving
 from tests.model.tiny_shipments import with_shipments
 
@@ -27,21 +28,8 @@ MINUTE = 60_000
 
 def drawn(rng: np.random.Generator) -> Problem:
     """Draw two customers with windows, and one truck whose driver has to rest."""
-    steps = rng.integers(1, 9, (3, 3)) * MINUTE
-    steps = np.minimum(steps, steps.T)
-    np.fill_diagonal(steps, 0)
-    customers = []
-    for index in range(2):
-        earliest = int(rng.integers(0, 30))
-        latest = earliest + int(rng.integers(0, 15)) if rng.random() < 0.7 else UNLIMITED
-        customers.append(Customer(
-            str(index), (1,), service_duration=int(rng.integers(0, 4)) * MINUTE,
-            earliest=earliest * MINUTE, latest=min(UNLIMITED, latest * MINUTE)))
-    truck = VehicleType("truck", 1, (3,), 0, cost_per_km=1.0, cost_per_hour=30.0,
-                        latest=60 * MINUTE, driving=drawn_rules(rng),
-                        max_travel_duration=int(rng.integers(4, 40)) * MINUTE)
-    return Problem((Depot("hub"),), tuple(customers), (truck,), (Travel(steps, steps),),
-                   rng.random((3, 2)), unassigned_cost=60.0)
+    return short_day(rng, lambda truck: replace(
+        truck, driving=drawn_rules(rng), max_travel_duration=int(rng.integers(4, 40)) * MINUTE))
 
 
 State = tuple[int, int, int, int, bool]
