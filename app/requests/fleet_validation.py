@@ -108,8 +108,7 @@ def driving_errors(draft: Draft) -> Errors:
         if rules.break_duration is None:
             yield error_at("MISSING_BREAK_DURATION", (*path, "driving_rules", "break_duration"),
                            "Nothing says how long a rest is: state break_duration, or a preset.")
-        stated = [("breaks", bool(kind.breaks)), ("speed_profile", bool(kind.speed_profile)),
-                  ("drones", any(drones.count > 0 for drones in kind.drone_types))]
+        stated = [("breaks", bool(kind.breaks)), ("speed_profile", bool(kind.speed_profile))]
         for name in [name for name, is_stated in stated if is_stated]:
             yield error_at("DRIVING_RULES_WITH", (*path, name),
                            "Rests by driving_rules can't be planned beside it yet: leave "

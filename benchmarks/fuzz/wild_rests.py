@@ -17,9 +17,8 @@ def let_rest(rng: random.Random, request: Data) -> None:
             kind["breaks"] = [_break(rng, number) for number in range(rng.randint(1, 3))]
             continue
         kind["driving_rules"] = _rules(rng)
-        for name in ("drones", "speed_profile"):
-            if rng.random() < 0.98:
-                kind.pop(name, None)
+        if rng.random() < 0.98:
+            kind.pop("speed_profile", None)
 
 
 def _break(rng: random.Random, number: int) -> Data:

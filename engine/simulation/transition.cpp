@@ -317,11 +317,19 @@ void close_vehicle(const Instance& instance, State& state, Int r) {
     for (Int trip = 0; trip < log.count.trips; ++trip) {
         // Who begins a later trip later has worked longer before its rests.
         if (trip > 0 && has_driving_rules(setting.type)) continue;
-        Int known = log.trip[trip].start;
+        const Int soonest = log.trip[trip].start;
+        Int known = soonest;
         if (trip == 0) known = std::max(known, vehicle.start_best);
         Int start = latest_start(setting, log, trip, known);
         if (trip == 0) start = start_within_work(setting, log, start);
-        if (start > log.trip[trip].start) retime(setting, log, trip, start);
+        if (start <= soonest) continue;
+        retime(setting, log, trip, start);
+        // Where drones wait out a storm, what begins later may take longer.
+        if (!has_rested(setting, log)) {
+            retime(setting, log, trip, soonest);
+            start = start_within_work(setting, log, soonest);
+            if (start > soonest) retime(setting, log, trip, start);
+        }
     }
     if (log.count.trips == 0) return;
     note_taken(instance, state, r);

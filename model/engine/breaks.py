@@ -69,7 +69,8 @@ class RestingDriver:
         self._types, self._k = types, k
         self._driver = one(dtype_of("tandem_driver"))
         self._driver.driven = types[k].driven_before
-        self._driver.since = begin - types[k].worked_before
+        since = types[k].breaks_since
+        self._driver.since = (begin if since == NONE else since) - types[k].worked_before
 
     def drive(self, rests: int, leave: int, arrival: int) -> list[RestTimes]:
         """Return the rests on a leg that lasts from then until then."""

@@ -14,6 +14,7 @@
 #include "search/route/edit.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
+#include "search/route/resting.h"
 #include "search/route/routes.h"
 #include "search/route/state.h"
 #include "search/scratch.h"
@@ -250,7 +251,8 @@ bool Resplit::line_up(Int slot, Part part) {
     if (count == 0) return false;
     lines_.exact = lines_.exact && exact;
     lines_.saves_time = lines_.saves_time || idle_time(route) > 0 ||
-                        is_dearer(data_.rate[type_], work_of(data_.type[type_], route));
+                        is_dearer(data_.rate[type_], work_of(data_.type[type_], route)) ||
+                        any_rest(data_.type[type_], route);
     if (lines_.exact) {
         measure(data_, type_, rest, count);
         lines_.cost += present_cost(data_, type_, rest, count) + beside(data_, type_, rest, count);

@@ -8,6 +8,7 @@
 #include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
+#include "search/route/resting.h"
 #include "search/route/routes.h"
 #include "search/route/state.h"
 
@@ -71,7 +72,8 @@ void SmallMoves::add_trip(Int node) {
     }
     const Int type = route.type;
     if (data_.type[type].drones != 1 || data_.evaluation[type].priced || idle_time(route) > 0 ||
-        is_dearer(data_.rate[type], work_of(data_.type[type], route))) {
+        is_dearer(data_.rate[type], work_of(data_.type[type], route)) ||
+        any_rest(data_.type[type], route)) {
         return;
     }
     const Trip& there = now.trip(slot, now.stop(slot, stop_beside(now, node)).trip);

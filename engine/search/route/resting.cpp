@@ -9,70 +9,15 @@
 #include "search/route/block.h"
 #include "search/route/breaks.h"
 #include "search/route/rarer.h"
+#include "search/route/rest_labels.h"
 #include "search/route/routes.h"
 
 namespace tandem {
 namespace {
 
-constexpr std::size_t most_labels = 48;
-
-// Which rest is taken, on the leg behind which stop, and where.
-struct Taken {
-    std::int32_t stop;
-    std::int8_t number;
-    std::int8_t place;
-};
-
-// A driver who has come somewhere, with the rests so far.
-struct Label {
-    Int time;
-    Int cum;     // sum of all durations
-    Int depart;  // the latest departure that costs nothing
-    Driver driver;
-    Int count;
-    std::array<Taken, most_rests_on_route> taken;  // so many of them are written
-};
-
-// Tell whether one is no worse than another, whatever comes.
-bool is_no_worse(const Label& one, const Label& other) {
-    return one.time <= other.time && one.cum <= other.cum && one.depart >= other.depart &&
-           one.driver.driven <= other.driver.driven && one.driver.since >= other.driver.since &&
-           one.driver.half_rested >= other.driver.half_rested;
-}
-
-// Labels of which none is no worse than another.
-class Labels {
-public:
-    const Label* begin() const { return label_.data(); }
-    const Label* end() const { return label_.data() + count_; }
-    void clear() { count_ = 0; }
-
-    // Keep a label unless another is no worse; where there are too many, that goes which is last.
-    void add(const Label& label) {
-        std::size_t kept = 0;
-        for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label_[index], label)) return;
-        }
-        for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label, label_[index])) continue;
-            if (kept != index) label_[kept] = label_[index];
-            ++kept;
-        }
-        count_ = kept;
-        if (count_ < most_labels) {
-            label_[count_++] = label;
-            return;
-        }
-        Label& last = *std::max_element(
-            label_.begin(), label_.end(),
-            [](const Label& one, const Label& other) { return one.time < other.time; });
-        if (label.time < last.time) last = label;
-    }
-
-private:
-    std::array<Label, most_labels> label_;
-    std::size_t count_ = 0;
-};
+using Label = RestLabel;
+using Labels = RestLabels;
+using Taken = TakenRest;
 
 // Return how long the leg from a stop is, without setup and rests.
 Int driving_from(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
@@ -81,99 +26,254 @@ Int driving_from(const ProblemData& data, const VehicleType& type, View<const St
            setup_after(data.setup, stops[p].node, stops[p + 1].node);
 }
 
+// Let nobody rest behind a stop. In place.
+void forget_rests(const VehicleType& type, Stop& stop) {
+    stop.gap -= duration_of(type, Rests(stop.rests));
+    stop.rests = 0;
+}
+
 class Placing {
 public:
-    Placing(const ProblemData& data, const Route& route, View<Stop, 1> stops)
-        : truck_(data, route.type), type_(truck_.type), stops_(stops.first(route.length)) {}
+    Placing(const ProblemData& data, const Route& route, View<Stop, 1> stops,
+            View<Sortie, 1> sorties)
+        : truck_(data, route.type),
+          type_(truck_.type),
+          stops_(stops.first(route.length)),
+          sorties_(sorties.first(route.sorties)) {}
 
     bool run() {
         Label first;
-        first.cum = first.count = 0;
+        first.cum = first.airborne = first.count = 0;
         first.depart = far;
-        first.time = std::max(type_.shift_earliest, std::max(stops_[0].release, stops_[0].hold));
+        first.time = begin_of(type_, stops_);
         first.driver = driver_from(type_, first.time);
         there_->add(first);
-        const Int last = stops_.size() - 1;
+        make_ready(truck_, stops_, sorties_);
         ahead_ = 0;
-        for (Int p = 0; p < last; ++p) ahead_ += driving_at(p);
-        for (Int p = 0; p < last; ++p) {
-            ahead_ -= driving_at(p);
-            Labels& here = labels_[static_cast<std::size_t>(p & 1)];
-            there_ = &labels_[static_cast<std::size_t>((p + 1) & 1)];
-            there_->clear();
-            for (const Label& label : here) pass(label, p);
+        for (Int p = 0; p < stops_.size(); ++p) ahead_ += driving_at(p);
+        for (Int p = 0; p < stops_.size();) {
+            if (stops_[p].kind == start_stop) {
+                launched_ = 0;
+                first_of_trip_ = sortie_;
+            }
+            p = pass_block(p) + 1;
         }
         return write();
     }
 
 private:
-    // Return how long the leg from a stop is, that of one where no trip ends.
+    // A leg, how long those behind it are, and where whoever gets there is noted.
+    struct Way {
+        Int p;  // the stop before it
+        Int duration;
+        Int setup;
+        Int ahead;
+        Labels& there;
+    };
+
+    bool is_last(Int p) const { return p + 1 == stops_.size(); }
+
+    // Return how long the leg from a stop is, that of one where a trip ends.
     Int driving_at(Int p) const {
-        return stops_[p].kind == end_stop ? 0 : driving_from(truck_.data, type_, stops_, p);
+        if (stops_[p].kind == end_stop || is_last(p)) return 0;
+        return driving_from(truck_.data, type_, stops_, p);
     }
 
-    // Leave stop `p`, reached so, and come to the next.
-    void pass(Label label, Int p) {
-        Stop& stop = stops_[p];
-        truck_.time_alone(stop, label.time);
-        if (label.time > stop.hi || label.time < stop.lo) return;
+    // Return the leg from a stop, which is no longer ahead. In place: what is.
+    Way way_from(Int p, Labels& there) {
+        const Int duration = driving_at(p);
+        ahead_ -= duration;
+        const Int setup =
+            is_last(p) ? 0 : setup_after(truck_.data.setup, stops_[p].node, stops_[p + 1].node);
+        return {p, duration, setup, ahead_, there};
+    }
+
+    // Let all labels pass the block that begins at a stop, and come to the next; return its last
+    // stop.
+    Int pass_block(Int first) {
+        Int last = first;
+        behind_ = sortie_;
+        for (; behind_ < sorties_.size() && sorties_[behind_].launch <= last; ++behind_) {
+            last = std::max(last, sorties_[behind_].recovery);
+        }
+        const Labels& here = *there_;
+        there_ = other(labels_, there_);
+        there_->clear();
+        if (behind_ == sortie_) {
+            const Way way = way_from(first, *there_);
+            for (const Label& label : here) pass(label, way);
+            return last;
+        }
+        const Int ahead = ahead_;
+        for (const Label& label : here) {
+            ahead_ = ahead;
+            fly(label, first, last);
+        }
+        launched_ += behind_ - sortie_;
+        sortie_ = behind_;
+        return last;
+    }
+
+    static Labels* other(std::array<Labels, 2>& two, const Labels* one) {
+        return &two[one == two.data() ? 1 : 0];
+    }
+
+    // Leave a stop without sorties, reached so, and come to the next.
+    void pass(const Label& label, const Way& way) {
+        const Stop& stop = stops_[way.p];
+        truck_.time_alone(stops_[way.p], label.time);
+        if (may_arrive(stop, label.time)) leave(behind_block(label, stop), way);
+    }
+
+    static bool may_arrive(const Stop& stop, Int time) {
+        return stop.lo <= time && time <= stop.hi;
+    }
+
+    // What a label becomes behind the block that begins with a stop.
+    static Label behind_block(Label label, const Stop& stop) {
         label.depart = std::min(label.depart, stop.dep - label.cum);
         label.cum += stop.d;
         label.time = std::max(label.time + stop.d, stop.c);
+        return label;
+    }
+
+    // Leave the last stop of a block, and come to the next.
+    void leave(Label label, const Way& way) {
         if (!may_still_work(type_, label.driver, label.time)) return;
-        if (stop.kind == end_stop) {
-            label.time += stop.gap;
-            label.cum += stop.gap;
-            there_->add(label);
-            return;
+        if (is_last(way.p)) {
+            way.there.add(label);
+        } else if (stops_[way.p].kind == end_stop) {
+            label.time += stops_[way.p].gap;
+            label.cum += stops_[way.p].gap;
+            way.there.add(label);
+        } else {
+            drive(label, way);
         }
-        const Int setup = setup_after(truck_.data.setup, stop.node, stops_[p + 1].node);
+    }
+
+    // Drive from a stop that is left so to the next.
+    void drive(const Label& label, const Way& way) {
         left_ = label.time;
-        ride(label, p, RestedLeg(type_, label.driver, label.time, stop.gap - setup), setup);
+        ride(label, way, RestedLeg(type_, label.driver, label.time, way.duration));
+    }
+
+    // Leave a block with sorties, reached so, and come to the stop behind it.
+    //
+    // Who drives on while drones are out may rest on each leg: of all ways to have come to a stop
+    // those are followed that may be best.
+    void fly(const Label& reached, Int first, Int last) {
+        inside_->clear();
+        inside_->add(reached);
+        for (Int q = first; q < last; ++q) {
+            const Labels& here = *inside_;
+            inside_ = other(inside_rows_, inside_);
+            inside_->clear();
+            const Way way = way_from(q, *inside_);
+            for (Label label : here) {
+                take_rests(label, first, last);
+                label.time = leave_inside(first, q, last, reached.time);
+                if (label.time == far || !may_still_work(type_, label.driver, label.time)) continue;
+                label.airborne = takeoffs_of_flying(q);
+                drive(label, way);
+            }
+        }
+        const Way way = way_from(last, *there_);
+        for (Label label : *inside_) {
+            take_rests(label, first, last);
+            if (leave_inside(first, last, last, reached.time) == far) continue;
+            label.time = reached.time;
+            label.cum = reached.cum;
+            label.airborne = 0;
+            const Stop& stop = stops_[first];
+            if (may_arrive(stop, label.time)) leave(behind_block(label, stop), way);
+        }
+        rest_nowhere(first, last);
+    }
+
+    // Let the legs of a block have the rests of a label.
+    void take_rests(const Label& label, Int first, Int last) {
+        rest_nowhere(first, last);
+        Int index = label.count;
+        while (index > 0 && at(label, index - 1).stop >= first) --index;
+        for (; index < label.count; ++index) take(at(label, index));
+    }
+
+    void rest_nowhere(Int first, Int last) {
+        for (Int q = first; q < last; ++q) forget_rests(type_, stops_[q]);
+    }
+
+    void take(const Taken& taken) {
+        const auto [p, number, place] = taken;
+        Stop& stop = stops_[p];
+        stop.rests = Rests(stop.rests).with(number, RestPlace{place}).packed();
+        stop.gap += rest_duration(type_, number);
+    }
+
+    // Return when a stop of a block is left that is reached at `time`; `far` if never, or, at its
+    // last stop, if a rule is broken.
+    Int leave_inside(Int first, Int q, Int last, Int time) {
+        for (Int s = sortie_; s < behind_; ++s) sorties_[s].state = sortie_waits;
+        for (Int p = first; p <= q; ++p) stops_[p].leave = far;
+        BlockSums sums;
+        sums.time = time;
+        sums.oldest = sortie_;
+        sums.launched = launched_;
+        sums.first_sortie = first_of_trip_;
+        const bool done = time_block(truck_, stops_, sorties_, first, sums) == last;
+        return done || q < last ? stops_[q].leave : far;
+    }
+
+    // Return the sum of the take-offs of drones that are out when a stop is left.
+    Int takeoffs_of_flying(Int q) const {
+        Int sum = 0;
+        for (Int s = sortie_; s < behind_; ++s) {
+            if (sorties_[s].launch <= q && q < sorties_[s].recovery) sum += sorties_[s].takeoff;
+        }
+        return sum;
     }
 
     // Drive a leg, with rests where one has to, and perhaps one at its end.
-    void ride(const Label& label, Int p, const RestedLeg& leg, Int setup) {
+    void ride(const Label& label, const Way& way, const RestedLeg& leg) {
         if (leg.is_too_long()) {
-            rest(label, p, leg, setup, RestPlace::way);
+            rest(label, way, leg, RestPlace::way);
             return;
         }
         RestedLeg arriving = leg;
         arriving.arrive();
-        come(label, arriving, setup);
+        come(label, way, arriving);
         // Who may drive on to the end needs no rest.
-        if (may_need_rest(type_, arriving.driver(), ahead_)) {
-            rest(label, p, leg, setup, RestPlace::arrival);
+        if (may_need_rest(type_, arriving.driver(), way.ahead)) {
+            rest(label, way, leg, RestPlace::arrival);
         }
     }
 
     // Take each rest that may come next, and go on. Who has rested where a leg ends has driven
     // nothing since, but may have taken half a rest.
-    void rest(const Label& label, Int p, const RestedLeg& leg, Int setup, RestPlace place) {
-        if (label.count == most_rests_on_route || rests_on(label, p) == most_rests) return;
+    void rest(const Label& label, const Way& way, const RestedLeg& leg, RestPlace place) {
+        if (label.count == most_rests_on_route || rests_on(label, way.p) == most_rests) return;
         for (const Int number : {whole_rest, first_part, second_part}) {
             if (!may_rest(type_, leg.driver(), number)) continue;
             RestedLeg rested = leg;
             if (rested.take(number, place) == none) continue;
             Label next = label;
-            next.taken[static_cast<std::size_t>(next.count++)] = {static_cast<std::int32_t>(p),
+            next.taken[static_cast<std::size_t>(next.count++)] = {static_cast<std::int32_t>(way.p),
                                                                   static_cast<std::int8_t>(number),
                                                                   static_cast<std::int8_t>(place)};
             if (place == RestPlace::way) {
-                ride(next, p, rested, setup);
+                ride(next, way, rested);
             } else {
-                come(next, rested, setup);
-                if (number == first_part) rest(next, p, rested, setup, place);
+                come(next, way, rested);
+                if (number == first_part) rest(next, way, rested, place);
             }
         }
     }
 
     // Note that a leg is over.
-    void come(Label label, const RestedLeg& leg, Int setup) {
-        label.time = leg.time() + setup;
+    void come(Label label, const Way& way, const RestedLeg& leg) {
+        label.time = leg.time() + way.setup;
         label.cum += label.time - left_;
         label.driver = leg.driver();
-        there_->add(label);
+        way.there.add(label);
     }
 
     Int rests_on(const Label& label, Int p) const {
@@ -193,9 +293,7 @@ private:
         const Label* best = nullptr;
         std::pair<double, Int> least;
         for (const Label& label : *there_) {
-            if (!may_still_work(type_, label.driver, label.time) || !may_end(type_, label.time)) {
-                continue;
-            }
+            if (!may_end(type_, label.time)) continue;
             const Int departure = std::min(label.depart, label.time - label.cum);
             const Int working = label.time - counted_from(type_, departure);
             if (!may_work(type_, working)) continue;
@@ -208,30 +306,29 @@ private:
             }
         }
         if (best == nullptr) return false;
-        for (Int index = 0; index < best->count; ++index) {
-            const auto [p, number, place] = at(*best, index);
-            Stop& stop = stops_[p];
-            stop.rests = Rests(stop.rests).with(number, RestPlace{place}).packed();
-            stop.gap += rest_duration(type_, number);
-        }
+        for (Int index = 0; index < best->count; ++index) take(at(*best, index));
         return true;
     }
 
     Truck truck_;
     const VehicleType& type_;
     View<Stop, 1> stops_;
+    View<Sortie, 1> sorties_;
     std::array<Labels, 2> labels_;  // where the truck is, and where it comes, in turn
     Labels* there_ = labels_.data();
-    Int left_ = 0;   // when the leg began
-    Int ahead_ = 0;  // how long all legs behind it are
+    std::array<Labels, 2> inside_rows_;  // likewise within a block
+    Labels* inside_ = inside_rows_.data();
+    Int left_ = 0;    // when the leg began
+    Int ahead_ = 0;   // how long all legs from here are
+    Int sortie_ = 0;  // the first not passed, and the first behind the block
+    Int behind_ = 0;
+    Int launched_ = 0;  // on the trip
+    Int first_of_trip_ = 0;
 };
 
 // Let nobody rest on a route. In place.
 void clear_rests(const VehicleType& type, View<Stop, 1> stops) {
-    for (Stop& stop : stops) {
-        stop.gap -= duration_of(type, Rests(stop.rests));
-        stop.rests = 0;
-    }
+    for (Stop& stop : stops) forget_rests(type, stop);
 }
 
 // Return how long a driver of a route without rests is at the wheel.
@@ -243,13 +340,32 @@ Int driving_on(const ProblemData& data, const VehicleType& type, View<const Stop
     return driving;
 }
 
+// Return when a timed route begins that begins as late as that costs nothing.
+Int last_begin(const ProblemData& data, Route& route, View<const Stop, 1> stops,
+               View<const Sortie, 1> sorties) {
+    const Int departure = first_departure(data, route, stops, sorties);
+    return counted_begin(data.type[route.type], departure - route.offset);
+}
+
+// Let a timed route without rests begin at `hold`, if it ends no later then. In place; false if
+// not, and it is as before.
+bool begin_later(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                 View<Sortie, 1> sorties, Int hold) {
+    const Int end = route.end, before = std::exchange(stops[0].hold, hold);
+    if (drive_as_placed(data, route, stops, sorties) && route.end <= end) return true;
+    stops[0].hold = before;
+    drive_as_placed(data, route, stops, sorties);
+    return false;
+}
+
 // Write rests and times of a route that begins no sooner than `hold`. In place; false if a rule is
 // broken.
 bool rest_from(const ProblemData& data, Route& route, View<Stop, 1> stops, View<Sortie, 1> sorties,
                Int hold) {
     clear_rests(data.type[route.type], stops.first(route.length));
     stops[0].hold = hold;
-    return Placing(data, route, stops).run() && drive_as_placed(data, route, stops, sorties);
+    return Placing(data, route, stops, sorties).run() &&
+           drive_as_placed(data, route, stops, sorties);
 }
 
 }  // namespace
@@ -264,21 +380,28 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
     clear_rests(type, stops.first(route.length));
     if (!drive_as_placed(data, route, stops, sorties)) return false;
     const Int driving = driving_on(data, type, stops.first(route.length));
-    const Int departure = first_departure(data, route, stops, sorties);
+    const Int soonest = counted_begin(type, begin_of(type, stops));
+    const Int latest = last_begin(data, route, stops, sorties);
     route.driving = driving;
-    if (needs_no_rest(type, driving, route.end - departure)) return true;
+    // With drones, who may come in another order then, a route may have to begin before.
+    const Int begin = route.sorties > 0 ? soonest : latest;
+    if (needs_no_rest(type, driving, route.end - begin)) return true;
+    const bool may_wait = stops[0].hold == none && latest > soonest;
+    if (may_wait && needs_no_rest(type, driving, route.end - latest) &&
+        begin_later(data, route, stops, sorties, latest)) {
+        return true;
+    }
     route.driving = far;
     if (!rest_from(data, route, stops, sorties, stops[0].hold)) {
         // Whoever begins later hasn't worked for so long.
-        return stops[0].hold == none && departure > stops[0].leave &&
-               rest_from(data, route, stops, sorties, departure);
+        return may_wait && rest_from(data, route, stops, sorties, latest);
     }
     if (!limits_work(type) || stops[0].hold != none) return true;
-    const Int later = first_departure(data, route, stops, sorties);
+    const Int later = last_begin(data, route, stops, sorties);
     const Int end = route.end, working = end - later;
-    if (later <= stops[0].leave) return true;
+    if (later <= soonest) return true;
     if (rest_from(data, route, stops, sorties, later) && route.end <= end &&
-        route.end - first_departure(data, route, stops, sorties) < working) {
+        route.end - last_begin(data, route, stops, sorties) < working) {
         return true;
     }
     return rest_from(data, route, stops, sorties, none);
@@ -288,7 +411,7 @@ bool may_have_to_rest(const ProblemData& data, const Fleet& fleet, Int slot, Int
     const Route& route = fleet.route[slot];
     const VehicleType& type = data.type[route.type];
     const View<const Stop, 1> stops = fleet.stop[slot];
-    if (any_rest(type, route)) return true;
+    if (any_rest(type, route) || (route.sorties > 0 && limits_work(type))) return true;
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int longer = leg(legs, stops[p].node, node).duration +
                        leg(legs, node, stops[p + 1].node).duration - stops[p].gap;

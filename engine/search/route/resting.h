@@ -14,7 +14,8 @@ bool any_rest(const VehicleType& type, const Route& route);
 //
 // Gaps between stops then hold rests. They are placed by dynamic programming along the route: of
 // two ways to have come somewhere, one is no worse if the truck is there as soon, with no more
-// driven or worked since the last rest. Who needs none is timed as any other.
+// driven or worked since the last rest, and the same drones out since the same instants. Who needs
+// none is timed as any other.
 bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
                     View<Sortie, 1> sorties);
 

@@ -50,6 +50,24 @@ def test_a_rest_may_lie_in_waiting(service: httpx.Client, far: Request) -> None:
     assert breaks_of(waits)
 
 
+def test_a_rest_may_lie_in_a_flight(service: httpx.Client, far: Request) -> None:
+    far["fleet"][0] |= {"costs": {"per_hour": 30}, "drones": {
+        "count": 1, "capacity": [1], "speed_kmh": 60, "endurance": 20_000}}
+    far["customers"][1]["location"] = [90, 160]
+    for each, by in zip(far["customers"], ("truck", "drone", "truck"), strict=True):
+        each["served_by"] = by
+    plan = planned(service, far)
+    assert is_feasible(service, far, plan)
+    trip, = plan["routes"][0]["trips"]
+    sortie, = trip["sorties"]
+    inside = [stop["kind"] for stop in
+              trip["stops"][sortie["launch_stop"] + 1:sortie["recovery_stop"]]]
+    assert "break" in inside
+    ends = trip["stops"][-1]["departure"]
+    del far["fleet"][0]["driving_rules"]
+    assert planned(service, far)["routes"][0]["trips"][0]["stops"][-1]["departure"] == ends
+
+
 def test_the_longest_travel_duration_leaves_out_waiting_service_and_rests(
         service: httpx.Client, far: Request) -> None:
     far["customers"][1]["time_window"] = {"earliest": 30_000}

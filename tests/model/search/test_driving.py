@@ -1,22 +1,23 @@
 """Rests are placed as brute force does, and all plans keep driving rules by two judges."""
 
+from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise, permutations
+from itertools import combinations_with_replacement, pairwise, permutations, product
 
 import numpy as np
 import pytest
 
 from model.engine.instance import pack
+from model.judge.breaks import BreakDecision
 from model.judge.check import check
-from model.problem import (
-    REST, DrivingRules, Problem,
-)
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.problem import REST, UNLIMITED, DrivingRules, DroneType, Problem
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.driving_law import Law, offences
 from tests.model.rollouts import roll
-from tests.model.tiny import draw_tiny, with_gaps, with_setups
+from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day
 from tests.model.tiny_driving import drawn_rules, with_driving
 from tests.model.tiny_shipments import with_shipments
@@ -110,7 +111,60 @@ def test_search_finds_the_cheapest_plan_with_rests(seed: int) -> None:
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
-CHANGES = with_gaps, with_setups, with_shipments
+def with_a_drone(rng: np.random.Generator) -> Problem:
+    """Draw a customer for a truck, whose driver has to rest, and one for its drone."""
+    problem = short_day(rng, lambda truck: replace(truck, driving=drawn_rules(rng)))
+    customers = tuple(replace(each, earliest=0, latest=UNLIMITED, served_by=by)
+                      for each, by in zip(problem.customers, ("truck", "drone"), strict=True))
+    drones = DroneType(1, (1,), travel=1, endurance=int(rng.integers(5, 30)) * MINUTE,
+                       launch_duration=int(rng.integers(0, 2)) * MINUTE,
+                       recovery_duration=int(rng.integers(0, 2)) * MINUTE, cost_per_km=0.1)
+    kind = replace(problem.vehicle_types[0], drones=drones, cost_per_km=0.1)
+    return replace(problem, customers=customers, vehicle_types=(kind,), travel=problem.travel * 2)
+
+
+def rests_on(problem: Problem, nodes: tuple[int, ...]) -> Iterator[tuple[BreakDecision, ...]]:
+    """Yield all ways to rest at most twice on a trip, minute by minute."""
+    rules = problem.vehicle_types[0].driving
+    assert rules is not None
+    places = [(leg, driven) for leg, ends in enumerate(pairwise(nodes))
+              for driven in range(0, problem.travel[0].duration.item(*ends) + 1, MINUTE)]
+    for count in range(3):
+        for where in combinations_with_replacement(places, count):
+            for lengths in product((rules.rest, *rules.split), repeat=count):
+                before = ((-1, 0), *where)
+                yield tuple(
+                    BreakDecision(REST, leg, "way", driven - (last[1] if last[0] == leg else 0),
+                                  length)
+                    for (leg, driven), last, length in zip(where, before, lengths, strict=False))
+
+
+def cheapest_by_judge(problem: Problem) -> float:
+    """Return the cost of the cheapest plan with a flight and at most two rests."""
+    best = 2 * problem.unassigned_cost
+    for nodes, flown in (((0, 1, 0), (2,)), ((0, 1, 0), ()), ((0, 0), (2,))):
+        stops = range(len(nodes))
+        ways = [(SortieDecision(flown, *ends),)
+                for ends in combinations_with_replacement(stops, 2)] if flown else [()]
+        left = tuple({1, 2} - {*nodes, *flown})
+        for rests, sorties in product(rests_on(problem, nodes), ways):
+            trip = TripDecision(nodes, sorties, breaks=rests)
+            judged = check(problem, Solution((
+                schedule(problem, RouteDecision(0, 0, (trip,))),), left))
+            best = min(best, judged.cost.total if judged.is_feasible else best)
+    return best
+
+
+@pytest.mark.parametrize("seed", [13, 14, 18, 28])
+def test_search_finds_the_cheapest_plan_with_rests_while_a_drone_flies(seed: int) -> None:
+    problem = with_a_drone(np.random.default_rng(seed))
+    found = improve(problem, pack([problem]), Solution((), (1, 2)),
+                    SearchConfig(turns=200)).solution
+    assert check(problem, found).cost.total == pytest.approx(cheapest_by_judge(problem))
+    assert rests_by_law(problem, found) == 1
+
+
+CHANGES = with_gaps, with_setups, with_drone_types, with_shipments
 
 
 def mixed(seed: int) -> Problem:
@@ -137,7 +191,7 @@ def rests_by_law(problem: Problem, plan: Solution) -> int:
 
 
 def test_rollouts_and_search_keep_driving_rules() -> None:
-    rolled = searched = 0
+    rolled = searched = flown = 0
     for seed in range(120):
         problem = mixed(seed)
         instance, nodes = pack([problem]), range(problem.num_depots, problem.num_nodes)
@@ -148,8 +202,17 @@ def test_rollouts_and_search_keep_driving_rules() -> None:
         found = improve(problem, instance, Solution((), tuple(nodes)),
                         SearchConfig(turns=100)).solution
         searched += rests_by_law(problem, found)
+        flown += inside_flights(found)
     assert rolled > 30
     assert searched > 15
+    assert flown > 5
+
+
+def inside_flights(plan: Solution) -> int:
+    """Return how many rests lie in the flight of a drone."""
+    return sum(any(sortie.launch_time <= taken.start and taken.end <= sortie.recovery_start
+                   for sortie in trip.sorties)
+               for route in plan.routes for trip in route.trips for taken in trip.breaks)
 
 
 def test_driving_rules_that_nobody_needs_change_no_plan() -> None:

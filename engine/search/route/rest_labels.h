@@ -1,0 +1,76 @@
+// Ways in which a driver has come somewhere on a route, of which those are kept that may be best.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "rules/driving.h"
+
+namespace tandem {
+
+// Which rest is taken, on the leg behind which stop, and where.
+struct TakenRest {
+    std::int32_t stop;
+    std::int8_t number;
+    std::int8_t place;
+};
+
+// A driver who has come somewhere, with the rests so far.
+struct RestLabel {
+    Int time;
+    Int cum;       // sum of all durations
+    Int depart;    // the latest departure that costs nothing
+    Int airborne;  // sum of the take-offs of drones that are out
+    Driver driver;
+    Int count;
+    std::array<TakenRest, most_rests_on_route> taken;  // so many of them are written
+};
+
+// Tell whether one is no worse than another, whatever comes. Of drones that are out, who left later
+// lasts longer, but is back later.
+inline bool is_no_worse(const RestLabel& one, const RestLabel& other) {
+    return one.airborne == other.airborne && one.time <= other.time && one.cum <= other.cum &&
+           one.depart >= other.depart && one.driver.driven <= other.driver.driven &&
+           one.driver.since >= other.driver.since &&
+           one.driver.half_rested >= other.driver.half_rested;
+}
+
+// Labels of which none is no worse than another.
+class RestLabels {
+public:
+    const RestLabel* begin() const { return label_.data(); }
+    const RestLabel* end() const { return label_.data() + count_; }
+    void clear() { count_ = 0; }
+
+    // Keep a label unless another is no worse; where there are too many, that goes which is last.
+    void add(const RestLabel& label) {
+        std::size_t kept = 0;
+        for (std::size_t index = 0; index < count_; ++index) {
+            if (is_no_worse(label_[index], label)) return;
+        }
+        for (std::size_t index = 0; index < count_; ++index) {
+            if (is_no_worse(label, label_[index])) continue;
+            if (kept != index) label_[kept] = label_[index];
+            ++kept;
+        }
+        count_ = kept;
+        if (count_ < most) {
+            label_[count_++] = label;
+            return;
+        }
+        RestLabel& last = *std::max_element(
+            label_.begin(), label_.end(),
+            [](const RestLabel& one, const RestLabel& other) { return one.time < other.time; });
+        if (label.time < last.time) last = label;
+    }
+
+private:
+    static constexpr std::size_t most = 48;
+
+    std::array<RestLabel, most> label_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace tandem
