@@ -217,7 +217,7 @@ def test_others_are_answered_while_wrong_bodies_are_refused(
         serve: Callable[..., httpx.Client], tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
         path: str, endpoint: str, name: str) -> None:
     begun, answered = threading.Event(), threading.Event()
-    read = refusal.read_shape
+    read = read_shape
 
     def read_once_others_are_answered(body: bytes, model: type[BaseModel]) -> None:
         begun.set()
