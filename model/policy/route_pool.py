@@ -78,7 +78,8 @@ class RoutePool:
                  alarm: IntArray | None = None) -> Rollout:
         """Return the cheapest plan that is found by the routes seen, at most as dear as `best`.
 
-        That is `best` where vehicles share batteries, or places to charge.
+        That is `best` where vehicles share batteries, or places to charge, or where some customers
+        go together.
 
         Parameters
         ----------
@@ -90,7 +91,9 @@ class RoutePool:
             Setting of an alarm at which the best so far is returned.
         """
         alarm = Alarm().setting if alarm is None else alarm
-        if self._instance.hub.shape[1]:
+        company = self._instance.goods
+        if (self._instance.hub.shape[1] or company["kept_on_trip"].any()
+                or company["kept_on_vehicle"].any()):
             return best
         self._forget(best)
         for _ in range(-(-int(self._instance.size[0].customers) // REGION)):

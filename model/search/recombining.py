@@ -11,10 +11,14 @@ Whitley, Hains and Howe (2009), tunneling between optima: partition crossover fo
 salesman problem, GECCO.
 """
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from model.problem import BoolArray, FloatArray, IntArray
-from model.search.route.layout import ELSEWHERE, NOWHERE, OTHERS, Fleet, ProblemData
+from model.problem import MOST_RELATIONS, BoolArray, FloatArray, IntArray
+from model.search.route.layout import (
+    ELSEWHERE, NOWHERE, OTHERS, Fleet, ProblemData, are_kept,
+)
 from model.search.route.state import ALL, Searcher
 from model.search.sharing import ROUNDING
 
@@ -25,6 +29,8 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     Where that would take too many vehicles, those parts alone that need no more of any type. None
     where routes share batteries, or places to charge, of which there are only so many, or where the
     plan costs something as a whole.
+
+    Who is to go with others stays in one part with them, so that no other part serves them too.
     """
     if len(data.hub) or data.fairness.makespan > 0 or data.fairness.balance > 0:
         return
@@ -35,7 +41,7 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     one, other = (np.where(slot == NOWHERE, slots + nodes, slot)
                   for slot in (_slots_in(best, slots, data.num_nodes)[nodes],
                                now.where["slot"][nodes]))
-    old, new = _common_parts(one, other, slots + data.num_nodes)
+    old, new = _common_parts(one, other, slots + data.num_nodes, _companies(data, nodes))
     saved = _costs(data, best, old) - _costs(data, now, new)
     better = saved > ROUNDING
     if not better.any():
@@ -61,13 +67,25 @@ def _slots_in(fleet: Fleet, slots: int, nodes: int) -> IntArray:
     return slot_of
 
 
-def _common_parts(one: IntArray, other: IntArray, size: int) -> tuple[IntArray, IntArray]:
+def _companies(data: ProblemData, nodes: IntArray) -> list[IntArray]:
+    """Return who of some customers go together, as indices of each relation."""
+    if not are_kept(data).any():
+        return []
+    company = data.goods[nodes]
+    kept = company["kept_on_trip"] | company["kept_on_vehicle"]
+    return [np.flatnonzero(kept & (1 << bit)) for bit in range(MOST_RELATIONS)]
+
+
+def _common_parts(one: IntArray, other: IntArray, size: int,
+                  companies: Sequence[IntArray] = ()) -> tuple[IntArray, IntArray]:
     """Return the smallest parts of two plans that serve the same customers.
 
     Parameters
     ----------
     one, other
         (customer,) the number of the customer's route in both, below `size`.
+    companies
+        Customers, by index, who are of one part.
 
     Returns
     -------
@@ -81,6 +99,8 @@ def _common_parts(one: IntArray, other: IntArray, size: int) -> tuple[IntArray, 
         np.minimum.at(across, other, part[one])
         joined = part.copy()
         np.minimum.at(joined, one, across[other])
+        for those in companies:
+            joined[one[those]] = joined[one[those]].min(initial=size)
         if (joined == part).all():
             return part, across
         part = joined

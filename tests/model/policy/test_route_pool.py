@@ -16,6 +16,7 @@ from model.problem import IntArray, Problem
 from model.simulation.extract import extract
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN
 from tests.model.rollouts import random_problems, roll
+from tests.model.tiny_company import with_relations
 
 
 def rolled(problem: Problem, number: int) -> list[Rollout]:
@@ -74,6 +75,13 @@ def test_plans_keep_all_rules_and_cost_what_they_are_said_to() -> None:
         assert cost_of(problem, found.actions) == pytest.approx(found.cost, rel=1e-9)
         gained += found.cost < best
     assert gained > 10
+
+
+def test_plans_keep_those_together_who_are_to_be_served_together() -> None:
+    for seed, problem in enumerate(random_problems(61, 80)):
+        related = with_relations(np.random.default_rng(seed), problem)
+        found = improved(related, rolled(related, 4))
+        assert cost_of(related, found.actions) == pytest.approx(found.cost, rel=1e-9)
 
 
 def test_plans_are_the_cheapest_by_routes_of_all() -> None:

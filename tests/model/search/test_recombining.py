@@ -9,7 +9,7 @@ import pytest
 
 from model.judge.check import check
 from model.engine.instance import pack
-from model.problem import Problem
+from model.problem import Problem, Relation
 from model.search import worker
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -90,6 +90,23 @@ def test_plan_put_together_keeps_all_rules(variant: str) -> None:
             evaluation = check(problem, read_plan(data, searcher))
             assert evaluation.violations == ()
             assert evaluation.cost.total <= float(searcher.value.best) * (1 + 1e-9)
+
+
+def test_who_goes_together_does_so_in_plans_put_together() -> None:
+    for seed in (0, 6, 9):
+        rng = np.random.default_rng(seed)
+        problem = generate(rng, 40, "cvrp")
+        nodes = rng.permutation(range(problem.num_depots, problem.num_nodes)).tolist()
+        pairs = tuple(Relation("together", (min(pair), max(pair)), "vehicle")
+                      for pair in zip(nodes[::2], nodes[1::2], strict=True))
+        # So cheap that now one of two is left out, now the other.
+        for price in (5.0, 20.0, 40.0):
+            paired = replace(problem, relations=pairs, unassigned_cost=price)
+            data, searcher = searched(paired, seed, 20)
+            for _ in range(30):
+                anneal(data, searcher, 5, ANY)
+                take_better_parts(data, searcher)
+                assert check(paired, read_plan(data, searcher)).violations == ()
 
 
 @pytest.mark.parametrize(("variant", "threads"), [
