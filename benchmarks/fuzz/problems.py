@@ -23,6 +23,7 @@ import typer
 
 from benchmarks.fuzz.api import Target, service
 from benchmarks.fuzz.wild_problems import wild_request
+from benchmarks.fuzz.wild_shipments import ends_of
 
 Data = dict[str, Any]
 
@@ -88,8 +89,9 @@ class Study:
             if not math.isclose(cost, verdict["cost"][term], rel_tol=ROUNDING, abs_tol=1e-6):
                 raise Fault(f"cost by {term}: {cost}, by POST /check {verdict['cost'][term]}")
         served = plan["summary"]["served"]
-        if served + len(plan["unassigned"]) != len(request["customers"]):
-            raise Fault(f"{served} served and {len(plan['unassigned'])} left out")
+        left_out = sum(2 if left.get("kind") == "shipment" else 1 for left in plan["unassigned"])
+        if served + left_out != len(request["customers"]) + len(ends_of(request)):
+            raise Fault(f"{served} served and {left_out} left out")
         if not all(left["reasons"] for left in plan["unassigned"]):
             raise Fault("a customer is left out without a reason")
         self.checked += 1
@@ -199,9 +201,10 @@ def happened(plan: Data, now: float, broken: Collection[str] = (),
             is_cut = route["vehicle"] in broken and trip["stops"][-1]["departure"] >= now
             flown = _flown(trip, now, is_cut, lands_anywhere)
             if is_cut and not flown and all(
-                    stop["service_start"] >= now for stop in _customer_stops(trip)):
+                    stop["service_start"] >= now for stop in trip["stops"]
+                    if stop["kind"] in {"customer", "pickup", "delivery"}):
                 continue
-            done |= {(route["vehicle"], "stop", stop["id"], f"{stop['arrival']:.3f}",
+            done |= {(route["vehicle"], stop["kind"], stop["id"], f"{stop['arrival']:.3f}",
                       f"{stop['departure']:.3f}")
                      for stop in trip["stops"] if stop["departure"] < now}
             done |= {(route["vehicle"], "flight", customer["id"], f"{sortie['launch_time']:.3f}",

@@ -11,6 +11,7 @@ from typing import Any
 
 from benchmarks.fuzz.wild_choices import RICHEST, choose_vehicles, prefer_vehicles
 from benchmarks.fuzz.wild_rests import let_rest
+from benchmarks.fuzz.wild_shipments import add_shipments, ends_of
 from benchmarks.fuzz.wild_wholes import wild_fairness, wild_options
 
 Data = dict[str, Any]
@@ -53,6 +54,8 @@ def wild_request(rng: random.Random) -> Data:
         _share_places(rng, request)
     if rng.random() < 0.2:
         _let_stop(rng, request, place)
+    if rng.random() < 0.2:
+        add_shipments(rng, request, place, lambda: _windows(rng))
     if rng.random() < 0.25:
         _add_matrices(rng, request)
     if rng.random() < 0.1:
@@ -372,7 +375,8 @@ def _let_stop(rng: random.Random, request: Data, place: Callable[[], Point]) -> 
 
 def _add_matrices(rng: random.Random, request: Data) -> None:
     """State legs that need not be those of any map. In place."""
-    places = [*request["depots"], *request["customers"], *request.get("launch_sites", ())]
+    places = [*request["depots"], *request["customers"], *request.get("launch_sites", ()),
+              *ends_of(request)]
     longest = rng.choice((0, 1, 900, 36000, LONGEST))
     keeps_locations = rng.random() < 0.5
     for index, stated in enumerate(places):

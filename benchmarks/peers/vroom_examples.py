@@ -1,8 +1,8 @@
 """VROOM's documented examples, to both: `python -m benchmarks.peers.vroom_examples FILE...`.
 
-The files are `example_*.json` of VROOM's repository. Both get what `POST /vroom` plans of them
-(neither breaks nor shipments), and where an example has places on the map, the legs that Tandem
-finds between them. VROOM explores as it does by default; Tandem has its default time limit.
+The files are `example_*.json` of VROOM's repository. Both get what says who is served how, and
+where an example has places on the map, the legs that Tandem finds between them. VROOM explores as
+it does by default; Tandem has its default time limit.
 """
 
 import json
@@ -23,9 +23,11 @@ from model.travel.matrices import great_circle_distances
 
 Data = dict[str, Any]
 
-VEHICLE = ("start", "end", "start_index", "end_index", "capacity", "skills", "time_window")
+VEHICLE = ("start", "end", "start_index", "end_index", "capacity", "skills", "time_window",
+           "breaks")
 JOB = ("service", "delivery", "pickup", "location", "location_index", "skills", "time_windows")
-"""What is taken of an example's vehicles and jobs, beside their ids."""
+SHIPMENT = ("pickup", "delivery", "amount", "skills")
+"""What is taken of an example's vehicles, jobs and shipments, beside their ids."""
 
 METRES_PER_SECOND = 3.6
 """km/h of a metre a second."""
@@ -33,22 +35,24 @@ METRES_PER_SECOND = 3.6
 
 def plannable(example: Data, speed_kmh: float) -> Data:
     """Return what both can plan of an example, by matrices."""
-    vehicles = [_part(vehicle, VEHICLE) for vehicle in example["vehicles"]]
-    jobs = [_part(job, JOB) for job in example["jobs"]]
     matrices = {"car": {"durations": example["matrix"]}} if "matrix" in example else {}
-    return with_legs({"vehicles": vehicles, "jobs": jobs,
-                      "matrices": matrices or example.get("matrices")}, speed_kmh)
+    return with_legs({
+        "vehicles": [_part(vehicle, ("id", *VEHICLE)) for vehicle in example["vehicles"]],
+        "jobs": [_part(job, ("id", *JOB)) for job in example.get("jobs", ())],
+        "shipments": [_part(each, SHIPMENT) for each in example.get("shipments", ())],
+        "matrices": matrices or example.get("matrices")}, speed_kmh)
 
 
 def _part(stated: Data, names: Iterable[str]) -> Data:
-    return {"id": int(stated["id"])} | {name: stated[name] for name in names if name in stated}
+    return {name: stated[name] for name in names if name in stated}
 
 
 def with_legs(request: Data, speed_kmh: float) -> Data:
     """Return a request with the legs between its places, if it has none."""
     if request["matrices"]:
         return request
-    stated = [(each, side) for each in (*request["vehicles"], *request["jobs"])
+    ends = [each[end] for each in request["shipments"] for end in ("pickup", "delivery")]
+    stated = [(each, side) for each in (*request["vehicles"], *request["jobs"], *ends)
               for side in ("start", "end", "location") if side in each]
     places = list(dict.fromkeys(tuple(each[side]) for each, side in stated))
     for each, side in stated:

@@ -49,4 +49,4 @@ def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray)
         for each in problem.shipments:
             limit = each.longest_between(duration.item(each.pickup, each.delivery))
             if limit is not None:
-                rows[index, each.pickup] = limit
+                rows[index, each.pickup] = min(limit, rows.item(index, each.pickup))

@@ -99,20 +99,21 @@ def day() -> Data:
 
 def test_what_has_happened_is_what_was_left_by_then(day: Data) -> None:
     assert happened(day, 50.0) == {
-        ("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000"),
+        ("t-1", "depot", "hub", "0.000", "10.000"), ("t-1", "customer", "A", "20.000", "45.000"),
         ("t-1", "flight", "C", "45.000", "60.000")}
 
 
 def test_broken_vehicle_has_done_what_it_had_begun_to_serve(day: Data) -> None:
-    left = {("t-1", "stop", "hub", "0.000", "10.000"), ("t-1", "stop", "A", "20.000", "45.000")}
+    left = {("t-1", "depot", "hub", "0.000", "10.000"),
+            ("t-1", "customer", "A", "20.000", "45.000")}
     assert happened(day, 50.0, {"t-1"}) == left
-    other = {("t-2", "stop", "hub", "40.000", "51.000")}
+    other = {("t-2", "depot", "hub", "40.000", "51.000")}
     assert happened(day, 60.5, {"t-1"}) == left | other | {
         ("t-1", "flight", "C", "45.000", "60.000")}
     # Its drone may have nowhere to land in a storm.
     assert happened(day, 60.5, {"t-1"}, lands_anywhere=False) == left | other
     assert happened(day, 20.0, {"t-1"}) == set()
-    assert happened(day, 20.0, {"t-2"}) == {("t-1", "stop", "hub", "0.000", "10.000")}
+    assert happened(day, 20.0, {"t-2"}) == {("t-1", "depot", "hub", "0.000", "10.000")}
 
 
 @pytest.mark.parametrize(("now", "is_broken", "start", "fault"), [

@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from model.engine.instance import FAR, NO_PROFILE, pack
-from model.problem import UNLIMITED, Problem
+from model.problem import UNLIMITED, Problem, Shipment, Travel
+from model.problem.quantities import MAX_QUANTITY
+from model.problem.shipment import MOST_DETOUR
 from tests.model.rollouts import random_problems
 
 
@@ -100,3 +102,13 @@ def test_a_problem_without_customers_is_packed() -> None:
     empty = replace(problem, customers=(), travel=travel, may_serve=None,
                     coordinates=problem.coordinates[nodes])
     assert pack([empty]).can_drive.shape == (1, len(empty.vehicle_types), empty.num_nodes)
+
+
+def test_a_detour_without_end_is_no_limit(tiny_problem, customers, truck) -> None:
+    ends = [replace(customer, demand=(0,)) for customer in customers[:2]]
+    problem = tiny_problem(*ends, truck=truck)
+    legs = np.full((3, 3), MAX_QUANTITY) * ~np.eye(3, dtype=bool)
+    travel = Travel(legs, legs)
+    shipment = Shipment("s", 1, 2, (0,), max_detour=MOST_DETOUR)
+    instance = pack([replace(problem, travel=(travel,), shipments=(shipment,))])
+    assert instance.max_between[0, 0].tolist() == [FAR, FAR, FAR]
