@@ -75,6 +75,10 @@ class DrivingRulesInput(Input):
     worked_before: Duration = Field(
         0.0, description="Seconds of work since the last rest, before the vehicle begins."
     )
+    while_drones_fly: bool = Field(
+        True, description="Whether a driver may rest while drones are out. With false not between "
+        "the stops where one is launched and recovered."
+    )
 
     @model_validator(mode="after")
     def _fill_in(self) -> Self:

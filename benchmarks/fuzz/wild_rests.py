@@ -41,4 +41,5 @@ def _rules(rng: random.Random) -> Data:
             "max_driving_per_day": rng.choice((None, None, 1, 7200, 32_400)),
             "max_work_before_break": rng.choice((None, None, 1, 1800, 7200, 21_600)),
             "driven_before": rng.choice((0, 0, 600, 1e5)),
-            "worked_before": rng.choice((0, 0, 600, 1e5))}
+            "worked_before": rng.choice((0, 0, 600, 1e5)),
+            "while_drones_fly": rng.random() < 0.7}

@@ -162,6 +162,7 @@ typedef struct tandem_vehicle_type {
     int64_t max_work;
     int64_t driven_before;
     int64_t worked_before;
+    int64_t rests_in_flights; /* whether the driver may rest while drones are out */
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;

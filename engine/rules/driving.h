@@ -26,6 +26,9 @@ constexpr Int most_rests_on_route = 16;
 // Whether rules ask a driver for rests.
 inline bool has_driving_rules(const VehicleType& type) { return type.must_rest == 1; }
 
+// Whether a driver may rest while drones are out.
+inline bool may_rest_in_flights(const VehicleType& type) { return type.rests_in_flights == 1; }
+
 // How long a rest is.
 inline Int rest_duration(const VehicleType& type, Int number) {
     return type.rest_durations[number];

@@ -197,8 +197,9 @@ struct Ride {
     Rests rests;
 };
 
-Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle, Int to,
-          Int leave) {
+// It may be that drones are `out` meanwhile.
+Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle, Int to, Int leave,
+          bool out) {
     const Int here = vehicle.node;
     const bool asks = has_driving_rules(setting.type);
     if (!has_breaks(setting.type) && !asks) return {travel_arrival(setting, here, to, leave), {}};
@@ -206,8 +207,10 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     const Int setup = setup_after(setting.setup, here, to);
     const auto travel = travel_without_setup(setting, here, to);
     const bool is_customer = to >= setting.num_depots;
+    const bool attends = asks && out && !may_rest_in_flights(setting.type);
     const auto opens = [&](Int arrival) {
-        return is_customer ? setting.node[to].start_of_service(arrival + setup) - setup : arrival;
+        return is_customer && !attends ? setting.node[to].start_of_service(arrival + setup) - setup
+                                       : arrival;
     };
     const auto leaves = [&](Int arrival) {
         return is_customer ? setting.node[to].end_of_service(arrival + setup) : arrival;
@@ -218,7 +221,7 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         if (!driver) return {-1, {}};
         const std::optional<Rests> rests = rests_as_needed(
             setting.type, *driver, leave, setting.drive(here, to) - setup, opens, leaves);
-        if (!rests) return {-1, {}};
+        if (!rests || (attends && rests->count() > 0)) return {-1, {}};
         return {come(setting, *rests, begin, here, to, leave), *rests};
     }
     const std::optional<Rests> rests =
@@ -300,7 +303,7 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
     mark_places(setting, drones, here, to);
     if (vehicle.flying == 0) {
         const Int leave = std::max(vehicle.service_end, vehicle.free);
-        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave);
+        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave, false);
         return {vehicle.free, arrival, arrival, rests};
     }
     // Who can't be met loops, of which the others may be launched later, and so on.
@@ -308,7 +311,10 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
         const Int left = operate(setting, vehicle, drones, to);
         if (left < 0) return impossible;
         const Int leave = std::max(vehicle.service_end, left);
-        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave);
+        const bool out = std::any_of(drones.begin(), drones.end(), [](const Drone& drone) {
+            return is_recovered(drone, Recovery::meet);
+        });
+        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave, out);
         if (arrival < 0) return impossible;
         const Int free = meet(setting, drones, here, arrival);
         if (free < 0) continue;

@@ -49,9 +49,9 @@ def break_row(kind: VehicleType) -> tuple[int | tuple[int, ...], ...]:
 def driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
     """Return whether a driver has to rest, and what `tandem_vehicle_type` says of that."""
     if rules is None:
-        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0
+        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0, 1
     return (1, (rules.rest, *(rules.split or (0, 0))), rules.max_driving, rules.max_work,
-            rules.driven_before, rules.worked_before)
+            rules.driven_before, rules.worked_before, int(rules.while_drones_fly))
 
 
 def longest_travel(kind: VehicleType) -> int:

@@ -7,8 +7,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from model.judge.breaks import begin_of
-from model.problem import DrivingRules, VehicleType
-from model.solution import Trip
+from model.problem import REST, DrivingRules, VehicleType
+from model.solution import Sortie, Trip
 
 
 class Spell(NamedTuple):
@@ -104,6 +104,11 @@ def _positive(trip: int, stop: int, what: str, excess: int) -> Iterable[Excess]:
     return [Excess(trip, stop, what, excess)] if excess > 0 else []
 
 
+def is_out(sorties: Iterable[Sortie], stop: int) -> bool:
+    """Tell whether a drone is out behind a stop."""
+    return any(sortie.launch_stop <= stop < sortie.recovery_stop for sortie in sorties)
+
+
 WORDS = {
     "driving": "its driver is at the wheel {} longer than allowed without a rest",
     "day": "its driver is at the wheel {} longer than allowed in a day",
@@ -113,6 +118,11 @@ WORDS = {
 
 def broken_driving(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[tuple[int, str]]:
     """Yield what is wrong with a route's driving, each kind at its first trip."""
+    if kind.driving is not None and not kind.driving.while_drones_fly:
+        for index, trip in enumerate(trips):
+            if any(taken.number == REST and is_out(trip.sorties, taken.stop)
+                   for taken in trip.breaks):
+                yield index, "its driver rests while a drone is out"
     told: set[str] = set()
     for excess in excesses(kind, trips):
         if excess.what not in told:

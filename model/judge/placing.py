@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from model.judge.breaks import BreakDecision, begin_of, broken_breaks, is_due
-from model.judge.driving import Excess, excesses
+from model.judge.driving import Excess, excesses, is_out
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import REST, DrivingRules, Problem
 from model.solution import BreakPlace, Route, Trip
@@ -85,11 +85,18 @@ def with_due_rests(problem: Problem, decision: RouteDecision) -> RouteDecision:
 
 
 def _rest(rules: DrivingRules, trip: Trip, excess: Excess) -> BreakDecision:
-    """Return a rest on the leg where somebody drives or works for too long, or before it."""
-    here, there = trip.stops[excess.stop], trip.stops[excess.stop + 1]
-    left = max([here.departure, *(taken.end for taken in trip.breaks
-                                  if taken.stop == excess.stop)])
+    """Return a rest on the leg where somebody drives or works for too long, or before it.
+
+    Before the launches of drones that are out then, where nobody rests meanwhile.
+    """
+    stop = excess.stop
+    while stop > 0 and not rules.while_drones_fly and is_out(trip.sorties, stop):
+        stop -= 1
+    if stop < excess.stop:
+        return BreakDecision(REST, stop, "arrival", 0, rules.rest)
+    here, there = trip.stops[stop], trip.stops[stop + 1]
+    left = max([here.departure, *(taken.end for taken in trip.breaks if taken.stop == stop)])
     driven = there.arrival - left - excess.excess
     if driven >= 0:
-        return BreakDecision(REST, excess.stop, "way", driven, rules.rest)
-    return BreakDecision(REST, max(0, excess.stop - 1), "arrival", 0, rules.rest)
+        return BreakDecision(REST, stop, "way", driven, rules.rest)
+    return BreakDecision(REST, max(0, stop - 1), "arrival", 0, rules.rest)

@@ -19,6 +19,7 @@ class DrivingRules:
     max_work: int = UNLIMITED  # from the route's beginning, or a rest, to the next one, or its end
     driven_before: int = 0  # since the last rest, and so that day, before the route begins
     worked_before: int = 0  # since the last rest
+    while_drones_fly: bool = True  # whether a rest may lie in a flight
 
     def __post_init__(self) -> None:
         require(1 <= self.max_driving <= UNLIMITED, "driving_rules max_driving", self.max_driving)

@@ -19,7 +19,8 @@ def drawn_rules(rng: np.random.Generator) -> DrivingRules:
         driving, minutes(1, 6), (first, second) if rng.random() < 0.5 else (),
         driving + minutes(4, 30) if rng.random() < 0.5 else UNLIMITED,
         minutes(8, 25) if rng.random() < 0.4 else UNLIMITED,
-        minutes(0, 4) if rng.random() < 0.3 else 0, minutes(0, 4) if rng.random() < 0.3 else 0)
+        minutes(0, 4) if rng.random() < 0.3 else 0, minutes(0, 4) if rng.random() < 0.3 else 0,
+        while_drones_fly=bool(rng.random() < 0.7))
 
 
 def with_driving(rng: np.random.Generator, problem: Problem) -> Problem:

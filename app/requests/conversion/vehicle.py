@@ -118,7 +118,7 @@ def _driving(stated: DrivingRulesInput | None) -> DrivingRules | None:
         limit(stated.max_driving), thousandths(stated.break_duration or 0.0),
         tuple(map(thousandths, stated.split or ())), limit(stated.max_driving_per_day),
         limit(stated.max_work_before_break), thousandths(stated.driven_before),
-        thousandths(stated.worked_before))
+        thousandths(stated.worked_before), stated.while_drones_fly)
 
 
 def _overtime(stated: OvertimeInput | None) -> Overtime | None:

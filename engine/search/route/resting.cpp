@@ -68,6 +68,7 @@ private:
         Int duration;
         Int setup;
         Int ahead;
+        bool may_rest;
         Labels& there;
     };
 
@@ -79,13 +80,13 @@ private:
         return driving_from(truck_.data, type_, stops_, p);
     }
 
-    // Return the leg from a stop, which is no longer ahead. In place: what is.
-    Way way_from(Int p, Labels& there) {
+    // Return the leg from a stop, driven while drones are out or not. In place: what is ahead.
+    Way way_from(Int p, bool flying, Labels& there) {
         const Int duration = driving_at(p);
         ahead_ -= duration;
         const Int setup =
             is_last(p) ? 0 : setup_after(truck_.data.setup, stops_[p].node, stops_[p + 1].node);
-        return {p, duration, setup, ahead_, there};
+        return {p, duration, setup, ahead_, !flying || may_rest_in_flights(type_), there};
     }
 
     // Let all labels pass the block that begins at a stop, and come to the next; return its last
@@ -100,7 +101,7 @@ private:
         there_ = other(labels_, there_);
         there_->clear();
         if (behind_ == sortie_) {
-            const Way way = way_from(first, *there_);
+            const Way way = way_from(first, false, *there_);
             for (const Label& label : here) pass(label, way);
             return last;
         }
@@ -168,7 +169,7 @@ private:
             const Labels& here = *inside_;
             inside_ = other(inside_rows_, inside_);
             inside_->clear();
-            const Way way = way_from(q, *inside_);
+            const Way way = way_from(q, true, *inside_);
             for (Label label : here) {
                 take_rests(label, first, last);
                 label.time = leave_inside(first, q, last, reached.time);
@@ -177,7 +178,7 @@ private:
                 drive(label, way);
             }
         }
-        const Way way = way_from(last, *there_);
+        const Way way = way_from(last, false, *there_);
         for (Label label : *inside_) {
             take_rests(label, first, last);
             if (leave_inside(first, last, last, reached.time) == far) continue;
@@ -250,7 +251,10 @@ private:
     // Take each rest that may come next, and go on. Who has rested where a leg ends has driven
     // nothing since, but may have taken half a rest.
     void rest(const Label& label, const Way& way, const RestedLeg& leg, RestPlace place) {
-        if (label.count == most_rests_on_route || rests_on(label, way.p) == most_rests) return;
+        if (!way.may_rest || label.count == most_rests_on_route ||
+            rests_on(label, way.p) == most_rests) {
+            return;
+        }
         for (const Int number : {whole_rest, first_part, second_part}) {
             if (!may_rest(type_, leg.driver(), number)) continue;
             RestedLeg rested = leg;

@@ -58,14 +58,23 @@ def test_a_rest_may_lie_in_a_flight(service: httpx.Client, far: Request) -> None
         each["served_by"] = by
     plan = planned(service, far)
     assert is_feasible(service, far, plan)
+    assert "break" in kinds_in_flight(plan)
+    far["fleet"][0]["driving_rules"]["while_drones_fly"] = False
+    attends = planned(service, far)
+    assert "break" not in kinds_in_flight(attends)
+    assert breaks_of(attends)
+    assert service.post("/check", json={"problem": far, "plan": plan}).json()["violations"]
+    del far["fleet"][0]["driving_rules"]
+    free = planned(service, far)
+    assert free["cost"]["total"] == plan["cost"]["total"] < attends["cost"]["total"]
+
+
+def kinds_in_flight(plan: dict[str, Any]) -> set[str]:
+    """Return the kinds of stops between the launch and the recovery of the only sortie."""
     trip, = plan["routes"][0]["trips"]
     sortie, = trip["sorties"]
-    inside = [stop["kind"] for stop in
-              trip["stops"][sortie["launch_stop"] + 1:sortie["recovery_stop"]]]
-    assert "break" in inside
-    ends = trip["stops"][-1]["departure"]
-    del far["fleet"][0]["driving_rules"]
-    assert planned(service, far)["routes"][0]["trips"][0]["stops"][-1]["departure"] == ends
+    return {stop["kind"] for stop in
+            trip["stops"][sortie["launch_stop"] + 1:sortie["recovery_stop"]]}
 
 
 def test_the_longest_travel_duration_leaves_out_waiting_service_and_rests(

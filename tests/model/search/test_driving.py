@@ -205,7 +205,7 @@ def test_rollouts_and_search_keep_driving_rules() -> None:
         flown += inside_flights(found)
     assert rolled > 30
     assert searched > 15
-    assert flown > 5
+    assert flown > 3
 
 
 def inside_flights(plan: Solution) -> int:

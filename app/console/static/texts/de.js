@@ -960,6 +960,7 @@ export default {
     max_work_before_break: 'Längste Arbeit ohne Pause',
     split: 'Geteilt',
     worked_before: 'Vorher gearbeitet',
+    while_drones_fly: 'Pausen während Flügen',
     battery_wh: 'Akku',
     capacity: 'Ladekapazität',
     charge_w: 'Ladeleistung',
@@ -1341,6 +1342,7 @@ export default {
       max_work_before_break: 'Längste Arbeit ohne Pause. Leer: beliebig.',
       driven_before: 'Zeit am Steuer seit der letzten Pause, bevor das Fahrzeug beginnt.',
       worked_before: 'Arbeit seit der letzten Pause, bevor das Fahrzeug beginnt.',
+      while_drones_fly: 'Ob gerastet werden darf, während Drohnen unterwegs sind.',
     },
     BreakStartInput: {
       earliest: 'Frühester Beginn.',

@@ -946,6 +946,7 @@ export default {
     max_work_before_break: 'Max work before break',
     split: 'Split',
     worked_before: 'Worked before',
+    while_drones_fly: 'Rests while drones fly',
     battery_wh: 'Battery wh',
     capacity: 'Capacity',
     charge_w: 'Charge w',
@@ -1320,6 +1321,7 @@ export default {
       max_work_before_break: 'Longest time at work without a rest. Empty: no limit.',
       driven_before: 'Time at the wheel since the last rest, before the vehicle begins.',
       worked_before: 'Time at work since the last rest, before the vehicle begins.',
+      while_drones_fly: 'Whether a driver may rest while drones are out.',
     },
     BreakStartInput: {
       earliest: 'Earliest begin.',
