@@ -105,6 +105,6 @@ def _set_up(problem: Problem, trip: Trip) -> Trip:
     stops = (trip.stops[0], *(
         replace(stop, setup=problem.setup_between(before.node, stop.node))
         for before, stop in pairwise(trip.stops)))
-    return Trip(stops, tuple([
+    return replace(trip, stops=stops, sorties=tuple([
         replace(sortie, visits=with_setups(problem, stops[sortie.launch_stop].node, sortie.visits))
         for sortie in trip.sorties]))

@@ -25,7 +25,10 @@ _PLACE = re.compile(r"(?:\.trips\[(\d+)\](?:\.(stops|sorties)\[(\d+)\](?:\.visit
 
 
 def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
-    """Return a trip without some customers; sorties go with the stops they begin or end at."""
+    """Return a trip without some customers; sorties go with the stops they begin or end at.
+
+    Breaks behind a stop that goes are behind the one before it.
+    """
     nodes = decision.nodes
     last = len(nodes) - 1
     stays = [index in (0, last) or node not in gone for index, node in enumerate(nodes)]
@@ -44,7 +47,9 @@ def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
                   for operation in group if operation.sortie in renumbered)
             for group, kept in zip(operations, stays, strict=True) if kept)
     kept_nodes = tuple(node for node, kept in zip(nodes, stays, strict=True) if kept)
-    return TripDecision(kept_nodes, tuple(flown.values()), operations, decision.start)
+    breaks = tuple([each._replace(stop=shifted[each.stop] - (not stays[each.stop]))
+                    for each in decision.breaks if 0 <= each.stop < last])
+    return TripDecision(kept_nodes, tuple(flown.values()), operations, decision.start, breaks)
 
 
 def customers_of(problem: Problem, decision: TripDecision) -> list[int]:

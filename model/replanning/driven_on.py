@@ -60,7 +60,7 @@ def _whole(problem: Problem, planned: Route, own: Kept | None, past: Past) -> Ro
     begun: tuple[TripDecision, ...] = ()
     if own is not None:
         begun = _with_trip_under_way(problem, planned, own, past).trips
-    later = [_without_lost(read_decision(Trip(trip.stops, tuple(
+    later = [_without_lost(read_decision(replace(trip, sorties=tuple(
         sortie for sortie in trip.sorties if _can_fly(kind, sortie.drone, grounded))), kind))
         for trip in planned.trips[len(begun):]]
     trips = [*begun, *(trip for trip in later if customers_of(problem, trip))][:kind.max_trips]
@@ -121,5 +121,5 @@ def _as_stated(problem: Problem, decision: RouteDecision, past: Past) -> Route:
             ready = max(ready, trips[-1].stops[-1].departure + kind.reload_duration)
         back = max([past.returned.get(node, 0) for node in customers_of(problem, trip)], default=0)
         start = max(ready, back, latest_release(problem, trip), trip.start or 0)
-        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready))
+        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready, *trips[:1]))
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))

@@ -9,6 +9,7 @@ from itertools import count
 from model.judge.ends import with_ends
 from model.judge.hubs import hub_violations
 from model.judge.past import Past, Vehicle
+from model.judge.placing import with_due_breaks
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
 )
@@ -58,7 +59,7 @@ def _trips_left(problem: Problem, route: Route, kept: Kept | None,
     decisions = []
     for trip in trips:
         flown = tuple(sortie for sortie in trip.sorties if sortie.drone in drones)
-        decisions.append(read_decision(Trip(trip.stops, flown), kind))
+        decisions.append(read_decision(replace(trip, sorties=flown), kind))
     return decisions
 
 
@@ -71,7 +72,7 @@ def _moved(decision: TripDecision, here: Mapping[int, int], drones: Sequence[int
     sorties = tuple(replace(sortie, nodes=tuple(here[node] for node in sortie.nodes),
                             drone=drones.index(sortie.drone)) for sortie in decision.sorties)
     return TripDecision((decision.nodes[0], *inner, decision.nodes[-1]), sorties,
-                        decision.operations, decision.start)
+                        decision.operations, decision.start, decision.breaks)
 
 
 def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
@@ -113,8 +114,11 @@ def _mended(left: Remainder, decision: RouteDecision) -> Route | None:
     """Return a route without the customers for whom it breaks rules; None if nobody is left."""
     if not decision.trips:
         return None
+    kind, timings = left.problem.vehicle_types[decision.vehicle_type], [_timed, _timed_at_once]
+    if kind.breaks or kind.driving is not None:
+        timings.append(_timed_with_breaks)
     return repaired_route(left.problem, decision, (),
-                          [partial(_timed, left.problem), partial(_timed_at_once, left.problem)])
+                          [partial(time, left.problem) for time in timings])
 
 
 def _timed(problem: Problem, decision: RouteDecision) -> Route:
@@ -124,7 +128,7 @@ def _timed(problem: Problem, decision: RouteDecision) -> Route:
     ready = kind.earliest
     for trip in decision.trips:
         start = max(ready, latest_release(problem, trip), trip.start or 0)
-        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready))
+        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready, *trips[:1]))
         ready = trips[-1].stops[-1].departure + kind.reload_duration
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))
 
@@ -133,6 +137,12 @@ def _timed_at_once(problem: Problem, decision: RouteDecision) -> Route:
     """Return a route whose trips begin as soon as possible."""
     trips = tuple(replace(trip, start=None) for trip in decision.trips)
     return _timed(problem, replace(decision, trips=trips))
+
+
+def _timed_with_breaks(problem: Problem, decision: RouteDecision) -> Route:
+    """Return a route whose trips begin as soon as possible, with other breaks as they are due."""
+    trips = tuple([replace(trip, start=None, breaks=()) for trip in decision.trips])
+    return _timed(problem, with_due_breaks(problem, replace(decision, trips=trips)))
 
 
 def complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
@@ -207,7 +217,7 @@ def _whole(trip: Trip, nodes: Sequence[int], drones: Sequence[int], offset: int 
                 recovery_stop=sortie.recovery_stop + offset,
                 visits=tuple(replace(visit, node=nodes[visit.node]) for visit in sortie.visits))
         for sortie in trip.sorties)
-    return Trip(stops, sorties)
+    return Trip(stops, sorties, trip.breaks)
 
 
 def _joined(begun: Trip, rest: Trip, nodes: Sequence[int], drones: Sequence[int]) -> Trip:

@@ -7,6 +7,7 @@ import pytest
 
 from model.judge.breaks import BreakDecision
 from model.judge.check import check
+from model.judge.clock import with_all_setups
 from model.judge.placing import with_due_breaks
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
@@ -125,3 +126,11 @@ def test_breaks_that_lack_are_placed_where_the_route_ends_first() -> None:
     placed = schedule(problem, with_due_breaks(problem, decision))
     assert broken(problem, Solution((placed,))) == set()
     assert [taken.number for taken in placed.trips[0].breaks] == [0, 1]
+
+
+def test_breaks_stay_where_setups_are_told_anew() -> None:
+    problem = problem_of(REST)
+    problem = replace(problem, customers=tuple(
+        replace(customer, setup_duration=MINUTE) for customer in problem.customers))
+    plan = plan_of(problem, (0, 1, "departure"))
+    assert with_all_setups(problem, plan) == plan

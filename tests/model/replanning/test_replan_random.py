@@ -21,7 +21,9 @@ from tests.model.tiny import (
     with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
     with_table, with_turnaround,
 )
+from tests.model.tiny_breaks import with_breaks
 from tests.model.tiny_company import with_relations
+from tests.model.tiny_driving import with_driving
 from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
 )
@@ -300,6 +302,22 @@ def test_tiny_plans_go_on_by_what_else_is_stated(
         seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     replan_and_check(planner, change(rng, draw_tiny(rng)), rng)
+
+
+@pytest.mark.parametrize("change", [with_breaks, with_driving])
+def test_breaks_are_taken_in_plans_that_are_changed_before_the_day(
+        planner: Planner, change: Callable[[np.random.Generator, Problem], Problem]) -> None:
+    for seed in range(25):
+        rng = np.random.default_rng((seed, 12))
+        problem = change(rng, draw_tiny(rng, 0.0 if change is with_driving else 0.6))
+        plan = planner.plan(problem, OPTIONS, start=nobody(problem))
+        pinned = frozenset(node for node in served(*plan.solution.routes) if rng.random() < 0.3)
+        replanning = Replanning(problem, Terms(plan.solution, pinned=pinned))
+        as_it_was = replanning.plan(planner, replace(OPTIONS, search_iterations=0))
+        assert as_it_was.final_cost <= plan.final_cost * (1 + 1e-9)
+        busy = [Vehicle(route.vehicle_type, route.vehicle) for route in plan.solution.routes]
+        lacking = Replanning(problem, Terms(plan.solution, unavailable=frozenset(busy[:1])))
+        assert check(problem, lacking.plan(planner, OPTIONS).solution).violations == ()
 
 
 @pytest.mark.parametrize("change", [with_launch_sites, with_some_revisits])
