@@ -44,7 +44,7 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
                  for kind in vehicle_types)
     late = max([customer.late_cost_per_hour or 0.0 for customer in customers], default=0.0)
     early = max([customer.early_cost_per_hour for customer in customers], default=0.0)
-    once = max([customer.late_cost for customer in customers], default=0.0)
+    once = sum([customer.late_cost for customer in customers])
     stated_costs = sum([customer.unassigned_cost or 0.0 for customer in customers])
     return max(1.0, fair + DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + once
                + stated_costs)

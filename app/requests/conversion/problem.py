@@ -54,7 +54,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     if unassigned_cost is None:
         unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
                                                   decimals, _fairness(request.fairness))
-        unassigned_cost += _dearest(costs)
+        unassigned_cost += _dearest(costs) + _dearest_stops(request)
     return Problem(
         depots=_depots(placed),
         customers=customers,
@@ -89,8 +89,15 @@ def _vehicle_costs(groups: Sequence[Group], num_customers: int) -> FloatArray | 
 
 
 def _dearest(costs: FloatArray | None) -> float:
-    """Return what a vehicle costs most to serve somebody, on top."""
-    return 0.0 if costs is None else float(costs.max(initial=0.0))
+    """Return what vehicles cost most to serve everybody, on top: others may have to change theirs.
+    """
+    return 0.0 if costs is None else float(costs.max(axis=0).sum())
+
+
+def _dearest_stops(request: PlanRequest) -> float:
+    """Return what stops at launch sites cost most, two for each customer."""
+    return 2 * len(request.customers) * max([site.cost for site in request.launch_sites],
+                                            default=0.0)
 
 
 def _fairness(stated: FairnessInput) -> Fairness:

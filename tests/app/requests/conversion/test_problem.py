@@ -330,6 +330,18 @@ def test_whoever_must_be_served_costs_more_than_all_others(smallest: Request) ->
     assert not any(map(priced.must_be_served, priced.customers))
 
 
+def test_whoever_must_be_served_costs_more_than_that_all_others_change(smallest: Request) -> None:
+    alone = problem_of(smallest).unassigned_cost
+    for index, customer in enumerate(smallest["customers"]):
+        customer["vehicle_costs"] = {smallest["fleet"][0]["id"]: 100 + index}
+    assert problem_of(smallest).unassigned_cost == alone + 201
+    smallest["launch_sites"] = [{"id": "lay-by", "location": [0, 0], "cost": 50}]
+    assert problem_of(smallest).unassigned_cost == alone + 201 + 2 * 2 * 50
+    for customer in smallest["customers"]:
+        customer["time_window"] = {"latest": 0, "late_cost_per_hour": 0, "late_cost": 7}
+    assert problem_of(smallest).unassigned_cost == alone + 201 + 200 + 2 * 7
+
+
 def test_leaving_a_customer_out_costs_something_where_nothing_else_does(
         smallest: Request) -> None:
     smallest["fleet"][0]["costs"] = {"per_km": 0}
