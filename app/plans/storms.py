@@ -4,8 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
 from app.plans.replies import Data
-from app.requests.conversion.units import thousandths
-from app.requests.conversion.winds import Winds, longest_calm
+from app.requests.conversion.winds import Winds
 from app.schemas.customer import CustomerInput, TimeWindowInput
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import VehicleTypeInput
@@ -13,9 +12,8 @@ from model.problem import UNLIMITED
 
 CODE = "WIND"
 
-BY_CALM = ("SHIFT", "TIME_WINDOW")
-"""Codes that may be due to the wind: flights are held back for it, and vehicles that fly by
-themselves work in a calm time of their shift."""
+HELD_BACK = ("SHIFT", "TIME_WINDOW")
+"""Codes that may be due to the wind, since flights are held back for it."""
 
 THERE_AND_BACK = 3600.0
 """Seconds before and after a window in which storms are told that may keep a flight from it."""
@@ -26,8 +24,8 @@ class Storms:
     """The times of a request in which drones may not fly."""
 
     by_type: Mapping[str, list[Data]] = field(default_factory=dict)  # by id of vehicle type
-    calm: Mapping[str, str] = field(default_factory=dict)  # of those that fly by themselves
-    flown: Mapping[str, CustomerInput] = field(default_factory=dict)  # by drones alone, by id
+    flying: frozenset[str] = frozenset()  # types of vehicles that fly by themselves
+    customers: Mapping[str, CustomerInput] = field(default_factory=dict)  # by id
 
     @classmethod
     def of(cls, request: PlanRequest) -> "Storms":
@@ -36,36 +34,28 @@ class Storms:
         by_type = {kind.id: found for kind in request.fleet if (found := _storms(winds, kind))}
         if not by_type:
             return cls()
-        return cls(by_type, {kind.id: _calm(winds, kind) for kind in request.fleet
-                             if kind.flies and kind.id in by_type},
-                   {customer.id: customer for customer in request.customers
-                    if customer.served_by == "drone"})
+        return cls(by_type, frozenset([kind.id for kind in request.fleet if kind.flies]),
+                   {customer.id: customer for customer in request.customers})
 
     def name(self, customer: str, reasons: Iterable[Data]) -> None:
         """Have reasons that are due to the wind tell how strong it is, and when. In place."""
         for reason in reasons:
             storms = self._hindering(customer, reason["vehicle_type"], reason["code"])
-            if not storms:
-                continue
-            reason["wind"] = storms
-            words = [reason["message"], _words(storms)]
-            if reason["vehicle_type"] in self.calm:
-                words.insert(1, self.calm[reason["vehicle_type"]])
-                if reason["code"] == "SHIFT":
-                    # The end of what it may use of its shift.
-                    reason["code"], reason["remedy"] = CODE, None
-                    del words[0]
-            reason["message"] = " ".join(words)
+            if storms:
+                reason["wind"] = storms
+                reason["message"] = f"{reason['message']} {_words(storms)}"
 
     def _hindering(self, customer: str, kind: str, code: str) -> list[Data]:
         """Return the storms that a reason may be due to."""
-        storms = self.by_type.get(kind, [])
-        if code == CODE or (code in BY_CALM and kind in self.calm):
+        storms, stated = self.by_type.get(kind, []), self.customers.get(customer)
+        if code == CODE:
             return storms
-        if code not in BY_CALM or customer not in self.flown:
+        if code not in HELD_BACK or stated is None:
+            return []
+        if kind not in self.flying and stated.served_by != "drone":
             return []
         return [storm for storm in storms if any(
-            _overlap(storm, window) for window in self.flown[customer].windows)]
+            _overlap(storm, window) for window in stated.windows)]
 
     @property
     def all(self) -> list[Data]:
@@ -96,12 +86,3 @@ def _words(storms: Iterable[Data]) -> str:
             + ("" if storm["end"] is None else f" until {storm['end']:g} s") for storm in storms]
     return f"It blows up to {', '.join(dict.fromkeys(told))}."
 
-
-def _calm(winds: Winds, kind: VehicleTypeInput) -> str:
-    """Return in words when vehicles fly by themselves."""
-    latest = UNLIMITED if kind.shift.latest is None else thousandths(kind.shift.latest)
-    begin, end = longest_calm(winds.storms(kind, kind), thousandths(kind.shift.earliest), latest)
-    if begin == end:
-        return "It is never calm enough on the shift."
-    until = "" if end >= UNLIMITED else f" until {end / 1000:g} s"
-    return f"It flies from {begin / 1000:g} s{until} alone, the longest calm time of the shift."

@@ -275,8 +275,7 @@ class VehicleTypeInput(Input):
     max_wind_kmh: Annotated[float, Field(ge=0, le=500)] | None = Field(
         None,
         description="Largest gusts in km/h, or wind where no gusts are stated, in which a vehicle "
-        "that flies may be in the air. It flies in the longest time of its shift that has no more. "
-        "Null: any.",
+        "that flies may be in the air: trips wait until it is calm enough. Null: any.",
     )
     preset: RuleName | None = Field(
         None,

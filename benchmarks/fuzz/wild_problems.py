@@ -149,7 +149,7 @@ def _flying(rng: random.Random, kind: Data, dimensions: int) -> Data:
             kind.pop(name, None)
     return kind | {
         "flies": True,
-        **_maybe(rng, 0.6, endurance=rng.choice((0, 60, 1200, 1800, LONGEST))),
+        **_maybe(rng, 0.6, endurance=rng.choice((0, 1200, 1800, LONGEST)), max_wind_kmh=40),
         **_maybe(rng, 0.5, launch_duration=rng.choice((0, 30, 60, LONGEST)),
                  recovery_duration=rng.choice((0, 30, 60, LONGEST))),
         **_maybe(rng, 0.3, turnaround={"swap_duration": rng.choice((0, 45, LONGEST))}),

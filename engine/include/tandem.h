@@ -84,12 +84,13 @@ typedef struct tandem_pair {
    drones' powers are known at so many `points`, by weight; none if no battery limits them; aboard
    they gain a `charge`, from what each has at first. It picks up in any order, or after all that a
    trip delivers, which is something, or was before the trip begins here; what else it carries in
-   the first dimension. No drone is in the air while it storms. `rules/drone_types.h` says which
-   rows tell of which drones. Of one that flies by itself, what is said of drones holds for its
-   trips; its legs hold launches and recoveries. Each of its trips takes a battery of the depot
-   where it begins, or all beyond so many `trips_uncharged` together a place to charge at its own.
-   Its driver has so many breaks, in order, of a route that began at `breaks_since` if that isn't
-   before all. Whose driver `must_rest`, does as `rules/driving.h` says. */
+   the first dimension. No drone, nor who flies by itself, is in the air while it storms.
+   `rules/drone_types.h` says which rows tell of which drones. Of one that flies by itself, what is
+   said of drones holds for its trips; its legs hold launches and recoveries. Each of its trips
+   takes a battery of the depot where it begins, or all beyond so many `trips_uncharged` together a
+   place to charge at its own. Its driver has so many breaks, in order, of a route that began at
+   `breaks_since` if that isn't before all. Whose driver `must_rest`, does as `rules/driving.h`
+   says. */
 typedef struct tandem_vehicle_type {
     int64_t count;
     int64_t travel;
@@ -545,8 +546,9 @@ typedef struct tandem_route {
     int64_t offset;
     int64_t awaited;
     int64_t unpaid; /* breaks */
-    int64_t driving; /* at the wheel, of a driver who mustn't rest by rules, far if there are rests */
-    int64_t stamp;  /* stands for what the route is; 0 while a turn changes it */
+    int64_t
+        driving;   /* at the wheel, of a driver who mustn't rest by rules, far if there are rests */
+    int64_t stamp; /* stands for what the route is; 0 while a turn changes it */
     int64_t barred;
     int64_t kept; /* relations by which others go by this vehicle */
 } tandem_route;
@@ -964,7 +966,8 @@ typedef struct tandem_sights {
 } tandem_sights;
 
 /* On which sides of ways to corners their areas may lie, as bits: 1 left, 2 right. The entries of a
-   corner, in `between`, are those with the area on the left alone, on either, on the right alone. */
+   corner, in `between`, are those with the area on the left alone, on either, on the right alone.
+ */
 typedef struct tandem_turns {
     tandem_i32_1d reached;          /* (entry of `outward`,) */
     tandem_i32_1d arrived;          /* (entry of `between`,) at its end */
@@ -1112,7 +1115,7 @@ typedef struct tandem_problem_data {
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
     tandem_pair_1d pair;           /* (node,) none where there are no shipments */
-    tandem_i64_2d max_between; /* (type, node) ms from a pickup to its delivery, none likewise */
+    tandem_i64_2d max_between;  /* (type, node) ms from a pickup to its delivery, none likewise */
     tandem_f64_2d vehicle_cost; /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
         no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */

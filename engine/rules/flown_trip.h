@@ -16,9 +16,10 @@ namespace tandem {
 // Whether vehicles of a type fly by themselves.
 inline bool flies(const VehicleType& type) { return type.flies != 0; }
 
-// Whether a trip of such a vehicle may last too long, or take too much.
+// Whether a trip of such a vehicle may last too long, take too much, or meet a storm.
 inline bool bounds_trips(const VehicleType& type) {
-    return flies(type) && (endurance_of(type) < unlimited || is_limited(type));
+    return flies(type) &&
+           (endurance_of(type) < unlimited || is_limited(type) || storms_sometime(type));
 }
 
 // Whether its battery is charged between trips; else each begins with a full one.
@@ -29,6 +30,21 @@ inline bool charges_between_trips(const VehicleType& type) {
 // How long a trip may last from the beginning of its launch to the end of its recovery.
 inline Int longest_in_air(const VehicleType& type) {
     return recovery_end(type, take_off(type, endurance_of(type), 0));
+}
+
+// By when a trip has to be over whose launch begins at `start`: when it storms next.
+inline Int calm_trip_until(const VehicleType& type, Int start) {
+    const Int calm = calm_until(type, take_off(type, start, 0));
+    return calm < far ? recovery_end(type, calm) : far;
+}
+
+// How much later a trip from `start` to `end` has to begin for calm, if the vehicle flies by itself:
+// as the next storm is over; `far` if it never is.
+inline Int wait_for_calm(const VehicleType& type, Int start, Int end) {
+    if (!flies(type) || end <= calm_trip_until(type, start)) return 0;
+    const Int takeoff = take_off(type, start, 0);
+    const Int held = calm_takeoff(type, takeoff, far);
+    return held > takeoff ? held - takeoff : far;
 }
 
 // What a trip takes that is followed leg by leg, with so much aboard at first. Windows are those of

@@ -152,22 +152,22 @@ bool hold_trip(OpenVehicle& open, Int release) {
     return true;
 }
 
-// Hold the trip until no parcel is too long aboard; false if that can't be.
+// Hold the trip until nothing lasts too long, and no storm is met; false if that can't be.
 bool keep_fresh(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
     if (!holds_count(setting)) return true;
     bool held = true;
     Int excess = most_excess(setting, log);
-    while (excess > 0) {
-        if (excess == far) return false;
-        const Int start = log.trip[log.count.trips - 1].start + excess;
+    while (true) {
+        const Int wait = excess > 0 ? excess : waits_for_calm(setting, log);
+        if (wait == 0) return held;
+        if (wait == far) return false;
         // Drones that don't last then may do if the trip is held even longer.
-        held = hold_trip(open, start);
+        held = hold_trip(open, log.trip[log.count.trips - 1].start + wait);
         const Int left = most_excess(setting, log);
-        if (left >= excess) return false;
+        if (excess > 0 && left >= excess) return false;
         excess = left;
     }
-    return held;
 }
 
 // End the trip at a depot.

@@ -134,8 +134,11 @@ private:
         const FlownTrip flown = follow_trip(setting_, log_, trip, [&](Int index) {
             return arrivals_[static_cast<std::size_t>(index)];
         });
-        bool done =
-            leave_ - start <= longest_in_air(type) && (!is_limited(type) || flown.left() >= 0);
+        // In the calm that is known, if that counts, so that all between is allowed as well.
+        const Int known = writes ? start : log_.trip[trip].start;
+        bool done = leave_ - start <= longest_in_air(type) &&
+                    (!is_limited(type) || flown.left() >= 0) &&
+                    leave_ <= calm_trip_until(type, known);
         if (charges_between_trips(type)) {
             if (trip == 0 || !charge_) charge_ = charge_before(setting_, log_, trip);
             const Int there = charged(type, charge_->kept, charge_->since, start);
@@ -426,6 +429,11 @@ bool has_rested(const Setting& setting, const VehicleLog& log) {
     const std::optional<Driver> driver = driver_of(setting, log, driven);
     return driver && may_travel(setting.type, driven) &&
            may_still_work(setting.type, *driver, log.stop[log.count.stops - 1].leave);
+}
+
+Int waits_for_calm(const Setting& setting, const VehicleLog& log) {
+    const auto [first, behind] = stops_of(log, log.count.trips - 1);
+    return wait_for_calm(setting.type, log.stop[first].leave, log.stop[behind - 1].leave);
 }
 
 Int most_excess(const Setting& setting, const VehicleLog& log) {

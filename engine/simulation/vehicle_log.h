@@ -135,6 +135,10 @@ inline bool holds_count(const Setting& setting) {
 // who flies by itself too long in the air; at most 0 if it needn't, `far` if that doesn't help.
 Int most_excess(const Setting& setting, const VehicleLog& log);
 
+// How much later the last trip of who flies by itself has to begin for calm; 0 if it needn't, `far`
+// if that doesn't help.
+Int waits_for_calm(const Setting& setting, const VehicleLog& log);
+
 // The latest start of a trip that costs nothing; `known` is one that costs nothing.
 Int latest_start(const Setting& setting, VehicleLog& log, Int trip, Int known);
 

@@ -290,7 +290,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         kind.trips_uncharged, _pickup_order(kind), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
-        *_storm_rows(drones), *break_row(kind), *driving_row(kind.driving))
+        *_storm_rows(kind if kind.flies else drones), *break_row(kind), *driving_row(kind.driving))
 
 
 def _overtime_rate(kind: VehicleType) -> float:
@@ -350,9 +350,11 @@ def _itself(kind: VehicleType, travel: int) -> tuple[int, ...]:
             kind.recovery_duration, travel, UNLIMITED)
 
 
-def _storm_rows(drones: DroneType | None) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
+def _storm_rows(
+    flyer: DroneType | VehicleType | None,
+) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
     """Return how often it storms, from when, and until when."""
-    storms = () if drones is None else drones.storms
+    storms = () if flyer is None else flyer.storms
     return (len(storms), padded([begin for begin, _ in storms], MAX_STORMS),
             padded([end for _, end in storms], MAX_STORMS))
 

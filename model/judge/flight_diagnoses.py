@@ -64,11 +64,11 @@ def max_range_broken(attempt: Attempt) -> Diagnosis:
 
 def wind_broken(attempt: Attempt) -> Diagnosis:
     """Say that it is too windy."""
-    drones = drones_of(attempt)
-    calm, limit = replace(drones, storms=()), f"max_wind_kmh{name_of(drones)}"
+    flyer = flyer_of(attempt)
+    calm, limit = replace(flyer, storms=()), f"max_wind_kmh{name_of(flyer)}"
     return Diagnosis("WIND", f"The wind is too strong for a flight there and back, by {limit}.",
                      f"fits without {limit}",
-                     with_type(attempt, replace(attempt.vehicle_type, drones=calm)))
+                     with_flyer(attempt, calm))
 
 
 def energy_broken(attempt: Attempt) -> Diagnosis:

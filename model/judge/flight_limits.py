@@ -10,12 +10,12 @@ from model.judge.metrics import TripMetrics
 from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Depot, Problem, VehicleType
 from model.solution import Solution
 
-_Changed = tuple[str, Literal["minute", "km"], float | None, VehicleType]
-"""A field, the unit of one more, how many are left, and the type with one more."""
+_Changed = tuple[str, Literal["minute", "km", "rule"], float | None, VehicleType]
+"""A field, the unit of one more, how many are left, and the type with one more, or without it."""
 
 
 def flight_limits(kind: VehicleType, trip: TripMetrics | None) -> Iterator[_Changed]:
-    """Yield how long, and how far, vehicles that fly by themselves may."""
+    """Yield how long, how far, and when, vehicles that fly by themselves may."""
     handling = kind.launch_duration + kind.recovery_duration
     if kind.endurance < UNLIMITED:
         slack = None if trip is None else (
@@ -24,6 +24,8 @@ def flight_limits(kind: VehicleType, trip: TripMetrics | None) -> Iterator[_Chan
         yield "endurance", "minute", slack, replace(kind, endurance=longer)
     if kind.max_range is not None:
         yield "max_range", "km", None, replace(kind, max_range=one_km_more(kind.max_range))
+    if kind.storms:
+        yield "max_wind_kmh", "rule", None, replace(kind, storms=())
 
 
 def hub_limits(problem: Problem, solution: Solution) -> Iterator[tuple[str, int, Problem]]:

@@ -8,7 +8,8 @@ from model.judge.energy import (
     weights_aboard,
 )
 from model.judge.freshness import most_excess
-from model.problem import Energy, Problem, VehicleType
+from model.judge.takeoff import storm_met
+from model.problem import UNLIMITED, Energy, Problem, VehicleType
 from model.solution import Trip
 
 
@@ -90,6 +91,18 @@ def excess_in_air(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     most = power_at(energy, energy.hover, max(weights_aboard(
         problem, energy, [stop.node for stop in trip.stops[1:-1]])))
     return max(excess, -(-over // most)) if most else excess
+
+
+def storm_of(kind: VehicleType, trip: Trip) -> tuple[int, int] | None:
+    """Return from and until when it first storms while a trip is in the air, if ever."""
+    return storm_met(kind, trip.stops[0].departure, trip.stops[-1].arrival)
+
+
+def wait_for_calm(kind: VehicleType, trip: Trip) -> int:
+    """Return how much later a trip would have to begin that meets a storm; 0: that doesn't help.
+    """
+    storm = storm_of(kind, trip)
+    return 0 if storm is None or storm[1] >= UNLIMITED else storm[1] - trip.stops[0].departure
 
 
 def excess_of(problem: Problem, kind: VehicleType, trip: Trip) -> int:

@@ -7,7 +7,7 @@ from operator import gt
 from model.judge.breaks import broken_breaks
 from model.judge.driving import broken_driving, travel_duration
 from model.judge.energy import charges, sortie_energy
-from model.judge.flown_trips import airborne, trip_charges
+from model.judge.flown_trips import airborne, storm_of, trip_charges
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
@@ -98,12 +98,8 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
     yield from _halt_violations(problem, kind, trip.numbered_stops, f"{path}.stops")
     yield from _aboard_violations(problem, vehicle_type, timed)
     yield from _pair_violations(problem, vehicle_type, timed)
-    if vehicle_type.flies and airborne(trip) > vehicle_type.endurance:
-        yield _endurance_violation(airborne(trip), vehicle_type.endurance, path)
-    if vehicle_type.max_range is not None:
-        ends = (trip.stops[0].node, trip.stops[-1].node)
-        yield from _range_violations(problem, vehicle_type, ends, trip.stops[1:-1],
-                                     f"{path}.stops", 1)
+    if vehicle_type.flies:
+        yield from _flown_violations(problem, vehicle_type, trip, path)
     if vehicle_type.drones is not None and trip.sorties:
         yield from _drone_busy(timed)
         yield from _airborne_violations(vehicle_type, timed)
@@ -111,6 +107,18 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         for index, sortie in enumerate(trip.sorties):
             sortie_path = f"{path}.sorties[{index}]"
             yield from _sortie_violations(problem, kind, trip, sortie, sortie_path)
+
+
+def _flown_violations(problem: Problem, kind: VehicleType, trip: Trip,
+                      path: str) -> Iterator[Violation]:
+    """What a trip breaks of who flies by itself."""
+    if airborne(trip) > kind.endurance:
+        yield _endurance_violation(airborne(trip), kind.endurance, path)
+    if storm_of(kind, trip) is not None:
+        yield _wind_violation(path)
+    if kind.max_range is not None:
+        ends = (trip.stops[0].node, trip.stops[-1].node)
+        yield from _range_violations(problem, kind, ends, trip.stops[1:-1], f"{path}.stops", 1)
 
 
 def _count_violations(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
@@ -269,7 +277,7 @@ def _sortie_violations(
     if flight > drones.endurance:
         yield _endurance_violation(flight, drones.endurance, path)
     if storm_met(drones, sortie.launch_time, sortie.recovery_start) is not None:
-        yield Violation("WIND", "flies while the wind is too strong for it", path)
+        yield _wind_violation(path)
     if drones.max_range is not None:
         ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
         yield from _range_violations(problem, drones, ends, sortie.visits, f"{path}.visits", 0)
@@ -297,6 +305,10 @@ def farthest(problem: Problem, flyer: DroneType | VehicleType, ends: Sequence[in
 def _endurance_violation(flight: int, endurance: int, path: str) -> Violation:
     return Violation("ENDURANCE", f"{seconds(flight)} in the air, endurance is "
                      f"{seconds(endurance)}", path)
+
+
+def _wind_violation(path: str) -> Violation:
+    return Violation("WIND", "flies while the wind is too strong for it", path)
 
 
 def _energy_violation(taken: int, charge: int, path: str) -> Violation:

@@ -10,7 +10,7 @@ from model.judge.clock import opening
 from model.judge.energy import (
     Rest, charge_after, flight_energies, least_energy, longest_hold, time_charged,
 )
-from model.problem import UNLIMITED, DroneType, Problem
+from model.problem import UNLIMITED, DroneType, Problem, VehicleType
 from model.solution import Visit
 
 Path = tuple[int, ...]
@@ -56,9 +56,9 @@ def _held_until(problem: Problem, drones: DroneType, path: Path, takeoff: int) -
     return takeoff if storm is None or storm[1] >= UNLIMITED else storm[1]
 
 
-def storm_met(drones: DroneType, takeoff: int, end: int) -> tuple[int, int] | None:
-    """Return from and until when it first storms while a drone is in the air, if ever."""
-    return next((storm for storm in drones.storms if takeoff < storm[1] and storm[0] < end), None)
+def storm_met(flyer: DroneType | VehicleType, takeoff: int, end: int) -> tuple[int, int] | None:
+    """Return from and until when it first storms while one is in the air, if ever."""
+    return next((storm for storm in flyer.storms if takeoff < storm[1] and storm[0] < end), None)
 
 
 def charged_launch(problem: Problem, drones: DroneType, path: Path, rest: Rest | None) -> int:

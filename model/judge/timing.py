@@ -13,7 +13,7 @@ from typing import NamedTuple
 from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
-from model.judge.flown_trips import charged_start, excess_of
+from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
@@ -268,18 +268,18 @@ def schedule_trip(
     """Return a trip with its times; `first` is the first of the route, if that is another.
 
     Without a start of its own it begins once `ready`, or later if that keeps parcels from being
-    aboard too long, or who flies by itself from waiting too long in the air.
+    aboard too long, or who flies by itself from waiting too long in the air, or from a storm.
     """
     trip = _schedule_trip(problem, vehicle_type, decision, ready, first)
     if decision.start is not None or not (
             problem.limits_time_aboard or problem.limits_time_between or vehicle_type.flies):
         return trip
     excess = excess_of(problem, vehicle_type, trip)
-    while excess > 0:
-        later = replace(decision, start=trip.stops[0].arrival + excess)
+    while wait := excess or wait_for_calm(vehicle_type, trip):
+        later = replace(decision, start=trip.stops[0].arrival + wait)
         held = _schedule_trip(problem, vehicle_type, later, ready, first)
         left = excess_of(problem, vehicle_type, held)
-        if left >= excess:
+        if 0 < excess <= left:
             break
         trip, excess = held, left
     return trip

@@ -9,6 +9,7 @@ import numpy as np
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import leg_start
+from model.judge.flown_trips import wait_for_calm
 from model.judge.launches import launch_duration
 from model.judge.placing import with_due_breaks
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
@@ -140,6 +141,15 @@ def try_truck(problem: Problem) -> Iterator[Attempt]:
         yield from _try_truck_at(problem, opens)
 
 
+def _judge_in_calm(problem: Problem, decision: TripDecision, start: int) -> Attempt:
+    """Return a trip that begins so, or later where who flies meets a storm."""
+    attempt = _judge(problem, decision)
+    while wait := wait_for_calm(problem.vehicle_types[0], attempt.solution.routes[0].trips[0]):
+        start += wait
+        attempt = _judge(problem, replace(decision, start=start))
+    return attempt
+
+
 def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
     """Yield trips to a customer as one of its windows opens.
 
@@ -153,7 +163,7 @@ def _try_truck_at(problem: Problem, opens: int) -> Iterator[Attempt]:
     earliest = max(vehicle_type.earliest, customer.release_time)
     setup = problem.setup_between(0, node)
     start = max(earliest, leg_start(opens - setup - vehicle_type.launch_duration, outward, profile))
-    first = _judge(problem, TripDecision((0, node, end), start=start))
+    first = _judge_in_calm(problem, TripDecision((0, node, end), start=start), start)
     yield first
     if profile is None or first.codes != {"WORKING_DURATION"}:
         return

@@ -5,7 +5,7 @@ from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods
 from model.problem.driving import REST, DrivingRules
 from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
 from model.problem.fairness import Balance, Fairness, Measure
-from model.problem.fleet import MAX_STORMS, DroneType, Pickups, SpeedProfile, VehicleType
+from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.hours import within_hours
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem
@@ -15,6 +15,7 @@ from model.problem.quantities import (
 )
 from model.problem.relation import MOST_RELATIONS, Relation
 from model.problem.shipment import Shipment
+from model.problem.storms import MAX_STORMS, Storms
 from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel
 
@@ -25,6 +26,6 @@ __all__ = [
     "USUAL_DECIMALS", "Balance", "BoolArray", "Break", "Customer", "Depot", "DepotKind",
     "DrivingRules", "DroneType", "Energy", "Fairness", "FloatArray", "IncompatibleGoods",
     "Int32Array", "IntArray", "Measure", "Overtime", "Pickups", "Points", "Problem", "Relation",
-    "ServedBy", "Shipment", "SpeedProfile", "StraightLegs", "Travel", "UIntArray", "VehicleType",
-    "within_hours",
+    "ServedBy", "Shipment", "SpeedProfile", "Storms", "StraightLegs", "Travel", "UIntArray",
+    "VehicleType", "within_hours",
 ]

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from itertools import pairwise
 from typing import Literal
 
 from model.problem.breaks import MAX_BREAKS, Break
@@ -11,11 +10,9 @@ from model.problem.driving import DrivingRules
 from model.problem.energy import Energy
 from model.problem.overtime import Overtime
 from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
+from model.problem.storms import Storms, require_storms
 
 Pickups = Literal["any", "last"]
-
-MAX_STORMS = 16
-"""How often a day is too windy, at most."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +48,7 @@ class DroneType:
     max_customers_per_sortie: int = 1
     max_range: int | None = None  # mm to customers from where it is launched, and recovered
     straight: int = 0  # index into Problem.travel, whose distances tell that
-    storms: tuple[tuple[int, int], ...] = ()  # from and until when no flight may last, ascending
+    storms: Storms = ()  # no flight may be in the air then
     cost_per_km: float = 0.0
     cost_per_hour: float = 0.0
     energy: Energy | None = None  # what a sortie may take of the battery; None: any
@@ -74,10 +71,7 @@ class DroneType:
         require_quantity("drone swap_duration", self.swap_duration)
         require_quantity("drone batteries", self.batteries or 0)
         require_quantity("drone max_range", self.max_range or 0)
-        require(len(self.storms) <= MAX_STORMS, "drone storms", len(self.storms))
-        instants = [instant for storm in self.storms for instant in storm]
-        for earlier, later in pairwise((-1, *instants)):
-            require(earlier < later <= UNLIMITED, "drone storms", self.storms)
+        require_storms("drone storms", self.storms)
         require_rate("drone cost_per_km", self.cost_per_km)
         require_rate("drone cost_per_hour", self.cost_per_hour)
 
@@ -136,6 +130,7 @@ class VehicleType:
     recovery_duration: int = 0  # of one that flies, as each trip ends
     energy: Energy | None = None  # of one that flies: what a trip may take of the battery
     max_range: int | None = None  # of one that flies: mm to customers from a trip's ends
+    storms: Storms = ()  # of one that flies: no trip may be in the air then
     has_charger: bool = False  # of one that flies: it has a place to charge at its depot already
     straight: int = 0  # index into Problem.travel, whose distances tell that
     breaks: tuple[Break, ...] = ()  # of each driver, in the order in which they are taken
@@ -178,7 +173,8 @@ class VehicleType:
         require_quantity(f"{name} recovery_duration", self.recovery_duration)
         is_said = (self.endurance != UNLIMITED or self.launch_duration > 0
                    or self.recovery_duration > 0 or self.energy is not None
-                   or self.max_range is not None)
+                   or self.max_range is not None or bool(self.storms))
+        require_storms(f"{name} storms", self.storms)
         require(self.flies or not is_said, f"{name} flies", self.flies)
         if self.flies:
             require(self.drones is None, f"{name} drones", self.drones)

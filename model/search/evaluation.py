@@ -23,8 +23,8 @@ def evaluate(instance: Instance) -> Records:
     timed = costly | (types["max_working_duration"] < UNLIMITED) | rests
     retimed = (types["speed_changes"] != NO_PROFILE) | (types["breaks"] > 0)
     flies = types["flies"] > 0
-    retimed = retimed | any_aboard(types, (types["charge"] > 0) & ((types["drones"] > 0) | flies))
-    retimed = retimed | any_aboard(types, (types["storms"] > 0) & (types["drones"] > 0))
+    awaited = (types["charge"] > 0) | (types["storms"] > 0)
+    retimed = retimed | any_aboard(types, awaited & ((types["drones"] > 0) | flies))
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)

@@ -11,7 +11,7 @@ from itertools import permutations
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import Rest, charges, first_rest, sortie_energy
-from model.judge.flown_trips import charged_start, excess_of
+from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff, storm_met
@@ -81,12 +81,12 @@ def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
                    charged_start(problem, kind, before, nodes) - timed.stops[0].arrival)
 
     excess = excess_of_last(timed)
-    while excess > 0:
-        trip = replace(trip, begins=timed.stops[0].arrival + excess)
+    while wait := max(0, excess) or wait_for_calm(kind, timed):
+        trip = replace(trip, begins=timed.stops[0].arrival + wait)
         vehicle = replace(vehicle, trips=(*vehicle.trips[:-1], trip))
         timed = _timed(problem, vehicle, trip)
         left = excess_of_last(timed)
-        if left >= excess:
+        if 0 < excess <= left:
             return None
         excess = left
     return vehicle

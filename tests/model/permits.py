@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.problem import MM_PER_KM, UNLIMITED, DroneType, Problem, Travel, VehicleType
+from model.problem import MM_PER_KM, UNLIMITED, DroneType, Problem, Storms, Travel, VehicleType
 from tests.model.tiny import MINUTE, with_drones
 
 
@@ -43,15 +43,19 @@ def with_few_airborne(rng: np.random.Generator, problem: Problem) -> Problem:
 
 
 def with_storms(rng: np.random.Generator, problem: Problem) -> Problem:
-    """Return a problem in which most drones stay aboard while it storms, some in the end."""
-    def grounded(drones: DroneType) -> DroneType:
-        if rng.random() < 0.2:
-            return drones
+    """Return a problem in which most drones don't fly while it storms, some in the end."""
+    def storms() -> Storms:
         instants = np.unique(rng.integers(0, 60, 2 * int(rng.integers(1, 4)))).tolist()
         instants = [instant * MINUTE for instant in instants[:len(instants) // 2 * 2]]
         if instants and rng.random() < 0.2:
             instants[-1:] = [UNLIMITED]
-        return replace(drones, storms=tuple(zip(instants[::2], instants[1::2], strict=True)))
+        return tuple(zip(instants[::2], instants[1::2], strict=True))
 
-    return replace(problem, vehicle_types=tuple(
-        with_drones(kind, grounded) for kind in problem.vehicle_types))
+    def grounded(drones: DroneType) -> DroneType:
+        return drones if rng.random() < 0.2 else replace(drones, storms=storms())
+
+    def of_kind(kind: VehicleType) -> VehicleType:
+        kind = with_drones(kind, grounded)
+        return replace(kind, storms=storms()) if kind.flies and rng.random() < 0.8 else kind
+
+    return replace(problem, vehicle_types=tuple(map(of_kind, problem.vehicle_types)))

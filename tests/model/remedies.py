@@ -90,7 +90,7 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if endurance were (.+) minutes? longer": _longer_endurance,
     "fits if max_range were (.+) km longer": _longer_range,
     "fits without max_wind_km(h)": lambda kind, _: replace(
-        kind, drones=replace(_drones(kind), storms=())),
+        kind, storms=(), drones=kind.drones and replace(kind.drones, storms=())),
     "fits with a battery of (.+) Wh more": _larger_battery,
     "fits if the drone capacity were at least (.+)": lambda kind, text: replace(
         kind, drones=replace(_drones(kind), capacity=_amounts(text))),

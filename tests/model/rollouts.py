@@ -202,6 +202,7 @@ class Units:
             endurance=self.limit(kind.endurance),
             launch_duration=self.time * kind.launch_duration,
             recovery_duration=self.time * kind.recovery_duration,
+            storms=tuple((self.time * begin, self.limit(end)) for begin, end in kind.storms),
             energy=None if kind.energy is None else self.energy(kind.energy),
             speed_profile=None if profile is None else SpeedProfile(
                 tuple(self.time * change for change in profile.times), profile.factors),

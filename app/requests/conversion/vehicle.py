@@ -8,12 +8,11 @@ from app.requests.conversion.energy import to_energy
 from app.requests.conversion.places import places_of_type
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths, thousandths
-from app.requests.conversion.winds import longest_calm
 from app.schemas.driving import DrivingRulesInput
-from app.schemas.drones import DronesInput, TurnaroundInput
+from app.schemas.drones import DronesInput, Flyer, TurnaroundInput
 from app.schemas.vehicle import BreakInput, OvertimeInput, VehicleTypeInput
 from model.problem import (
-    MAX_QUANTITY, UNLIMITED, Break, Depot, DrivingRules, DroneType, Overtime, VehicleType,
+    MAX_QUANTITY, UNLIMITED, Break, Depot, DrivingRules, DroneType, Overtime, Storms, VehicleType,
     within_hours,
 )
 
@@ -78,19 +77,13 @@ def _in_time(kind: VehicleType, travels: Travels) -> VehicleType:
 
 def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decimals: Sequence[int],
             amounts: Collection[Sequence[int]]) -> VehicleType:
-    """Return vehicles that fly by themselves; batteries are swapped while they reload.
-
-    They work in the longest time of their shift without a storm, with no overtime if there is one.
-    """
+    """Return vehicles that fly by themselves; batteries are swapped while they reload."""
     turnaround = stated.turnaround or TurnaroundInput()
-    storms = travels.winds.storms(stated, stated)
-    if storms:
-        begin, end = longest_calm(storms, kind.earliest, kind.latest)
-        kind = replace(kind, earliest=begin, latest=end, overtime=None)
     return replace(
         kind, flies=True,
         max_range=optional_thousandths(stated.max_range),
         straight=0 if stated.max_range is None else travels.straight(),
+        storms=_storms(stated, stated, travels),
         endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
         launch_duration=thousandths(stated.launch_duration),
         recovery_duration=thousandths(stated.recovery_duration),
@@ -128,6 +121,10 @@ def _overtime(stated: OvertimeInput | None) -> Overtime | None:
     return Overtime(stated.cost_per_hour, UNLIMITED if longest is None else thousandths(longest))
 
 
+def _storms(kind: VehicleTypeInput, flyer: Flyer, travels: Travels) -> Storms:
+    return tuple([(storm.begin, storm.end) for storm in travels.winds.storms(kind, flyer)])
+
+
 def _drones(kind: VehicleTypeInput, stated: DronesInput, travels: Travels, decimals: Sequence[int],
             amounts: Collection[Sequence[int]]) -> DroneType:
     turnaround = stated.turnaround or TurnaroundInput()
@@ -139,8 +136,7 @@ def _drones(kind: VehicleTypeInput, stated: DronesInput, travels: Travels, decim
         endurance=UNLIMITED if stated.endurance is None else thousandths(stated.endurance),
         endurance_includes_waiting=stated.endurance_includes_waiting,
         max_range=optional_thousandths(stated.max_range),
-        storms=tuple([(storm.begin, storm.end)
-                      for storm in travels.winds.storms(kind, stated)]),
+        storms=_storms(kind, stated, travels),
         straight=0 if stated.max_range is None else travels.straight(),
         launch_duration=thousandths(stated.launch_duration),
         recovery_duration=thousandths(stated.recovery_duration),

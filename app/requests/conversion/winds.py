@@ -90,19 +90,6 @@ def _together(earlier: Storm, later: Storm) -> Storm:
     return Storm(earlier.begin, later.end, max(earlier.strongest_kmh, later.strongest_kmh))
 
 
-def longest_calm(storms: Sequence[Storm], begin: int, end: int) -> tuple[int, int]:
-    """Return from when until when it doesn't storm for longest between two instants.
-
-    No time at all as the first begins, if it always does.
-    """
-    calms, since = [(begin, begin)], begin
-    for storm in storms:
-        calms.append((since, min(storm.begin, end)))
-        since = max(since, storm.end)
-    calms.append((since, end))
-    return max(calms, key=lambda calm: calm[1] - calm[0])
-
-
 def _is_storm(hour: Hour, drones: Flyer) -> bool:
     return drones.max_wind_kmh is not None and hour.strongest_kmh > drones.max_wind_kmh
 

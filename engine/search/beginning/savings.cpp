@@ -103,30 +103,44 @@ bool may_travel_as_one(const ProblemData& data, const Chains& chains, const Join
                                 travel_between(data, type, joint.tail, type.ends_at));
 }
 
-// Tells whether who flies by itself may fly two routes as one trip, as soon as all parcels are
-// there.
-bool flies_as_one(const ProblemData& data, const Chains& chains, const Joint& joint) {
+// Returns how much later who flies by itself has to begin two routes as one trip than at `start`,
+// for calm; `far` if that doesn't help. `weight` is aboard at first.
+Int delay_as_one(const ProblemData& data, const Chains& chains, const Joint& joint, Int weight,
+                 Int start) {
     const auto& [type, legs, places, chain] = chains;
     const NodeTable weighed = data.place.by_air(type);
     const auto behind = [&](Int node) { return node == joint.a ? joint.b : chain[node].behind; };
-    Int weight = 0, start = type.shift_earliest;
-    for (Int node = joint.head; node != nowhere; node = behind(node)) {
-        weight += weight_brought(weighed[node]);
-        start = std::max(start, release_of(places[node]));
-    }
     FlownTrip trip(type, weight);
     Int here = type.begins_at, time = start;
     for (Int node = joint.head; node != nowhere; node = behind(node)) {
         const Int way = leg(legs, here, node).duration;
-        if (places[node].too_late(time + way)) return false;
+        if (places[node].too_late(time + way)) return far;
         trip.fly_to(weighed[node], way, node == joint.head, weighed[node].waiting(time + way));
         time = places[node].end_of_service(time + way);
         here = node;
     }
     const Int home = leg(legs, here, type.ends_at).duration;
     trip.fly_home(home, false);
-    return may_end(type, time + home) && time + home - start <= longest_in_air(type) &&
-           (!is_limited(type) || trip.left() >= 0);
+    const bool done = may_end(type, time + home) && time + home - start <= longest_in_air(type) &&
+                      (!is_limited(type) || trip.left() >= 0);
+    return done ? wait_for_calm(type, start, time + home) : far;
+}
+
+// Tells whether who flies by itself may fly two routes as one trip, as soon as all parcels are
+// there and it is calm.
+bool flies_as_one(const ProblemData& data, const Chains& chains, const Joint& joint) {
+    Int weight = 0, start = chains.type.shift_earliest;
+    const NodeTable weighed = data.place.by_air(chains.type);
+    for (Int node = joint.head; node != nowhere;
+         node = node == joint.a ? joint.b : chains.chain[node].behind) {
+        weight += weight_brought(weighed[node]);
+        start = std::max(start, release_of(chains.places[node]));
+    }
+    while (true) {
+        const Int delay = delay_as_one(data, chains, joint, weight, start);
+        if (delay == 0 || delay == far) return delay == 0;
+        start += delay;
+    }
 }
 
 // Puts the route that begins with `b` behind that which ends with `a`.

@@ -10,11 +10,10 @@ namespace {
 // Return when a timed trip begins.
 Int start_of(View<const Stop, 1> stops, const Trip& trip) { return stops[trip.first].leave; }
 
-// Return with what a vehicle ends a trip, and when it begins to be charged.
-Charge charge_behind(const VehicleType& type, View<const Stop, 1> stops, const Trip& trip,
-                     const Charge& before, Int left) {
-    const Int there = charged(type, before.kept, before.since, start_of(stops, trip));
-    return {there - (battery_of(type) - left), stops[trip.last].leave};
+// Return what a timed trip leaves of a full battery.
+Int left_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                const Trip& trip) {
+    return follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).left();
 }
 
 }  // namespace
@@ -67,35 +66,34 @@ Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 
         follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).excess());
 }
 
-bool charge_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                  View<const Trip, 1> trips, View<Sortie, 1> sorties) {
+Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                   const Trip& trip) {
+    return wait_for_calm(data.type[route.type], start_of(stops, trip), stops[trip.last].leave);
+}
+
+Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                     const Trip& trip, const Charge& before) {
+    const Int left = left_behind(data, route, stops, trip);
+    if (left < 0) return far;
+    return time_charged(data.type[route.type], before.kept, before.since, left) -
+           start_of(stops, trip);
+}
+
+Charge charge_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                     const Trip& trip, const Charge& before) {
     const VehicleType& type = data.type[route.type];
-    Charge before = first_charge(type, 0);
-    for (const Trip& trip : trips.first(route.trips)) {
-        Int left = 0;
-        while (true) {
-            left = follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true)
-                       .left();
-            if (left < 0) return false;
-            const Int ready = time_charged(type, before.kept, before.since, left);
-            if (start_of(stops, trip) >= ready) break;
-            stops[trip.first].release = std::max(stops[trip.first].release, ready);
-            if (!drive_forward(data, route, stops, sorties)) return false;
-        }
-        before = charge_behind(type, stops, trip, before, left);
-    }
-    return true;
+    const Int there = charged(type, before.kept, before.since, start_of(stops, trip));
+    const Int taken = battery_of(type) - left_behind(data, route, stops, trip);
+    return {there - taken, stops[trip.last].leave};
 }
 
 bool lacks_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips) {
-    const VehicleType& type = data.type[route.type];
-    Charge before = first_charge(type, 0);
+    Charge before = first_charge(data.type[route.type], 0);
     for (const Trip& trip : trips.first(route.trips)) {
-        const Int left =
-            follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).left();
-        before = charge_behind(type, stops, trip, before, left);
-        if (left < 0 || before.kept < 0) return true;
+        if (left_behind(data, route, stops, trip) < 0) return true;
+        before = charge_behind(data, route, stops, trip, before);
+        if (before.kept < 0) return true;
     }
     return false;
 }

@@ -31,9 +31,20 @@ bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int
 Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   const Trip& trip);
 
-// Hold trips until their batteries are charged. In place; false if that can't be.
-bool charge_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
-                  View<const Trip, 1> trips, View<Sortie, 1> sorties);
+// Return how much later a timed trip has to begin for calm; 0 if it needn't, `far` if that doesn't
+// help.
+Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                   const Trip& trip);
+
+// Return how much later a timed trip has to begin for its battery to be charged, with what there
+// was `before`; at most 0 if it needn't, `far` if that doesn't help.
+Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                     const Trip& trip, const Charge& before);
+
+// Return with what a vehicle ends a timed trip, with what there was `before`, and since when it is
+// charged.
+Charge charge_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                     const Trip& trip, const Charge& before);
 
 // Tell whether a timed trip begins before its battery is charged, if any does.
 bool lacks_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,

@@ -96,26 +96,33 @@ bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 
     }
     const View<const Trip, 1> made = trips.first(route.trips);
     return std::any_of(made.begin(), made.end(), [&](const Trip& trip) {
-        return most_excess(data, route, stops, trip, sorties) > 0;
+        return most_excess(data, route, stops, trip, sorties) > 0 ||
+               waits_for_calm(data, route, stops, trip) > 0;
     });
 }
 
 bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
                 View<const Trip, 1> trips, View<Sortie, 1> sorties) {
+    const VehicleType& type = data.type[route.type];
+    const bool charging = charges_between_trips(type);
+    Charge charge = charging ? first_charge(type, 0) : Charge{};
     for (const Trip& trip : trips.first(route.trips)) {
         Int excess = most_excess(data, route, stops, trip, sorties);
-        while (excess > 0) {
-            if (excess == far) return false;
+        while (true) {
+            Int wait = excess > 0 ? excess : waits_for_calm(data, route, stops, trip);
+            if (wait == 0 && charging) wait = waits_for_charge(data, route, stops, trip, charge);
+            if (wait <= 0) break;
+            if (wait == far) return false;
             Stop& stop = stops[trip.first];
-            stop.release = std::max(stop.arrival, stop.release) + excess;
+            stop.release = std::max(stop.arrival, stop.release) + wait;
             if (!drive_forward(data, route, stops, sorties)) return false;
             const Int left = most_excess(data, route, stops, trip, sorties);
-            if (left >= excess) return false;
+            if (excess > 0 && left >= excess) return false;
             excess = left;
         }
+        if (charging) charge = charge_behind(data, route, stops, trip, charge);
     }
-    return !charges_between_trips(data.type[route.type]) ||
-           charge_trips(data, route, stops, trips, sorties);
+    return true;
 }
 
 }  // namespace tandem

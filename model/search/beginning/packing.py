@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from model.problem import MS_PER_HOUR, UNLIMITED, Problem, VehicleType
+from model.problem import MS_PER_HOUR, UNLIMITED, Problem, Storms, VehicleType
 from model.search.beginning.stock import left_at
 from model.search.beginning.translate import (
     best_plan, left_out, make_searcher, read_routes,
@@ -154,6 +154,7 @@ class _Leg:
     ready: int  # all its parcels are there
     latest: int  # start by which it is in time, if nobody waits
     busy: int  # how long its vehicle is until it may begin another
+    storms: Storms = ()  # between which starts it would meet one
 
     @property
     def slack(self) -> int:
@@ -164,6 +165,22 @@ class _Leg:
     def leeway(self) -> int:
         """The same, less for one that takes long."""
         return self.slack - self.busy
+
+    def soonest(self, free: int) -> int:
+        """Return its first start once its vehicle is free."""
+        start = max(self.ready, free)
+        for before, behind in self.storms:
+            if before < start < behind:
+                start = behind
+        return start
+
+    def last(self, bound: int) -> int:
+        """Return its last start up to a bound."""
+        start = min(self.latest, bound)
+        for before, behind in reversed(self.storms):
+            if before < start < behind:
+                start = before
+        return start
 
 
 @dataclass
@@ -180,7 +197,7 @@ class _Row:
         best = math.inf, 0
         for place in range(bisect_left(self.latest, leg.ready + leg.busy), len(self.legs) + 1):
             free = self.free[place - 1] if place else self.earliest
-            start = max(leg.ready, free)
+            start = leg.soonest(free)
             if start > leg.latest:
                 break
             end, cost = start + leg.busy, float(start - free if place else 0)
@@ -188,7 +205,7 @@ class _Row:
                 if end > self.latest[place]:
                     continue
                 behind = self.legs[place]
-                cost += max(0, behind.ready - end)
+                cost += behind.soonest(end) - end
                 cost += SOONER * max(0, end - (self.free[place] - behind.busy))
             best = min(best, (cost, place))
         return best
@@ -200,12 +217,11 @@ class _Row:
         self.latest.insert(place, 0)
         for index in range(place, len(self.legs)):
             free = self.free[index - 1] if index else self.earliest
-            self.free[index] = max(self.legs[index].ready, free) + self.legs[index].busy
+            self.free[index] = self.legs[index].soonest(free) + self.legs[index].busy
+        bound = UNLIMITED
         for index in range(len(self.legs) - 1, -1, -1):
-            latest = self.legs[index].latest
-            if index + 1 < len(self.legs):
-                latest = min(latest, self.latest[index + 1] - self.legs[index].busy)
-            self.latest[index] = latest
+            self.latest[index] = self.legs[index].last(bound)
+            bound = self.latest[index] - (self.legs[index - 1].busy if index else 0)
 
 
 def _packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int) -> list[_Row]:
@@ -271,10 +287,13 @@ class _Timing:
         home = self._duration.item(here, kind.ends_at) + kind.recovery_duration
         latest = min(latest, kind.latest - spent - home)
         airborne = time + home - ready
-        if ready > latest or ready + airborne > kind.latest:
-            return None
-        return _Leg(trip, ready, latest,
-                    airborne + max(kind.reload_duration, self._charging(airborne)))
+        storms = tuple([(begin + kind.recovery_duration - airborne, end - kind.launch_duration)
+                        for begin, end in kind.storms])
+        found = _Leg(trip, ready, latest,
+                     airborne + max(kind.reload_duration, self._charging(airborne)), storms)
+        found = replace(found, ready=found.soonest(ready), latest=found.last(latest))
+        is_late = found.ready > found.latest or found.ready + airborne > kind.latest
+        return None if is_late else found
 
     def _charging(self, airborne: int) -> int:
         """Return how long a battery is charged at most after so long a trip; 0: it is full at once.

@@ -187,15 +187,21 @@ def test_hubs_drones_serve_nobody_beyond_their_range(client: httpx.Client,
     assert not is_feasible(client, by_air(request, max_range=5500), farther)
 
 
-def test_hubs_drones_fly_in_the_longest_calm(client: httpx.Client, smallest: Request) -> None:
-    request = by_air(smallest, max_wind_kmh=40, shift={"latest": 6 * 3600})
+def test_hubs_drones_fly_in_each_calm(
+        client: httpx.Client, searching: httpx.Client, smallest: Request) -> None:
+    request = by_air(smallest, max_wind_kmh=40, count=1, shift={"latest": 6 * 3600})
     request["airspace"] = {"wind": [{"from": 3600 * hour, "speed_kmh": 0, "gust_kmh": gust}
                                     for hour, gust in ((0, 10), (1, 60), (2, 10), (5, 60))]}
-    plan = planned(client, request)
+    early, late = request["customers"]
+    early["time_window"] = {"latest": 3600}
+    late["time_window"] = {"earliest": 7000, "latest": 5 * 3600}
+    plan = planned(searching, request)
     assert plan["unassigned"] == []
-    for trip in trips_of(plan):
-        assert trip["stops"][0]["arrival"] >= 7200
-        assert trip["stops"][-1]["departure"] <= 5 * 3600
+    first, second = trips_of(plan)
+    assert first["stops"][-1]["arrival"] <= 3600
+    assert second["stops"][0]["departure"] >= 7200
+    early["time_window"] = late["time_window"]
+    assert is_feasible(client, request, plan) is False
     request["airspace"]["wind"] = {"speed_kmh": 50}
     assert len(planned(client, request)["unassigned"]) == 2
 

@@ -59,18 +59,16 @@ def test_it_is_told_in_times_of_the_day(client: httpx.Client, smallest: Request)
     assert reason["wind"][0]["begin"] == "09:00:00"
 
 
-@pytest.mark.parametrize("latest", [None, 3 * HOUR])
-def test_vehicles_that_fly_tell_in_which_calm_time_they_do(
-        client: httpx.Client, smallest: Request, latest: float | None) -> None:
-    request = windy(smallest, flies=True, max_wind_kmh=40, shift={"latest": latest})
-    if latest is not None:
+@pytest.mark.parametrize(("changed", "code"), [
+    ({}, "TIME_WINDOW"), ({"shift": {"latest": 2 * HOUR + 60}}, "SHIFT")])
+def test_whom_vehicles_that_fly_come_too_late_to_for_the_wind_is_told_when_it_blows(
+        client: httpx.Client, smallest: Request, changed: Request, code: str) -> None:
+    request = windy(smallest, flies=True, max_wind_kmh=40, **changed)
+    if changed:
         request["customers"][0]["time_window"]["latest"] = 3 * HOUR
-    plan = planned(client, request)
-    reason, = plan["unassigned"][0]["reasons"]
-    assert reason["wind"] == [storm()]
-    assert "It blows up to 55 km/h from 3600 s until 7200 s." in reason["message"]
-    calm = "from 7200 s alone" if latest is None else "from 0 s until 3600 s alone"
-    assert f"It flies {calm}, the longest calm time of the shift." in reason["message"]
+    reason, = planned(client, request)["unassigned"][0]["reasons"]
+    assert (reason["code"], reason["wind"]) == (code, [storm()])
+    assert reason["message"].endswith(". It blows up to 55 km/h from 3600 s until 7200 s.")
 
 
 def test_other_reasons_are_told_as_ever(client: httpx.Client, smallest: Request) -> None:

@@ -97,6 +97,17 @@ def test_reason_of_a_drone(code, on_drones, message, remedy, tiny_problem, custo
     assert reason_for_d(applied(problem, reason, 4)).code == "SEARCH"
 
 
+def test_reason_of_who_flies_in_a_storm(tiny_problem, customers, truck):
+    flyer = replace(truck, flies=True, storms=((0, UNLIMITED),))
+    problem = tiny_problem(*customers, truck=flyer)
+    reason = reason_for_d(problem)
+    assert reason == Reason(0, "WIND", "The wind is too strong for a flight there and back, by "
+                            "max_wind_kmh.", "fits without max_wind_kmh")
+    assert reason_for_d(applied(problem, reason, 4)).code == "SEARCH"
+    over = replace(flyer, storms=((0, 30 * MINUTE),))
+    assert reason_for_d(tiny_problem(*customers, truck=over)).code == "SEARCH"
+
+
 def test_no_drone_may_take_off(tiny_problem, customers, truck, drones):
     *others, d = [replace(customer, launch=False) for customer in customers]
     problem = tiny_problem(*others, replace(d, served_by="drone"),

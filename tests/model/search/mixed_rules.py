@@ -82,10 +82,11 @@ def all_rules_drone_types(rng: np.random.Generator) -> Problem:
 
 
 def all_rules_in_storms(rng: np.random.Generator) -> Problem:
-    """Return problems some of whose drones stay aboard while it storms."""
+    """Return problems some of whose drones, or vehicles that fly, don't while it storms."""
     while True:
-        problem = with_storms(rng, all_rules(rng))
-        if any(drones.storms for kind in problem.vehicle_types for drones in kind.drone_types):
+        problem = with_storms(rng, with_fliers(rng, all_rules(rng), 0.3))
+        if any(kind.storms or any(drones.storms for drones in kind.drone_types)
+               for kind in problem.vehicle_types):
             return with_gaps(rng, problem) if rng.random() < 0.3 else problem
 
 

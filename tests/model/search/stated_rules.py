@@ -51,6 +51,7 @@ RULES = {
     "it is too windy at times": with_vehicles(
         drones=replace(DRONES, storms=((HOUR, 2 * HOUR),))),
     "trips in the air are limited": with_vehicles(flies=True, endurance=HOUR),
+    "trips in the air wait for calm": with_vehicles(flies=True, storms=((HOUR, 2 * HOUR),)),
     "batteries are charged between trips": with_vehicles(flies=True, energy=BATTERY),
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),

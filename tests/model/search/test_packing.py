@@ -77,6 +77,18 @@ def test_batteries_are_charged_between_packed_trips() -> None:
     assert trips_of(charged, (1,), (2,)) == [[(1,)], [(2,)]]
 
 
+def test_trips_are_packed_around_a_storm() -> None:
+    """One is over before it, one fits in behind; a long one that can't wait comes first."""
+    kind = replace(DRONE, storms=((5 * MINUTE, 60 * MINUTE),))
+    problem = street(order("a", latest=100), order("b", latest=3), kind=kind)
+    assert trips_of(problem, (1,), (2,)) == [[(2,), (1,)]]
+    route = schedule(problem, RouteDecision(0, 0, (TripDecision((0, 2, 0)),
+                                                   TripDecision((0, 1, 0)))))
+    assert [trip.stops[0].departure for trip in route.trips] == [MINUTE, 60 * MINUTE]
+    assert check(problem, Solution((route,))).violations == ()
+    assert trips_of(street(order("a"), order("b"), order("c", 4, 59), kind=kind), (3,)) == []
+
+
 def test_numbers_of_the_search_are_those_of_the_problem_by_a_list() -> None:
     problem = street(order("a", latest=2), order("b"))
     routes = packed_routes(problem, 0, [(1,), (2,)], [0, 2, 1])

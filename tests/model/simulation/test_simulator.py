@@ -143,6 +143,10 @@ def fliers_in_range(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_ranges(rng, with_fliers(rng, problem))
 
 
+def fliers_in_storms(rng: np.random.Generator, problem: Problem) -> Problem:
+    return with_storms(rng, with_some(rng, with_fliers(rng, problem), with_gaps, with_duty))
+
+
 def few_airborne_in_no_time(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem in which launches and recoveries take no time, and happen at once."""
     problem = with_few_airborne(rng, problem)
@@ -178,7 +182,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
     few_at_hubs_among_all, with_storms,
-    storms_among_all, fliers_in_range, with_launch_sites, few_airborne_in_no_time,
+    storms_among_all, fliers_in_range, fliers_in_storms, with_launch_sites, few_airborne_in_no_time,
     with_vehicle_costs, with_relations])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:

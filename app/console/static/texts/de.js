@@ -599,7 +599,6 @@ export default {
       zone: 'Keine Drohne landet in {{zone}}',
       each: '{{who}}: {{why}}',
       costs: 'kann kommen, für {{sum}}.',
-      calm: '{{who}} fliegt nur in der längsten Zeit ohne Böen über {{most}} km/h.',
       untried: 'In der Zeit, die da war, fand sich kein Flug dorthin.',
     },
     notAtAll: 'Gar nicht',

@@ -589,7 +589,6 @@ export default {
       zone: 'No drone lands in {{zone}}',
       each: '{{who}}: {{why}}',
       costs: 'may come, for {{sum}}.',
-      calm: '{{who}} flies only in the longest time without gusts above {{most}} km/h.',
       untried: 'No flight there was found in the time there was.',
     },
     notAtAll: 'Not at all',

@@ -124,23 +124,12 @@ export function noDroneInWords(
     .filter(({ vehicle_type: id, code }) => isOfDrones(request, id, code))
     .map((reason) => t('why.noDrone.each', { who: reason.vehicle_type, why: saidOf(reason) }));
   const found = [...new Set([...own, ...inZones, ...left, ...told])];
-  if (!found.length) return [t('why.noDrone.untried')];
-  const hindered = new Set(flown.filter((item) => !item.feasible).map(({ vehicle }) => vehicle));
-  return [...found, ...calmHours(request, hindered)];
+  return found.length ? found : [t('why.noDrone.untried')];
 }
 
 /** Tell whether a reason why a customer is left out is one of what flies. */
 function isOfDrones({ fleet }, id, code) {
   return fleet.some((type) => type.id === id && (type.flies || OF_DRONES.has(code)));
-}
-
-/** Return what wind does to the shifts of vehicles that fly, of some by name. */
-function calmHours({ fleet, airspace }, names) {
-  if (!airspace?.wind) return [];
-  return fleet
-    .filter(({ id, flies, max_wind_kmh: most }) => flies && most != null
-      && [...names].some((name) => name.slice(0, name.lastIndexOf('-')) === id))
-    .map(({ id, max_wind_kmh: most }) => t('why.noDrone.calm', { who: id, most: number(most) }));
 }
 
 /** Return a sentence for a limit that binds, or a rule without a number. */
