@@ -1384,6 +1384,8 @@ int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* se
 
 /* Take all routes apart. */
 int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher);
+/* Take the route apart, without sorties, whose customers were left out after the fewest turns. */
+int tandem_give_up_route(const tandem_problem_data* data, const tandem_searcher* searcher);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */

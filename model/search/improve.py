@@ -13,11 +13,12 @@ from model.engine.alarm import Alarm
 from model.engine.instance import Instance, pack
 from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
-from model.search.beginning.construct import begin_anew
+from model.search.beginning.construct import begin_anew, begin_by_types
 from model.search.beginning.packing import (
     comes_by_trips, packed_anew, packed_plan, timed, with_single_trips,
 )
 from model.search.beginning.translate import best_plan, make_searcher
+from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
 from model.search.linked.engine import measure_near
@@ -315,8 +316,8 @@ def _begin(data: ProblemData, whole: Searcher, linked: Linked | None, fresh: boo
         hurried = data._replace(deadline=alarm.setting)
         begin_anew(data, whole, fresh and not is_best, hurried, linked)
         if fresh and data.strategy.change_vehicles and not by_savings:
-            _begin_by_types(hurried, whole, limits,
-                            BEGINNING_SHARE if is_large else MOST_BEGINNING)
+            most = BEGINNING_SHARE if is_large else MOST_BEGINNING
+            begin_by_types(hurried, whole, lambda: limits.turns is None and limits.share(0) > most)
 
 
 def _search(team: _Team, data: ProblemData, crew: Crew,
@@ -328,6 +329,9 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
     one long search came further; in large problems the parts of a plan differ, not the whole.
     """
     whole, first = team.whole, team.workers[0]
+    if first.heat.vehicles_first:
+        _search_by_fewer(team, data, crew)
+        return
     starts = None
     if data.strategy.scan_all and not first.heat.drones and first.cooled == 0.0:
         starts = Starts(data, whole, seeds, first.linked)
@@ -346,20 +350,16 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
         team.search(crew, rest)
 
 
-def _begin_by_types(data: ProblemData, whole: Searcher, limits: Limits, most: float) -> None:
-    """Plan anew by vehicles of one type after another as far as they go. In place: the best plan.
-
-    What a route costs its first customer says nothing of how many more a larger vehicle serves.
-    None is tried after a share of `most`.
-    """
-    alone = whole.alone
-    dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
-    for k in range(data.num_types):
-        if limits.turns is None and limits.share(0) > most:
-            return
-        others_last = alone + dearest
-        others_last[k] = alone[k]
-        begin_anew(data, whole._replace(alone=others_last), True)
+def _search_by_fewer(team: _Team, data: ProblemData, crew: Crew) -> None:
+    """Search for plans by fewer vehicles first, then for shorter ones. In place."""
+    first = team.workers[0]
+    team.search(crew, WHOLE, rounds=1)
+    span = Span(team.limits.share(first.turns), FEWER_SHARE, 1.0)
+    if not team.over(span):
+        search_fewer(data, team.whole, lambda: team.search(crew, span, rounds=1),
+                     lambda: team.over(span))
+    if not team.over():
+        team.search(crew, Span(team.limits.share(first.turns), 1.0, 1.0))
 
 
 def _trucks_come_first(problem: Problem, moves: Moves) -> bool:

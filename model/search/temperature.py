@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 
+from model.search.fewer_vehicles import fixed_costs, vehicles_first
 from model.search.route.engine import leg_cost, missing_cost
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
@@ -46,6 +47,7 @@ class Heat:
     single_drones: bool  # some type has one, and a choice whom it flies to
     small_moves: bool  # trips of such are annealed by small moves
     large: bool  # there are thousands of customers, and loads alone limit routes
+    vehicles_first: bool  # each costs more than all that those there are do
     from_trucks: bool  # the search began with a plan for trucks alone
     hot: float | None  # first temperature by the cost of a leg, if it is stated
     cold: float | None  # last
@@ -54,16 +56,18 @@ class Heat:
     def of(cls, data: ProblemData, searcher: Searcher, is_large: bool, from_trucks: bool,
            hot: float | None, cold: float | None) -> "Heat":
         """Measure the routes as they are, of thousands of customers if `is_large`."""
-        missing = int(searcher.count.missing)
+        missing, is_fleet = int(searcher.count.missing), vehicles_first(data, searcher)
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(data, searcher)
+        if is_fleet:
+            cost -= fixed_costs(data, searcher)
         drones = data.type["drones"][:data.num_types]
         # Where parts of trips have ends of shipments alone, none is split, but many fly.
         split = data.strategy.resplit or (bool((drones == 1).any()) and len(data.pair) > 0)
         large = is_large and are_alike(data) and only_loads_limit(data)
         return cls(cost / served, leg_cost(data, searcher), data.num_types,
                    bool((drones > 0).any()), split, data.strategy.small_moves,
-                   large, from_trucks, hot, cold)
+                   large, is_fleet, from_trucks, hot, cold)
 
     def ends(self, turns: float, factor: float) -> tuple[float, float]:
         """Return the first and the last temperature.

@@ -29,9 +29,55 @@ void disband(const ProblemData& data, Searcher& searcher) {
     list_active(searcher);
 }
 
+// Return how seldom those of a route were left out after a turn, and how few they are; least first.
+Int absences_of(const ProblemData& data, const Searcher& searcher, Int slot) {
+    const Fleet& now = searcher.now;
+    Int sum = 0;
+    for (const Stop& stop : now.stop[slot].first(now.route[slot].length)) {
+        if (stop.kind == customer_stop && !is_delivery(data.pair, stop.node)) {
+            sum += 1 + searcher.absences[stop.node];
+        }
+    }
+    return sum;
+}
+
+void give_up_route(const ProblemData& data, Searcher& searcher) {
+    const Fleet& now = searcher.now;
+    SearchCounts& count = *searcher.count;
+    const View<const Int, 1> active = searcher.active.first(count.active);
+    Int slot = active[0];
+    for (const Int other : active) {
+        if (absences_of(data, searcher, other) < absences_of(data, searcher, slot)) slot = other;
+    }
+    Route& route = now.route[slot];
+    double cost = searcher.value->cost - now.cost[slot];
+    for (const Stop& stop : now.stop[slot].first(route.length)) {
+        if (stop.kind != customer_stop) continue;
+        now.where[stop.node].slot = nowhere;
+        if (is_delivery(data.pair, stop.node)) continue;
+        searcher.missing[count.missing++] = stop.node;
+        cost += data.unassigned_cost + data.unassigned_more[stop.node];
+    }
+    route.stamp = ++count.stamp;
+    route.length = route.sorties = route.trips = 0;
+    now.cost[slot] = 0.0;
+    --now.used[route.type];
+    list_anew(searcher, slot, false);
+    note_changed(searcher, slot);
+    searcher.value->cost = cost;
+}
+
 }  // namespace tandem
 
 using namespace tandem;
+
+extern "C" int tandem_give_up_route(const tandem_problem_data* data,
+                                    const tandem_searcher* searcher) {
+    return guarded([&] {
+        Searcher searching = searcher_of(*searcher);
+        give_up_route(data_of(*data), searching);
+    });
+}
 
 extern "C" int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher) {
     return guarded([&] {

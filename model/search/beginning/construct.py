@@ -1,6 +1,9 @@
 """Plans by insertion alone, for the search to begin with."""
 
 import math
+from collections.abc import Callable
+
+import numpy as np
 
 from model.engine.alarm import has_rung
 from model.engine.library import call
@@ -49,6 +52,21 @@ def begin_again(data: ProblemData, searcher: Searcher, linked: Linked | None = N
     """Plan all anew by insertion, whatever there is. In place."""
     searcher.value.best = math.inf
     _construct(data, searcher, linked)
+
+
+def begin_by_types(data: ProblemData, whole: Searcher, is_over: Callable[[], bool]) -> None:
+    """Plan anew by vehicles of one type after another as far as they go. In place: the best plan.
+
+    What a route costs its first customer says nothing of how many more a larger vehicle serves.
+    """
+    alone = whole.alone
+    dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
+    for k in range(data.num_types):
+        if is_over():
+            return
+        others_last = alone + dearest
+        others_last[k] = alone[k]
+        begin_anew(data, whole._replace(alone=others_last), True)
 
 
 def _construct(data: ProblemData, searcher: Searcher, linked: Linked | None) -> None:
