@@ -209,7 +209,7 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     samples = options.num_samples if options.decoding == "sample" else None
     number = problem.num_customers
     kind, *others = problem.vehicle_types
-    if problem.shipments or any(each.flies for each in problem.vehicle_types):
+    if problem.other_nodes or any(each.flies for each in problem.vehicle_types):
         # Policies know nothing of who belongs together, nor of what trips take in the air.
         return False
     share = DECODING_SHARE
@@ -252,7 +252,7 @@ def _judged(judge: Memory, solution: Solution) -> _Judged:
 
 def _nobody(problem: Problem) -> Solution:
     """Return the plan that serves no customer."""
-    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    return Solution((), problem.left_out(()))
 
 
 def _pause(listener: Listener, deadline: float | None, start: Solution | None) -> Pause:
@@ -281,7 +281,7 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     begun = None if first is None else first.solution
     turns = options.search_iterations
     terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
-    whole = (turns == 0 or bool(problem.shipments) or bool(problem.relations)
+    whole = (turns == 0 or bool(problem.other_nodes) or bool(problem.relations)
              or problem.fairness.is_stated)
     joint = None if whole else find_joint(problem, terms.ended)
     if joint is None:

@@ -8,6 +8,7 @@ from typing import Any
 
 from app.plans.energy import energy_models, energy_wh, left_by_sorties, left_by_trips
 from app.requests.conversion.units import money, whole
+from app.schemas.customer import place_name
 from app.schemas.driving import REST_ID
 from model.judge.check import Evaluation
 from model.judge.hubs import taken_at_hubs
@@ -176,7 +177,7 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
         kind, name = "pickup" if stop.node == shipment.pickup else "delivery", shipment.id
     return {
         "kind": kind,
-        "id": name,
+        **({"id": name} if is_depot or kind != "customer" else place_reply(problem, stop.node)),
         "arrival": stop.arrival / 1000,
         "service_start": stop.service_start / 1000,
         "departure": stop.departure / 1000,
@@ -185,6 +186,15 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
         "lateness": 0.0 if is_depot else _lateness(problem, stop),
         "load": _amounts(problem, load),
     }
+
+
+def place_reply(problem: Problem, node: int) -> Data:
+    """Return who is served at a node, and at which place if it isn't his own."""
+    name, first = problem.customer_at(node).id, problem.first_place(node)
+    if node == first:
+        return {"id": name}
+    own = problem.customer_at(first).id
+    return {"id": own, "alternative": name.removeprefix(place_name(own, ""))}
 
 
 def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
@@ -214,7 +224,7 @@ def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
         "load": _amounts(problem, metrics.loads[0]),
         "customers": [
             {
-                "id": problem.customer_at(visit.node).id,
+                **place_reply(problem, visit.node),
                 "arrival": visit.arrival / 1000,
                 "service_start": visit.service_start / 1000,
                 "departure": visit.departure / 1000,
@@ -287,12 +297,12 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
     flown = _flown_by_themselves(problem, solution, evaluation)
     served = _served(problem, solution)
     rates = [min(trip.load_rate, MAX_RATE) for trip in trips] or [0.0]
+    left_out = problem.left_out(served)
     return {
-        "customers": problem.num_customers,
+        "customers": len(served) + len(left_out),
         "served": len(served),
-        "must_unserved": sum(problem.must_be_served(customer) for node, customer
-                             in enumerate(problem.customers, problem.num_depots)
-                             if node not in served),
+        "must_unserved": sum([problem.must_be_served(problem.customer_at(node))
+                              for node in left_out]),
         "vehicles": len(solution.routes),
         "trips": len(trips),
         "sorties": len(sorties),

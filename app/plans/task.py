@@ -257,8 +257,9 @@ def telling(violations: Sequence[Violation]) -> list[Violation]:
 def _terms(replan: ReplanInput, problem: Problem) -> Terms:
     plan = read_earlier_plan(replan.plan, problem)
     names = set(replan.pinned)
-    pinned = frozenset(node for node, customer in enumerate(problem.customers, problem.num_depots)
-                       if replan.pin_all or customer.id in names)
+    pinned = frozenset(
+        place for node, customer in enumerate(problem.customers, problem.num_depots)
+        if replan.pin_all or customer.id in names for place in problem.places_of(node))
     unavailable, grounded = set[Vehicle](), defaultdict[Vehicle, set[int]](set)
     types = {kind.type_id for kind in problem.vehicle_types}
     for name in replan.unavailable:

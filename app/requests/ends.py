@@ -1,29 +1,50 @@
-"""Where a request states the ends of shipments, which count as customers behind its own."""
+"""Where a request states who counts as customers behind its own: other places, and ends."""
 
 import re
+from collections.abc import Iterator
 
+from app.schemas.customer import AlternativeInput, place_name
 from app.schemas.request import PlanRequest
-from app.schemas.shipment import ENDS
+from app.schemas.shipment import ENDS, end_name
 
 _CUSTOMER = re.compile(r"\$\.customers\[(\d+)\](.*)", re.DOTALL)
+
+OWN = frozenset(AlternativeInput.model_fields)
+"""What other places state; all else is said by the customer."""
+
+
+def added_names(request: PlanRequest) -> Iterator[str]:
+    """Yield the names of all who count as customers beside those stated."""
+    for customer in request.customers:
+        for place in customer.alternatives:
+            yield place_name(customer.id, place.id)
+    for shipment in request.shipments:
+        for kind in ENDS:
+            yield end_name(shipment.id, kind)
 
 
 def stated_path(request: PlanRequest, path: str) -> str:
     """Return the path of what a request states, by that among all who count as customers."""
     match = _CUSTOMER.fullmatch(path)
-    ends = len(ENDS) * len(request.shipments)
-    if match is None or not ends:
+    if match is None:
         return path
+    others = [(number, place) for number, customer in enumerate(request.customers)
+              for place in range(len(customer.alternatives))]
     # Customers that were added since come last.
-    names = [end.id for end in request.shipments[0].ends()]
-    first = next(index for index, customer in enumerate(request.customers)
-                 if customer.id == names[0])
-    index, inner = int(match[1]) - first, match[2]
-    if not 0 <= index < ends:
+    first = next(added_names(request), None)
+    index = int(match[1]) - next((index for index, customer in enumerate(request.customers)
+                                  if customer.id == first), len(request.customers))
+    inner = match[2]
+    part = inner.split("[")[0].split(".")[1:2]
+    if 0 <= index < len(others):
+        customer, place = others[index]
+        of_place = f".alternatives[{place}]" if OWN.issuperset(part) else ""
+        return f"$.customers[{customer}]{of_place}{inner}"
+    index -= len(others)
+    if not 0 <= index < len(ENDS) * len(request.shipments):
         return path
     shipment, end = divmod(index, len(ENDS))
     if inner.startswith(".demand"):
         return f"$.shipments[{shipment}].amount{inner.removeprefix('.demand')}"
-    own = inner.split("[")[0].split(".")[1:2] in (["id"], ["skills"], ["goods"], ["vehicles"],
-                                               ["vehicle_costs"])
+    own = part in (["id"], ["skills"], ["goods"], ["vehicles"], ["vehicle_costs"])
     return f"$.shipments[{shipment}]{'' if own else f'.{ENDS[end]}'}{inner}"

@@ -305,10 +305,10 @@ def _planned(routes: Sequence[RouteInput]) -> Iterator[tuple[Path, str]]:
             path: Path = ("plan", "routes", index, "trips", number)
             for place, stop in enumerate(trip.stops):
                 if stop.kind == "customer":
-                    yield (*path, "stops", place), stop.id
+                    yield (*path, "stops", place), stop.customer
             for flight, sortie in enumerate(trip.sorties):
                 for place, visit in enumerate(sortie.customers):
-                    yield (*path, "sorties", flight, "customers", place), visit.id
+                    yield (*path, "sorties", flight, "customers", place), visit.customer
 
 
 def _committed(trip: TripInput, begun: _Begun) -> Iterator[tuple[Path, str]]:

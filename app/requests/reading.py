@@ -8,7 +8,7 @@ from pydantic_core import ErrorDetails, from_json, to_json
 
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.requests.draft import Draft, error_at
-from app.requests.ends import stated_path
+from app.requests.ends import added_names, stated_path
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.customer import CustomerInput
@@ -74,8 +74,12 @@ def request_errors(request: PlanRequest, policies: Collection[str] | None,
                                "Plans with shipments can't be gone on from amid the day yet: "
                                "leave freeze_before out."))
     errors = errors or list(leg_errors(request, bounds))
-    return [error.model_copy(update={"path": stated_path(request, error.path)})
-            for error in errors] if request.shipments else errors
+    if not errors or not draft.added:
+        return errors
+    told = [error.model_copy(update={"path": stated_path(request, error.path)})
+            for error in errors]
+    # What all places of a customer have from him is wrong once.
+    return list({(error.code, error.path): error for error in told}.values())
 
 
 def read_json(body: bytes) -> Any:
@@ -162,7 +166,7 @@ def _whole_draft(request: PlanRequest) -> Draft:
         launch_sites=request.launch_sites,
         fairness=request.fairness,
         relations=request.relations,
-        shipment_ends=frozenset(end.id for each in request.shipments for end in each.ends()),
+        added=frozenset(added_names(request)),
     )
 
 

@@ -17,10 +17,10 @@ def relation_errors(draft: Draft) -> Errors:
         seen = set[str]()
         for place, name in enumerate(relation.customers):
             path = ("relations", index, "customers", place)
-            if name in draft.shipment_ends:
+            if name in draft.added:
                 yield error_at("UNKNOWN_CUSTOMER", path,
-                               f"{name!r} is an end of a shipment, which relations say nothing of "
-                               "yet: name customers alone.")
+                               f"{name!r} is an end of a shipment, or another place of a customer: "
+                               "name customers alone, of whom relations say the same at any place.")
             elif are_known and name not in known:
                 yield error_at("UNKNOWN_CUSTOMER", path,
                                f"The request has no customer {name!r}: use a customer's id.")

@@ -1,5 +1,6 @@
 """A customer of a request."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -70,6 +71,22 @@ class VehiclesInput(Input):
 
 
 Windows = Annotated[list[TimeWindowInput], Field(min_length=1, max_length=8)]
+
+
+class AlternativeInput(Input):
+    """A place where a customer may be served instead of at its own. All else is as it says."""
+
+    id: Name = Field(description="Name of the place, unique among those of the customer.")
+    location: PlaceLocation | None = Field(None, description=LOCATION_TEXT)
+    location_index: LocationIndex | None = Field(None, description=LOCATION_INDEX_TEXT)
+    service_duration: Duration | None = Field(
+        None, description="Time spent there in seconds, by whatever vehicle. Null: as the "
+        "customer says.")
+    time_window: TimeWindowInput = Field(
+        TimeWindowInput(), description="When service may start there. Default: at any time.")
+    time_windows: Windows | None = Field(
+        None, description="Several windows instead of `time_window`, as a customer's.")
+    cost: Money = Field(0.0, description="Cost of being served there, among those of `stops`.")
 
 
 class CustomerInput(Input):
@@ -152,6 +169,12 @@ class CustomerInput(Input):
         "or their drones, on top of all else: a preference, no ban. What names a vehicle holds "
         "instead of what names its type; others cost nothing.",
     )
+    alternatives: Annotated[list[AlternativeInput], Field(max_length=8)] = Field(
+        default_factory=list,
+        json_schema_extra={"default": []},
+        description="Other places, such as a locker or a neighbour's. One place is used, its own "
+        "or one of these.",
+    )
     launch: bool = Field(True, description=LAUNCH_TEXT)
     info: Info = Field(
         default_factory=dict,
@@ -164,3 +187,24 @@ class CustomerInput(Input):
     def windows(self) -> list[TimeWindowInput]:
         """The windows, one after another."""
         return [self.time_window] if self.time_windows is None else self.time_windows
+
+    def others(self) -> "Iterator[CustomerInput]":
+        """Yield its other places as customers; leaving them out costs nothing."""
+        for place in self.alternatives:
+            own = place.service_duration is not None
+            yield CustomerInput.model_construct(None, **{
+                **dict(self), "id": place_name(self.id, place.id), "location": place.location,
+                "location_index": place.location_index, "time_window": place.time_window,
+                "time_windows": place.time_windows, "unassigned_cost": 0.0, "alternatives": [],
+                **({"service_duration": place.service_duration, "service_duration_by_type": {}}
+                   if own else {})})
+
+
+def place_name(customer: str, alternative: str) -> str:
+    """Return the name of a customer's other place among customers."""
+    return f"{customer}/{alternative}"
+
+
+def customer_of(place: str, alternative: str | None) -> str:
+    """Return the id of the customer whose other place has a name; of his own, the name itself."""
+    return place if alternative is None else place.removesuffix(place_name("", alternative))

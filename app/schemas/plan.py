@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
+from app.schemas.customer import customer_of, place_name
 from app.schemas.fields import Location
 from app.schemas.limits import MAX_VEHICLES
 from app.schemas.shipment import ENDS, end_name
@@ -26,6 +27,9 @@ STOP_KIND_TEXT = (
 STOP_ID_TEXT = (
     "Id of the depot, the customer, the vehicle type, the shipment, the launch site or the break; "
     "of the customer or depot where a truck comes back to.")
+
+ALTERNATIVE_TEXT = (
+    "Id of the place among the customer's `alternatives`, where it isn't its own that is used.")
 
 NOT_READ = "Not read: it is computed anew."
 
@@ -48,6 +52,7 @@ class VisitInput(_Plan):
     """A customer served by a drone. Times in seconds since plan start."""
 
     id: str = Field(description="Id of the customer.")
+    alternative: str | None = Field(None, description=ALTERNATIVE_TEXT)
     arrival: Instant = Field(description="Arrival of the drone.")
     service_start: Instant = Field(description="Start of service.")
     departure: Instant = Field(description="Departure of the drone.")
@@ -57,6 +62,18 @@ class VisitInput(_Plan):
     energy_left_wh: Number = None
     geometry: Line = None
     info: Details = None
+
+    @model_validator(mode="after")
+    def _name_place(self) -> Self:
+        """Name another place as the customer that it is."""
+        if self.alternative is not None:
+            self.__dict__["id"] = place_name(self.id, self.alternative)
+        return self
+
+    @property
+    def customer(self) -> str:
+        """Id of the customer, whose place `id` names if it isn't his own."""
+        return customer_of(self.id, self.alternative)
 
     @property
     def ready(self) -> float:
@@ -69,6 +86,7 @@ class StopInput(_Plan):
 
     kind: StopKind = Field(description=STOP_KIND_TEXT)
     id: str = Field(description=STOP_ID_TEXT)
+    alternative: str | None = Field(None, description=ALTERNATIVE_TEXT)
     arrival: Instant = Field(
         description="Arrival; at the trip's first stop, when loading is done."
     )
@@ -84,10 +102,17 @@ class StopInput(_Plan):
 
     @model_validator(mode="after")
     def _name_end(self) -> Self:
-        """Name a shipment's end as the customer that it is."""
+        """Name a shipment's end, or another place, as the customer that it is."""
         if self.kind in ENDS:
             self.__dict__ |= {"kind": "customer", "id": end_name(self.id, self.kind)}
+        elif self.alternative is not None:
+            self.__dict__["id"] = place_name(self.id, self.alternative)
         return self
+
+    @property
+    def customer(self) -> str:
+        """Id of the customer, whose place `id` names if it isn't his own."""
+        return customer_of(self.id, self.alternative)
 
     @property
     def ready(self) -> float:

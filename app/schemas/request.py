@@ -363,11 +363,13 @@ class PlanRequest(Input):
     options: OptionsInput = Field(OptionsInput(), description="How to plan.")
 
     @model_validator(mode="after")
-    def _count_ends(self) -> Self:
-        """Let the ends of shipments be customers, behind those stated."""
-        if self.shipments:
-            self.__dict__["customers"] = [
-                *self.customers, *(end for each in self.shipments for end in each.ends())]
+    def _count_more(self) -> Self:
+        """Let customers' other places, and ends of shipments, be customers behind those stated."""
+        others = [place for customer in self.customers if customer.alternatives
+                  for place in customer.others()]
+        ends = [end for each in self.shipments for end in each.ends()]
+        if others or ends:
+            self.__dict__["customers"] = [*self.customers, *others, *ends]
         return self
 
     @property

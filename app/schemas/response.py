@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.hub import HubReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
-from app.schemas.plan import STOP_ID_TEXT, STOP_KIND_TEXT, StopKind
+from app.schemas.plan import ALTERNATIVE_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, StopKind
 from app.schemas.replanned import ReplanReply
 from app.schemas.times import InstantReply, WordsReply
 
@@ -46,6 +46,7 @@ class StopReply(_Reply):
 
     kind: StopKind = Field(description=STOP_KIND_TEXT)
     id: str = Field(description=STOP_ID_TEXT)
+    alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
     arrival: InstantReply = Field(
         description="Arrival; at the trip's first stop, when loading is done.")
     service_start: InstantReply = Field(description="Start of service; at depots the arrival.")
@@ -78,6 +79,7 @@ class VisitReply(_Reply):
     """A customer served by a drone."""
 
     id: str = Field(description="Id of the customer.")
+    alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
     arrival: InstantReply = Field(description="Arrival of the drone.")
     service_start: InstantReply = Field(description="Start of service.")
     departure: InstantReply = Field(description="Departure of the drone.")

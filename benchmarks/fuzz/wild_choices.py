@@ -1,7 +1,9 @@
-"""By whom customers of wild problems may be served, and at what price."""
+"""By whom, where and with whom customers of wild problems are served, and at what price."""
 
 import random
 from typing import Any
+
+from benchmarks.fuzz.wild_shipments import ends_of
 
 Data = dict[str, Any]
 
@@ -29,6 +31,28 @@ def prefer_vehicles(rng: random.Random, request: Data) -> None:
                 for name in rng.sample(names, rng.randint(1, min(3, len(names))))}
 
 
+def offer_places(rng: random.Random, request: Data) -> None:
+    """Let some customers be served elsewhere instead. In place."""
+    stated = [customer["location"] for customer in request["customers"]]
+    for customer in request["customers"]:
+        if rng.random() < 0.4:
+            customer["alternatives"] = [
+                {"id": rng.choice("abcdefgh") if rng.random() < 0.02 else str(number),
+                 "location": rng.choice(stated), "cost": rng.choice((0, 0, 3, 50, RICHEST)),
+                 **({"service_duration": rng.choice((0, 60, 900))} if rng.random() < 0.4 else {}),
+                 **({name: other[name] for name in ("time_window", "time_windows")
+                     if name in other} if rng.random() < 0.5 else {})}
+                for number in range(rng.randint(1, 3))
+                for other in [rng.choice(request["customers"])]]
+
+
+def places_of(request: Data) -> list[Data]:
+    """Return all places of a request."""
+    return [*request["depots"], *request["customers"], *request.get("launch_sites", ()),
+            *ends_of(request), *(place for customer in request["customers"]
+                                 for place in customer.get("alternatives", ()))]
+
+
 def choose_vehicles(rng: random.Random, request: Data) -> None:
     """Let some customers say who may serve them, now and then somebody unknown. In place."""
     names = _names_of_vehicles(rng, request)
@@ -36,3 +60,17 @@ def choose_vehicles(rng: random.Random, request: Data) -> None:
         if rng.random() < 0.5:
             which = rng.choice(("allowed", "forbidden"))
             customer["vehicles"] = {which: rng.sample(names, rng.randint(1, min(3, len(names))))}
+
+
+def relate(rng: random.Random, request: Data) -> None:
+    """Let some customers go together, or apart; now and then one who isn't there. In place."""
+    names = [customer["id"] for customer in request["customers"]]
+    if len(names) < 2:
+        return
+    request["relations"] = [
+        {"kind": rng.choice(("together", "together", "apart")),
+         "customers": rng.sample(names, rng.randint(2, min(4, len(names)))),
+         "scope": rng.choice(("vehicle", "trip"))}
+        for _ in range(rng.randint(1, 3))]
+    if rng.random() < 0.02:
+        request["relations"][0]["customers"][0] = "nobody"

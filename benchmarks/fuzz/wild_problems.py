@@ -9,9 +9,11 @@ import random
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from benchmarks.fuzz.wild_choices import RICHEST, choose_vehicles, prefer_vehicles
+from benchmarks.fuzz.wild_choices import (
+    RICHEST, choose_vehicles, offer_places, places_of, prefer_vehicles, relate,
+)
 from benchmarks.fuzz.wild_rests import let_rest
-from benchmarks.fuzz.wild_shipments import add_shipments, ends_of
+from benchmarks.fuzz.wild_shipments import add_shipments
 from benchmarks.fuzz.wild_wholes import wild_fairness, wild_options
 
 Data = dict[str, Any]
@@ -47,7 +49,8 @@ def wild_request(rng: random.Random) -> Data:
         request["planar_rounding"] = rng.choice(
             ("exact", "round", "trunc", "dimacs", "thousandths"))
     for share, change in ((0.25, let_rest), (0.3, choose_vehicles), (0.2, prefer_vehicles),
-                          (0.3, _keep_apart), (0.3, _serve_by_type), (0.2, _bar_launches)):
+                          (0.3, _keep_apart), (0.3, _serve_by_type), (0.2, _bar_launches),
+                          (0.2, offer_places)):
         if rng.random() < share:
             change(rng, request)
     if rng.random() < 0.3 and customers:
@@ -61,7 +64,7 @@ def wild_request(rng: random.Random) -> Data:
     if rng.random() < 0.1:
         request["fairness"] = wild_fairness(rng)
     if rng.random() < 0.25:
-        _relate(rng, request)
+        relate(rng, request)
     if rng.random() < 0.5:
         _tame(rng, request, dimensions)
     return request
@@ -311,20 +314,6 @@ def _keep_apart(rng: random.Random, request: Data) -> None:
         for _ in range(rng.randint(1, 2))]
 
 
-def _relate(rng: random.Random, request: Data) -> None:
-    """Let some customers go together, or apart; now and then one who isn't there. In place."""
-    names = [customer["id"] for customer in request["customers"]]
-    if len(names) < 2:
-        return
-    request["relations"] = [
-        {"kind": rng.choice(("together", "together", "apart")),
-         "customers": rng.sample(names, rng.randint(2, min(4, len(names)))),
-         "scope": rng.choice(("vehicle", "trip"))}
-        for _ in range(rng.randint(1, 3))]
-    if rng.random() < 0.02:
-        request["relations"][0]["customers"][0] = "nobody"
-
-
 def _serve_by_type(rng: random.Random, request: Data) -> None:
     """Let service take some vehicles longer than others, now and then unknown ones. In place."""
     names = [kind["id"] for kind in request["fleet"]]
@@ -375,8 +364,7 @@ def _let_stop(rng: random.Random, request: Data, place: Callable[[], Point]) -> 
 
 def _add_matrices(rng: random.Random, request: Data) -> None:
     """State legs that need not be those of any map. In place."""
-    places = [*request["depots"], *request["customers"], *request.get("launch_sites", ()),
-              *ends_of(request)]
+    places = places_of(request)
     longest = rng.choice((0, 1, 900, 36000, LONGEST))
     keeps_locations = rng.random() < 0.5
     for index, stated in enumerate(places):

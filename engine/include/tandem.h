@@ -70,10 +70,14 @@ typedef struct tandem_hub {
 } tandem_hub;
 
 /* An end of a shipment: the node of the other end, -1 where there is none, and whether the parcel
-   is delivered here. Nobody has a row where there are no shipments. */
+   is delivered here. Who stands for a node where that is inserted or left out: the pickup of a
+   shipment, the first of several places of a customer, else the node itself; and the next of those
+   places, the first behind the last. Nobody has a row where there are neither. */
 typedef struct tandem_pair {
     int64_t partner;
     int64_t is_delivery;
+    int64_t unit;
+    int64_t next_place;
 } tandem_pair;
 
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
@@ -1114,7 +1118,7 @@ typedef struct tandem_problem_data {
     tandem_goods_1d goods; /* (node,) none where all go together */
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
-    tandem_pair_1d pair;           /* (node,) none where there are no shipments */
+    tandem_pair_1d pair;           /* (node,) none where nobody belongs together */
     tandem_i64_2d max_between;  /* (type, node) ms from a pickup to its delivery, none likewise */
     tandem_f64_2d vehicle_cost; /* (type, node) of being served by it, none likewise */
     tandem_bool_1d

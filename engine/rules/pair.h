@@ -1,11 +1,12 @@
-// Shipments: parcels fetched at one end and brought to the other on the same trip, later.
+// Who belongs together: shipments, parcels fetched at one end and brought to the other on the same
+// trip, later; and places of one customer, of which one is used.
 #pragma once
 
 #include "rules/window.h"
 
 namespace tandem {
 
-// Whether there are shipments, by the rows of all nodes.
+// Whether anybody belongs together, by the rows of all nodes.
 inline bool some_paired(View<const Pair, 1> pairs) { return !pairs.empty(); }
 
 // Whether a node is an end of a shipment.
@@ -23,10 +24,30 @@ inline bool is_delivery(View<const Pair, 1> pairs, Int node) {
     return is_paired(pairs, node) && pairs[node].is_delivery != 0;
 }
 
-// Who stands for a customer where both ends of a shipment are inserted or left out together: its
-// pickup.
+// Who stands for a node where customers are inserted or left out: of both ends of a shipment its
+// pickup, of a customer's places the first.
 inline Int unit_of(View<const Pair, 1> pairs, Int node) {
-    return is_delivery(pairs, node) ? pairs[node].partner : node;
+    return some_paired(pairs) ? pairs[node].unit : node;
+}
+
+// Call `visit` with each place of the customer at a node, that node first.
+template <class Visit>
+void for_each_place(View<const Pair, 1> pairs, Int node, const Visit& visit) {
+    visit(node);
+    if (!some_paired(pairs)) return;
+    for (Int place = pairs[node].next_place; place != node; place = pairs[place].next_place) {
+        visit(place);
+    }
+}
+
+// The place of the customer at a node that is used, by whether each is; the node itself if none is.
+template <class IsUsed>
+Int used_place(View<const Pair, 1> pairs, Int node, const IsUsed& is_used) {
+    Int used = node;
+    for_each_place(pairs, node, [&](Int place) {
+        if (is_used(place)) used = place;
+    });
+    return used;
 }
 
 // How long shipments may be under way by vehicles of a type, by pickup; none where none is limited.

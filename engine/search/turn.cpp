@@ -44,7 +44,8 @@ void try_near(const ProblemData& data, Searcher& searcher, Int seed, Int first, 
         Int node = rank < 0 ? seed : near[rank];
         if (node < 0 || chosen == total - first) break;
         node = unit_of(data.pair, node);
-        if (searcher.now.where[node].slot == nowhere && !marked[node] && !data.must_serve[node] &&
+        const Int place = served_place(data, searcher.now, node);
+        if (searcher.now.where[place].slot == nowhere && !marked[node] && !data.must_serve[node] &&
             (rank < 0 || uniform(searcher.rng) < tried_near_share)) {
             marked[node] = true;
             ++chosen;

@@ -266,8 +266,10 @@ void apply(const Instance& instance, State& state, Int r, Int action) {
     }
     improve_departure(open);
     if (kind != ActionKind::end_trip) {
-        state.served(r, target) = true;
-        --state.num_unserved[r];
+        for_each_place(open.setting.pair, target, [&](Int place) {
+            state.served(r, place) = true;
+            --state.num_unserved[r];
+        });
     }
 }
 

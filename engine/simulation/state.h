@@ -49,7 +49,7 @@ struct Setting {
     View<const Int, 3> amount;   // (node, tier, amounts); no tiers where `Node::demand` tells all
     View<const Goods, 1> goods;  // (node,) none where all go together
     View<const Int, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
-    View<const Pair, 1> pair;            // (node,) none where there are no shipments
+    View<const Pair, 1> pair;            // (node,) none where nobody belongs together
     View<const Int, 1> max_between;      // (node,) ms, none where no shipment is limited
     View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
     const VehicleType& type;

@@ -19,7 +19,7 @@ from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
 from model.engine.pair_rows import (
-    empty_limits, empty_pairs, write_aboard, write_limits, write_pairs,
+    empty_limits, empty_pairs, write_aboard, write_choices, write_limits, write_pairs,
 )
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
@@ -214,6 +214,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
     _pack_compatibility(instance, row, problem, kinds)
     if problem.shipments:
         _pack_pairs(instance, row, problem, kinds)
+    write_choices(problem, instance.pair[row])
 
 
 def _pack_customers(instance: Instance, row: int, problem: Problem,
@@ -233,8 +234,8 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
         (customer.late_cost_per_hour or 0.0, customer.early_cost_per_hour, customer.late_cost)
         for customer in problem.customers]
     costs = np.array([problem.cost_of_leaving_out(customer) for customer in problem.customers])
-    deliveries = [each.delivery - depots for each in problem.shipments]
-    instance.unassigned_cost[row] = np.delete(costs, deliveries).min()
+    others = [node - depots for node in problem.other_nodes]
+    instance.unassigned_cost[row] = np.delete(costs, others).min()
     instance.unassigned_more[row, depots:nodes] = costs - instance.unassigned_cost[row]
     if problem.limits_time_aboard:
         instance.max_time_aboard[row, depots:nodes] = [

@@ -1,4 +1,6 @@
-"""Shipments as rows for the engine: who belongs together, what is aboard between, and how long."""
+"""Who belongs together as rows for the engine: shipments, what is aboard between and how long, and
+places of one customer.
+"""
 
 from collections.abc import Sequence
 
@@ -10,10 +12,11 @@ from model.problem import IntArray, Problem, VehicleType
 
 
 def empty_pairs(problems: Sequence[Problem], nodes: int) -> Records:
-    """Allocate rows of ends, (problem, node); (problem, 0) where there are no shipments."""
-    some = any(problem.shipments for problem in problems)
+    """Allocate rows of who belongs together, (problem, node); (problem, 0) where nobody does."""
+    some = any(problem.shipments or problem.choices for problem in problems)
     rows = np.zeros((len(problems), nodes if some else 0), dtype_of("tandem_pair"))
     rows["partner"] = -1
+    rows["unit"] = rows["next_place"] = np.arange(rows.shape[1])
     return rows
 
 
@@ -26,8 +29,17 @@ def empty_limits(problems: Sequence[Problem], types: int, nodes: int, far: int) 
 def write_pairs(problem: Problem, rows: Records) -> IntArray:
     """Write the other end at each end, (node,). In place; return the ends, (shipment, 2)."""
     for each in problem.shipments:
-        rows[[each.pickup, each.delivery]] = [(each.delivery, 0), (each.pickup, 1)]
+        rows[[each.pickup, each.delivery]] = [
+            (each.delivery, 0, each.pickup, each.pickup),
+            (each.pickup, 1, each.pickup, each.delivery)]
     return np.array([(each.pickup, each.delivery) for each in problem.shipments])
+
+
+def write_choices(problem: Problem, rows: Records) -> None:
+    """Write which places are those of one customer, (node,). In place."""
+    for places in problem.choices:
+        rows["unit"][[*places]] = places[0]
+        rows["next_place"][[*places]] = (*places[1:], places[0])
 
 
 def write_aboard(problem: Problem, rows: IntArray, size: int) -> None:

@@ -132,6 +132,8 @@ def _assignment_violations(problem: Problem, solution: Solution,
     """Every customer is served once or unassigned."""
     first, end = problem.num_depots, problem.num_nodes
     nodes = [*solution.unassigned, *chain.from_iterable([judged.nodes for judged in routes])]
+    if problem.choices:
+        nodes = [problem.first_place(node) for node in nodes]
     for index, node in enumerate(solution.unassigned):
         if not first <= node < end:
             yield Violation("UNKNOWN_NODE", f"node {node} is no customer", f"unassigned[{index}]")
@@ -140,6 +142,8 @@ def _assignment_violations(problem: Problem, solution: Solution,
         return
     times = Counter(nodes)
     for index, customer in enumerate(problem.customers):
+        if problem.first_place(first + index) != first + index:
+            continue
         count = times[first + index]
         if count == 0:
             message = f"customer {customer.id} is neither served nor unassigned"

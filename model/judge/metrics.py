@@ -144,6 +144,8 @@ def allowed_overtime(kind: VehicleType) -> int:
 def unassigned_cost(problem: Problem, nodes: Sequence[int]) -> float:
     """Return what leaving out the customers at some nodes costs; others there cost as most do."""
     first, end = problem.num_depots, problem.num_nodes
+    if problem.choices:
+        nodes = [problem.first_place(node) for node in nodes]
     own = [problem.customers[node - first].unassigned_cost for node in nodes if first <= node < end]
     stated = [cost for cost in own if cost is not None]
     return (len(nodes) - len(stated)) * problem.unassigned_cost + sum(stated)

@@ -22,7 +22,7 @@ def past_violations(problem: Problem, solution: Solution, past: Past) -> Iterato
         elif len(routes[vehicle].trips) < len(trips):
             path = f"routes[{solution.routes.index(routes[vehicle])}]"
             yield Violation("FROZEN", f"{len(trips)} trips have begun", path)
-    carriers = past.carriers()
+    carriers = problem.at_all_places(past.carriers())
     for index, route in enumerate(solution.routes):
         yield from _route_violations(problem, route, past, carriers, f"routes[{index}]")
 
@@ -43,11 +43,12 @@ def _route_violations(problem: Problem, route: Route, past: Past, carriers: dict
             message = f"begins at {seconds(trip.stops[0].arrival)}, before {seconds(past.now)}"
             yield Violation("PAST", message, trip_path)
         yield from _flight_violations(trip, begun, past, vehicle, trip_path)
+        aboard = problem.all_places(() if begun is None else begun.aboard)
         for node in _new_customers(trip, begun):
             if not problem.num_depots <= node < problem.num_nodes:
                 continue
             name = problem.customer_at(node).id
-            if begun is not None and (begun.rest != "anything" or node not in begun.aboard):
+            if begun is not None and (begun.rest != "anything" or node not in aboard):
                 yield Violation("ABOARD", f"the parcel of {name} is not aboard", trip_path)
             elif carriers.get(node, vehicle) != vehicle:
                 yield Violation("ABOARD", f"the parcel of {name} is aboard another", trip_path)

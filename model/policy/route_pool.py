@@ -39,7 +39,7 @@ class Route(NamedTuple):
 
     actions: IntArray  # (action,) codes, from its opening on
     type: int  # of the vehicle
-    nodes: IntArray  # (customer,) sorted
+    nodes: IntArray  # (customer,) sorted, with all other places of each
     cost: float
 
 
@@ -67,7 +67,7 @@ class RoutePool:
         price = empty_costs(len(new))
         price_routes(*self._alone, 0, np.concatenate(new), price)
         for codes, cost in zip(new, by_term(price).sum(axis=1).tolist(), strict=True):
-            nodes = np.sort(codes[serves(codes)] // NUM_KINDS)
+            nodes = self._places_of(codes[serves(codes)] // NUM_KINDS)
             route = Route(codes, int(codes[0] // NUM_KINDS), nodes, cost)
             key = route.type, nodes.tobytes()
             self._by_actions[codes.tobytes()] = key
@@ -101,6 +101,13 @@ class RoutePool:
                 break
             best = self._improved_near(best, rng, alarm)
         return best
+
+    def _places_of(self, nodes: IntArray) -> IntArray:
+        """Return all places of some customers, sorted."""
+        pair = self._instance.pair[0]
+        if not len(pair):
+            return np.sort(nodes)
+        return np.flatnonzero(np.isin(pair["unit"], pair["unit"][nodes]))
 
     def _forget(self, best: Rollout) -> None:
         """Forget the older half of the routes, if there are too many. In place."""

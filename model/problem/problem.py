@@ -1,9 +1,10 @@
 """What is to be planned: depots, customers, a fleet and its travel matrices."""
 
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -16,6 +17,8 @@ from model.problem.quantities import (
 from model.problem.relation import MOST_RELATIONS, Relation
 from model.problem.shipment import Shipment
 from model.problem.travel import Travel
+
+Told = TypeVar("Told")
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +43,9 @@ class Problem:
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
     relations: tuple[Relation, ...] = ()  # of customers who are no ends of shipments
     shipments: tuple[Shipment, ...] = ()  # whose ends are customers that ask for nothing else
+    choices: tuple[tuple[int, ...], ...] = ()
+    """Nodes of one customer's places, of which one is used, his own first. It alone has a cost of
+    being left out."""
     fairness: Fairness = UNPRICED
     num_dimensions: int = field(init=False)
 
@@ -73,6 +79,7 @@ class Problem:
             require(len(customer.demand) == dimensions, f"customer {customer.id} demand",
                      customer.demand)
         self._require_pairs()
+        self._require_choices()
         for vehicle_type in self.vehicle_types:
             self._require_consistent(vehicle_type)
         for used in {kind.travel for kind in self.vehicle_types if not kind.flies}:
@@ -111,6 +118,18 @@ class Problem:
                      each.amount)
             goods = [self.customer_at(node).goods for node in (each.pickup, each.delivery)]
             require(goods[0] == goods[1], f"shipment {each.id} goods", goods)
+
+    def _require_choices(self) -> None:
+        nodes = [node for places in self.choices for node in places]
+        require(len(set(nodes)) == len(nodes) and self.shipment_at.keys().isdisjoint(nodes),
+                 "choices", nodes)
+        for places in self.choices:
+            require(len(places) > 1 and self.num_depots <= min(places)
+                    and max(places) < self.num_nodes, "choices", places)
+            for node in places[1:]:
+                other = self.customer_at(node)
+                require(other.unassigned_cost == 0.0, f"customer {other.id} unassigned_cost",
+                        other.unassigned_cost)
 
     def _require_consistent(self, vehicle_type: VehicleType) -> None:
         name = f"vehicle type {vehicle_type.id}"
@@ -246,6 +265,50 @@ class Problem:
         number = {node: index for index, node in enumerate(nodes)}
         return tuple([each.renumbered(number) for each in self.shipments
                       if each.pickup in number and each.delivery in number])
+
+    @cached_property
+    def _places(self) -> dict[int, tuple[int, ...]]:
+        """All places of a customer who has several, by each of them."""
+        return {node: places for places in self.choices for node in places}
+
+    @cached_property
+    def other_nodes(self) -> frozenset[int]:
+        """Nodes for which others stand: deliveries of shipments, and customers' other places."""
+        return frozenset([each.delivery for each in self.shipments]).union(
+            *(places[1:] for places in self.choices))
+
+    def first_place(self, node: int) -> int:
+        """Return the first place of the customer at a node."""
+        return self.places_of(node)[0] if self.choices else node
+
+    def places_of(self, node: int) -> tuple[int, ...]:
+        """Return the places of the customer at a node, of which one is used."""
+        return self._places.get(node, (node,))
+
+    def at_all_places(self, told: Mapping[int, Told]) -> dict[int, Told]:
+        """Return what is told of customers, by each of their places."""
+        if not self.choices:
+            return dict(told)
+        return {place: what for node, what in told.items() for place in self.places_of(node)}
+
+    def all_places(self, nodes: Iterable[int]) -> set[int]:
+        """Return all places of the customers at some nodes."""
+        return set(self.at_all_places(dict.fromkeys(nodes)))
+
+    def choices_among(self, nodes: Sequence[int]) -> tuple[tuple[int, ...], ...]:
+        """Return the choices between places that are among some nodes, by their numbers there."""
+        if not self.choices:
+            return ()
+        number = {node: index for index, node in enumerate(nodes)}
+        left = [tuple([number[node] for node in places if node in number])
+                for places in self.choices]
+        return tuple([places for places in left if len(places) > 1])
+
+    def left_out(self, served: Collection[int]) -> tuple[int, ...]:
+        """Return who isn't served, by their first places."""
+        done = set(map(self.first_place, served))
+        return tuple([node for node in range(self.num_depots, self.num_nodes)
+                      if node not in done and self.first_place(node) == node])
 
     def relations_among(self, nodes: Sequence[int]) -> tuple[Relation, ...]:
         """Return what relations say of some nodes, by their numbers there."""

@@ -19,7 +19,7 @@ def relations_left(problem: Problem, owners: Mapping[int, Worker],
 
     Whose parcel is aboard a vehicle is served by it in any case, though by a type of its own.
     """
-    aboard = {node for owner in owners.values() for node in owner.aboard}
+    aboard = problem.all_places(node for owner in owners.values() for node in owner.aboard)
     found = []
     for each in problem.relations:
         parts = [each]
@@ -42,7 +42,7 @@ def company_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequenc
                     problem, kept, relation, owners.get(kind)):
                 table[kind] &= [node not in relation.nodes for node in nodes]
         if relation.keeps_together and relation.scope == "vehicle":
-            _keep_by_carriers(relation, kept, owners, nodes, table)
+            _keep_by_carriers(problem, relation, kept, owners, nodes, table)
     return table
 
 
@@ -66,7 +66,7 @@ def _may_join(problem: Problem, kept: Mapping[Vehicle, Kept], relation: Relation
         not relation.keeps_together or there == {owner.vehicle})
 
 
-def _keep_by_carriers(relation: Relation, kept: Mapping[Vehicle, Kept],
+def _keep_by_carriers(problem: Problem, relation: Relation, kept: Mapping[Vehicle, Kept],
                       owners: Mapping[int, Worker], nodes: Sequence[int],
                       table: BoolArray) -> None:
     """Let those who go with others whose parcels are aboard be served by that vehicle. In place."""
@@ -75,7 +75,7 @@ def _keep_by_carriers(relation: Relation, kept: Mapping[Vehicle, Kept],
               if not those.isdisjoint(owner.aboard)}
     if not aboard or any(not those.isdisjoint(route.served) for route in kept.values()):
         return
-    laden = {node for loaded in aboard.values() for node in loaded}
+    laden = problem.all_places(node for loaded in aboard.values() for node in loaded)
     for kind in range(len(table)):
         owner = owners.get(kind)
         if owner is None or {owner.vehicle} != set(aboard):

@@ -147,9 +147,7 @@ def _timed_with_breaks(problem: Problem, decision: RouteDecision) -> Route:
 
 def complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:
     """Return a plan whose other customers are left out."""
-    served = served_by(Solution(routes))
-    nodes = range(problem.num_depots, problem.num_nodes)
-    return Solution(routes, tuple(node for node in nodes if node not in served))
+    return Solution(routes, problem.left_out(served_by(Solution(routes))))
 
 
 def served_by(plan: Solution) -> set[int]:

@@ -71,7 +71,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
 
     `past` knows which parcels are back at the depot.
     """
-    settled = set[int]().union(*(route.served for route in kept.values()))
+    settled = problem.all_places(set[int]().union(*(route.served for route in kept.values())))
     nodes = [node for node in range(problem.num_depots, problem.num_nodes) if node not in settled]
     plain = _plain_types(problem, past, kept, workers)
     if not nodes or not (plain or workers):
@@ -83,7 +83,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     start = {kind: problem.num_depots + index for index, kind in enumerate(places)}
     types = [replace(kind, start=start.get(index, kind.start))
              for index, kind in enumerate((*plain.values(), *(own.kind for own in workers)))]
-    carriers = {node: own for own in workers for node in own.aboard}
+    carriers = problem.at_all_places({node: own for own in workers for node in own.aboard})
     starts = [_start(problem, node, types[kind].id) for kind, node in places.items()]
     depots, may_stop = _sites(problem, kept, kinds, owners)
     depots = _hubs_left(problem, kept, depots)
@@ -93,7 +93,7 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
             [may_stop, np.ones((len(kinds), len(starts)), np.bool_)]),
         customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
                         for node in nodes),
-        shipments=problem.shipments_among(source),
+        shipments=problem.shipments_among(source), choices=problem.choices_among(source),
         relations=relations_left(problem, owners, {
             node: index for index, node in enumerate(nodes, len(source) - len(nodes))}),
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
@@ -127,9 +127,10 @@ def _table(problem: Problem, past: Past, kinds: Sequence[int], owners: Mapping[i
     """
     under_way = {owner.vehicle: kind for kind, owner in owners.items() if owner.is_under_way}
     later = {owner.vehicle: kind for kind, owner in owners.items() if not owner.is_under_way}
-    bound = {**past.pinned, **past.carriers()}
+    bound = {**past.pinned, **problem.at_all_places(past.carriers())}
     only = {node: later.get(vehicle, NOBODY) for node, vehicle in bound.items()}
-    only |= {node: under_way[owner.vehicle] for owner in owners.values() for node in owner.aboard}
+    only |= problem.at_all_places({
+        node: under_way[owner.vehicle] for owner in owners.values() for node in owner.aboard})
     sole = np.array([only.get(node, ANYBODY) for node in nodes], np.int64)
     numbers = np.arange(len(kinds))[:, None]
     begins = ~np.isin(numbers, list(under_way.values()))

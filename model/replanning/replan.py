@@ -92,7 +92,8 @@ class Replanning:
         self.stranded = _stranded(problem, self._kept, terms)
         """Whose parcels vehicles have aboard that are unavailable, and which."""
         back = past.now if terms.parcels_back is None else terms.parcels_back
-        self.past = replace(past, returned=dict.fromkeys(self.stranded, back))
+        self.past = replace(past, returned=dict.fromkeys(
+            problem.all_places(self.stranded), back))
         workers = find_workers(problem, self.past, self._kept)
         self._through = _through(problem, terms.plan, self.past, self._kept, workers)
         if self._through:
@@ -136,7 +137,8 @@ class Replanning:
         solution, before = begun, evaluation
         # It takes a while in large plans, and would do no better where nobody is lost, and no
         # truck waits for all its drones before it is planned on.
-        if _has_flights(self.past) or served_by(plan).intersection(begun.unassigned):
+        if _has_flights(self.past) or self.problem.all_places(served_by(plan)).intersection(
+                begun.unassigned):
             solution, before = self._cheapest(
                 (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
         result = planner.plan(self._in_order(self._left, first), options, received_at,
@@ -156,9 +158,10 @@ class Replanning:
 
         After `until`, on `time.perf_counter`, no more than that the search found no room.
         """
-        vehicle = self.past.carriers().get(node) or self.past.pinned.get(node)
+        carriers = self.problem.at_all_places(self.past.carriers())
+        vehicle = carriers.get(node) or self.past.pinned.get(node)
         if vehicle is not None:
-            return _bound_reasons(self.problem, self.past, vehicle, node)
+            return _bound_reasons(self.problem, vehicle, node in carriers)
         if time.perf_counter() >= until:
             return unexplained(self.problem)
         return tuple(self._reason(solution, kind, node, until)
@@ -250,7 +253,8 @@ def _past(problem: Problem, terms: Terms) -> Past:
     orders = orders_of(terms.plan) if terms.keeps_order and pinned else {}
     grounded = {vehicle: drones for vehicle, drones in terms.grounded.items()
                 if vehicle not in terms.unavailable}
-    return Past(terms.now or 0, known, terms.unavailable, grounded, pinned, orders=orders)
+    return Past(terms.now or 0, known, terms.unavailable, grounded,
+                problem.at_all_places(pinned), orders=orders)
 
 
 def _has_flights(past: Past) -> bool:
@@ -278,7 +282,7 @@ def _released(problem: Problem, past: Past) -> Problem:
     """Return the problem in which every parcel is there that was loaded."""
     loaded = {node for trips in past.trips.values() for trip in trips for node in trip.aboard}
     customers = list(problem.customers)
-    for node in loaded:
+    for node in problem.all_places(loaded):
         index = node - problem.num_depots
         customers[index] = replace(customers[index], release_time=0)
     return replace(problem, customers=tuple(customers))
@@ -341,11 +345,10 @@ def _relayed(listener: Listener, first_cost: float, bridge: _Bridge) -> Listener
     return Listener(listener.should_stop, relay)
 
 
-def _bound_reasons(problem: Problem, past: Past, vehicle: Vehicle,
-                   node: int) -> tuple[Reason, ...]:
+def _bound_reasons(problem: Problem, vehicle: Vehicle, is_aboard: bool) -> tuple[Reason, ...]:
     """Return why a customer is unassigned whom one vehicle alone may serve."""
     name = vehicle_name(problem, vehicle)
-    if node in past.carriers():
+    if is_aboard:
         code, why = "ABOARD", f"Its parcel is aboard {name}"
     else:
         code, why = "PINNED", f"It is pinned to {name}"

@@ -35,12 +35,16 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     if len(data.hub) or data.fairness.makespan > 0 or data.fairness.balance > 0:
         return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
-    nodes = np.arange(data.num_depots, data.num_nodes)
-    nodes = nodes[now.where["slot"][nodes] != ELSEWHERE]
+    nodes, unit = np.arange(data.num_depots, data.num_nodes), np.arange(data.num_nodes)
+    if len(data.pair):
+        unit = data.pair["unit"]
+        nodes = nodes[unit[nodes] == nodes]
+    there, then = (_by_unit(slot, unit) for slot in (
+        now.where["slot"], _slots_in(best, slots, data.num_nodes)))
+    nodes = nodes[there[nodes] != ELSEWHERE]
     # Who is left out is like a route, numbered behind them all.
     one, other = (np.where(slot == NOWHERE, slots + nodes, slot)
-                  for slot in (_slots_in(best, slots, data.num_nodes)[nodes],
-                               now.where["slot"][nodes]))
+                  for slot in (then[nodes], there[nodes]))
     old, new = _common_parts(one, other, slots + data.num_nodes, _companies(data, nodes))
     saved = _costs(data, best, old) - _costs(data, now, new)
     better = saved > ROUNDING
@@ -64,6 +68,13 @@ def _slots_in(fleet: Fleet, slots: int, nodes: int) -> IntArray:
     for slot in np.flatnonzero(routes["sorties"][:slots]).tolist():
         for sortie in fleet.sortie[slot, :routes["sorties"][slot]]:
             slot_of[sortie["nodes"][:sortie["count"]]] = slot
+    return slot_of
+
+
+def _by_unit(slot: IntArray, unit: IntArray) -> IntArray:
+    """Return (node,) the slot of any of those for whom each node stands."""
+    slot_of = slot.copy()
+    np.maximum.at(slot_of, unit, slot)
     return slot_of
 
 

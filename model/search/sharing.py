@@ -5,7 +5,7 @@ import numpy as np
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
-from model.search.route.layout import OTHERS, ProblemData, are_kept
+from model.search.route.layout import NOWHERE, OTHERS, ProblemData, are_kept
 from model.search.route.state import ALL, Searcher
 
 DIVIDED_FROM = 200
@@ -80,6 +80,7 @@ class Crew:
             chosen = [min(self._parts, key=lambda part: float(part.value.cost))]
             best = [min(self._parts, key=lambda part: float(part.value.best))]
         whole.now.route["length"] = 0
+        whole.now.where["slot"] = NOWHERE
         whole.now.used[:] = 0
         whole.count.missing = filled = 0
         whole.value.cost = sum(float(part.value.cost) for part in chosen)

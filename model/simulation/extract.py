@@ -38,9 +38,7 @@ def extract(problem: Problem, instance: Instance, actions: Sequence[int] | IntAr
     while done < len(codes):
         done = apply_route(*given, 0, codes, done)
         routes += _close(problem, instance, state, given)
-    nodes = range(problem.num_depots, problem.num_nodes)
-    unassigned = tuple(node for node in nodes if not state.served[0, node])
-    return Solution(tuple(routes), unassigned)
+    return Solution(tuple(routes), problem.left_out(np.flatnonzero(state.served[0]).tolist()))
 
 
 def _close(problem: Problem, instance: Instance, state: State,

@@ -270,7 +270,7 @@ def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route,
     route = _timed_route(problem, vehicle, start)
     served = {node for trip in vehicle.trips for node in trip.nodes}
     served |= {flight.customer for trip in vehicle.trips for flight in trip.flights}
-    rest = tuple(set(range(problem.num_depots, problem.num_nodes)) - served)
+    rest = problem.left_out(served)
     return route, check(problem, Solution((route,), rest))
 
 

@@ -16,6 +16,7 @@ from app.requests.conversion.service import with_service_durations
 from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
+from app.schemas.customer import place_name
 from app.schemas.fairness import FairnessInput
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
@@ -47,7 +48,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     groups = list(groups_of(request.fleet, [*request.customers, *request.launch_sites]))
     kinds = [group.type for group in groups] or list(range(len(request.fleet)))
     serves = np.array([group.serves for group in groups]) if groups else None
-    costs = _vehicle_costs(groups, len(customers))
+    costs = _serving_costs(request, groups, len(kinds))
     if groups:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
     unassigned_cost = request.unassigned_cost
@@ -69,7 +70,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         must_serve=request.unassigned_cost is None,
         incompatible_goods=_apart(request),
         relations=_relations(request, len(depots)),
-        shipments=shipments,
+        shipments=shipments, choices=_choices(request, len(depots)),
         fairness=_fairness(request.fairness),
     )
 
@@ -81,11 +82,17 @@ def _depots(placed: PlacedRequest) -> tuple[Depot, ...]:
         in zip(placed.depots, placed.sites, placed.launches, placed.stocks, strict=False)])
 
 
-def _vehicle_costs(groups: Sequence[Group], num_customers: int) -> FloatArray | None:
-    """Return what it costs to be served by each group; None if nobody states anything."""
-    if not groups or not any(group.costs.any() for group in groups):
+def _serving_costs(request: PlanRequest, groups: Sequence[Group],
+                   kinds: int) -> FloatArray | None:
+    """Return what it costs to be served by each group, at each place; None if it costs nothing."""
+    number = len(request.customers)
+    stated = {place_name(customer.id, place.id): place.cost for customer in request.customers
+              for place in customer.alternatives if place.cost}
+    differ = any(group.costs.any() for group in groups)
+    if not differ and not stated:
         return None
-    return np.array([group.costs[:num_customers] for group in groups])
+    costs = np.tile([stated.get(customer.id, 0.0) for customer in request.customers], (kinds, 1))
+    return costs + [group.costs[:number] for group in groups] if differ else costs
 
 
 def _dearest(costs: FloatArray | None) -> float:
@@ -112,13 +119,26 @@ def _apart(request: PlanRequest) -> tuple[IncompatibleGoods, ...]:
                  for each in request.incompatible_goods)
 
 
+def _choices(request: PlanRequest, num_depots: int) -> tuple[tuple[int, ...], ...]:
+    """Return the places of customers who have several; others than their own come behind all."""
+    choosy = [customer for customer in request.customers if customer.alternatives]
+    if not choosy:
+        return ()
+    node = {customer.id: index for index, customer in enumerate(request.customers, num_depots)}
+    return tuple((node[customer.id], *(node[place_name(customer.id, place.id)]
+                                       for place in customer.alternatives))
+                 for customer in choosy)
+
+
 def _relations(request: PlanRequest, num_depots: int) -> tuple[Relation, ...]:
-    """Return who goes with whom."""
+    """Return who goes with whom, at whichever place."""
     if not request.relations:
         return ()
     node = {customer.id: index for index, customer in enumerate(request.customers, num_depots)}
-    return tuple(Relation(each.kind, tuple(node[name] for name in each.customers), each.scope)
-                 for each in request.relations)
+    places = {chosen[0]: chosen for chosen in _choices(request, num_depots)}
+    return tuple(Relation(each.kind, tuple([
+        place for name in each.customers for place in places.get(node[name], (node[name],))
+    ]), each.scope) for each in request.relations)
 
 
 def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],

@@ -24,7 +24,9 @@ void disband(const ProblemData& data, Searcher& searcher) {
     for (Int node = 0; node < now.where.size(); ++node) {
         if (now.where[node].slot < 0) continue;
         now.where[node].slot = nowhere;
-        if (!is_delivery(data.pair, node)) searcher.missing[count.missing++] = node;
+        if (!is_delivery(data.pair, node)) {
+            searcher.missing[count.missing++] = unit_of(data.pair, node);
+        }
     }
     list_active(searcher);
 }

@@ -55,14 +55,16 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
             now.cost[slot] = 0.0;
         }
     }
+    count.customers = 0;
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-        if (now.where[node].slot == nowhere && !is_delivery(data.pair, node)) {
+        const Int unit = unit_of(data.pair, node);
+        if (unit == node || is_delivery(data.pair, node)) ++count.customers;
+        if (unit == node && now.where[served_place(data, now, node)].slot == nowhere) {
             searcher.missing[count.missing++] = node;
         }
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) now.route[slot].stamp = 1;
     count.stamp = 1;
-    count.customers = data.num_nodes - data.num_depots;
     count.changed = all_slots;
     list_active(searcher);
     searcher.value->cost =

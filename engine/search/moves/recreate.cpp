@@ -134,6 +134,32 @@ void find_anywhere(const Insertion& insertion, bool opens, bool scan_all) {
     if (tried > 0) try_trips(insertion, tried);
 }
 
+// Finds where a customer is inserted best, at home if he has one. In place.
+void find(const Insertion& insertion, Int home, bool opens, bool scan_all) {
+    if (home == nowhere) {
+        find_anywhere(insertion, opens, scan_all);
+    } else if (home >= 0) {
+        find_at_home(insertion, home);
+    }
+}
+
+// Finds where a customer is inserted best at any of his places, and returns that. In place.
+Int find_best(const Insertion& insertion, Int home, bool opens, bool scan_all) {
+    const auto [data, searcher, node, enlarge, best] = insertion;
+    const Best untried = best;
+    Int chosen = node;
+    find(insertion, home, opens, scan_all);
+    for_each_place(data.pair, node, [&](Int place) {
+        if (place == node) return;
+        Best there = untried;
+        find({data, searcher, place, enlarge, there}, home, opens, scan_all);
+        if (there.cost >= best.cost) return;
+        best = there;
+        chosen = place;
+    });
+    return chosen;
+}
+
 }  // namespace
 
 Int draw_order(const ProblemData& data, View<std::uint64_t, 1> rng) {
@@ -187,14 +213,10 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
             best.weight = weight;
         }
         const Insertion insertion{data, searcher, node, enlarge, best};
-        if (home == nowhere) {
-            find_anywhere(insertion, opens, scan_all);
-        } else if (home >= 0) {
-            find_at_home(insertion, home);
-        }
+        const Int chosen = find_best(insertion, home, opens, scan_all);
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = best.cost < left_out || opens;
-        if (best.cost == infeasible || !wanted || !insert(data, searcher, node, best.move)) {
+        if (best.cost == infeasible || !wanted || !insert(data, searcher, chosen, best.move)) {
             absent[left++] = node;
         }
         spare -= std::min(best.cost, left_out);

@@ -68,18 +68,6 @@ private:
     Removed& removed_;
 };
 
-// Call `visit` with each customer of a route.
-template <class Visit>
-void for_each_served(const Fleet& fleet, Int slot, const Visit& visit) {
-    const Route& route = fleet.route[slot];
-    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
-        if (stop.kind == customer_stop) visit(stop.node);
-    }
-    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        for (Int index = 0; index < sortie.count; ++index) visit(sortie.nodes[index]);
-    }
-}
-
 // Mark all customers of a route. In place.
 void mark_all(const Fleet& fleet, Int slot, Removed& removed) {
     for_each_served(fleet, slot, [&](Int node) { removed.mark(node); });
@@ -146,7 +134,7 @@ void mark_company(const ProblemData& data, const Fleet& fleet, View<std::uint64_
     for (Int index = first; index < removed.count; ++index) {
         const Int node = removed.absent[index], kept = kept_by_vehicle(data.goods[node]);
         if (kept == 0 || uniform(rng) >= company_share) continue;
-        const Int slot = fleet.where[node].slot;
+        const Int slot = fleet.where[served_place(data, fleet, node)].slot;
         for_each_served(fleet, slot, [&](Int other) {
             if ((kept_by_vehicle(data.goods[other]) & kept) != 0) removed.mark(other);
         });

@@ -105,6 +105,7 @@ public:
         const Fleet& now = searcher_.now;
         const SearchCounts& count = *searcher_.count;
         if (count.touched == 0) return;
+        forget_places();
         for (Int index = 0; index < count.touched; ++index) {
             const Int slot = searcher_.touched[index];
             const Route& route = now.route[slot];
@@ -120,6 +121,15 @@ public:
     }
 
 private:
+    // Notes that nobody is on the routes touched, who may be served at another place than before.
+    void forget_places() const {
+        if (!some_paired(data_.pair)) return;
+        for (const Int slot : searcher_.touched.first(searcher_.count->touched)) {
+            for_each_served(searcher_.now, slot,
+                            [&](Int node) { leave_out(data_, searcher_.now, node); });
+        }
+    }
+
     // Plans a part of a trip with one drone anew.
     bool plan_anew(double rise) {
         if (has_halts(data_) && uniform(searcher_.rng) < best_part_share) {

@@ -85,7 +85,7 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
 void join_sortie(Sortie& sortie, Int place, Int node);
 
 // Customers to be removed, in the order in which they were marked, each once. Of a shipment both
-// ends are, for which the pickup stands.
+// ends are, for which the pickup stands; for a customer's places the first does.
 struct Removed {
     View<bool, 1> marked;  // (node,)
     View<Int, 1> absent;   // who was absent before comes first
@@ -100,7 +100,7 @@ struct Removed {
     }
 
     void unmark(Int node) const {
-        marked[node] = false;
+        for_each_place(pair, node, [&](Int place) { marked[place] = false; });
         if (is_paired(pair, node)) marked[pair[node].partner] = false;
     }
 };

@@ -76,7 +76,7 @@ struct ProblemData {
     View<const Goods, 1> goods;                   // (node,) none where all go together
     View<const Setup, 1> setup;                   // (node,) none where nobody sets up
     View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
-    View<const Pair, 1> pair;                     // (node,) none where there are no shipments
+    View<const Pair, 1> pair;                     // (node,) none where nobody belongs together
     View<const std::int64_t, 2> max_between;      // (type, node) ms from a pickup to its delivery
     View<const double, 2> vehicle_cost;           // (type, node) of being served by it
     View<const bool, 1> no_launch;                // (node,) none where drones may take off anywhere

@@ -36,7 +36,7 @@ bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at) {
 }
 
 void leave_out(const ProblemData& data, const Fleet& fleet, Int node) {
-    fleet.where[node].slot = nowhere;
+    for_each_place(data.pair, node, [&](Int place) { fleet.where[place].slot = nowhere; });
     if (is_paired(data.pair, node)) fleet.where[data.pair[node].partner].slot = nowhere;
 }
 

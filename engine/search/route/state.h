@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "rules/pair.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -15,6 +16,23 @@ bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at);
 
 // Note that a customer is left out; of a shipment, both ends. In place.
 void leave_out(const ProblemData& data, const Fleet& fleet, Int node);
+
+// Return the place of a customer that is on a route; the one given if none is.
+inline Int served_place(const ProblemData& data, const Fleet& fleet, Int node) {
+    return used_place(data.pair, node, [&](Int place) { return fleet.where[place].slot >= 0; });
+}
+
+// Call `visit` with each customer of a route.
+template <class Visit>
+void for_each_served(const Fleet& fleet, Int slot, const Visit& visit) {
+    const Route& route = fleet.route[slot];
+    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+        if (stop.kind == customer_stop) visit(stop.node);
+    }
+    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
+        for (Int index = 0; index < sortie.count; ++index) visit(sortie.nodes[index]);
+    }
+}
 
 // List the slots in use, and those that are free. In place.
 void list_active(const Searcher& searcher);

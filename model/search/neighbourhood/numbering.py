@@ -48,6 +48,8 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
         by_node["pair"] = pair = np.take(instance.pair, node, 1)
         paired = pair["partner"] >= 0
         pair["partner"][paired] = numbering.number[pair["partner"][paired]]
+        for name in ("unit", "next_place"):
+            pair[name] = numbering.number[pair[name]]
     if instance.max_between.shape[2]:
         by_node["max_between"] = np.take(instance.max_between, node, 2)
     if instance.vehicle_cost.shape[2]:

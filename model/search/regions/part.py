@@ -52,6 +52,8 @@ def part_of(problem: Problem, region: Region) -> Part:
     first = problem.num_depots
     served = [node for route in region.plan.routes for node in customers_of(route)]
     customers = sorted((*served, *region.plan.unassigned))
+    if problem.choices:
+        customers = sorted({place for node in customers for place in problem.places_of(node)})
     if not customers or not region.vehicles:
         raise ValueError(f"region: {len(customers)} customers and {len(region.vehicles)} vehicles "
                          "are not allowed")
@@ -78,7 +80,7 @@ def part_of(problem: Problem, region: Region) -> Part:
         coordinates=problem.coordinates[chosen],
         may_serve=may_serve, vehicle_costs=problem.vehicle_costs_of(kinds, customers),
         may_stop=may_stop, shipments=problem.shipments_among(nodes),
-        relations=problem.relations_among(nodes),
+        relations=problem.relations_among(nodes), choices=problem.choices_among(nodes),
     ), nodes, vehicles)
 
 

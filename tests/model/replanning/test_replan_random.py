@@ -22,6 +22,7 @@ from tests.model.tiny import (
     with_table, with_turnaround,
 )
 from tests.model.tiny_breaks import with_breaks
+from tests.model.tiny_choices import with_choices
 from tests.model.tiny_company import with_relations
 from tests.model.tiny_driving import with_driving
 from tests.model.tiny_launches import (
@@ -37,7 +38,7 @@ OPTIONS = PlanOptions("any", time_limit=600.0, search_iterations=40)
 
 def nobody(problem: Problem) -> Solution:
     """Return the plan that serves nobody."""
-    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    return Solution((), problem.left_out(()))
 
 
 def part_of(problem: Problem, customers: list[int]) -> Problem:
@@ -48,7 +49,7 @@ def part_of(problem: Problem, customers: list[int]) -> Problem:
                    travel=tuple(Travel(kind.duration[grid], kind.distance[grid])
                                 for kind in problem.travel),
                    coordinates=problem.coordinates[nodes],
-                   relations=problem.relations_among(nodes),
+                   relations=problem.relations_among(nodes), choices=problem.choices_among(nodes),
                    may_serve=None if problem.may_serve is None else
                    problem.may_serve[:, np.array(customers) - problem.num_depots],
                    vehicle_costs=problem.vehicle_costs_of(
@@ -295,7 +296,8 @@ def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
 
 @pytest.mark.parametrize("change", [
     with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once,
-    with_ranges, with_few_airborne, with_few_launch_places, with_storms, with_relations])
+    with_ranges, with_few_airborne, with_few_launch_places, with_storms, with_relations,
+    with_choices])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],

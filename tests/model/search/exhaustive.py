@@ -21,6 +21,7 @@ from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Problem, VehicleTyp
 from model.problem.travel import Matrix
 from model.solution import Route, Solution
 from tests.model.mask_oracle import costs_nothing
+from tests.model.tiny_choices import by_choice
 from tests.model.tiny_company import companions
 
 STEP = 30_000
@@ -32,6 +33,8 @@ Taken = tuple[int, ...]
 
 def cheapest_cost(problem: Problem) -> float:
     """Return the cost of the cheapest plan of a problem of a few customers."""
+    if problem.choices:
+        return min(map(cheapest_cost, by_choice(problem)))
     everyone = tuple(range(problem.num_depots, problem.num_nodes))
     kinds = range(len(problem.vehicle_types))
     routes = {(kind, nodes): _cheapest_routes(problem, kind, nodes)

@@ -10,6 +10,7 @@ from tests.model.tiny import (
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
     with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
 )
+from tests.model.tiny_choices import with_choices
 from tests.model.tiny_company import with_relations
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
@@ -155,6 +156,15 @@ def all_rules_vehicle_costs(rng: np.random.Generator) -> Problem:
 def all_rules_in_company(rng: np.random.Generator) -> Problem:
     problem = with_relations(rng, all_rules(rng))
     return with_goods(rng, problem) if rng.random() < 0.2 else problem
+
+
+def all_rules_several_places(rng: np.random.Generator) -> Problem:
+    """Return problems with a customer of several places, some of them with company or gaps."""
+    while True:
+        problem = all_rules(rng)
+        if problem.num_customers > 1:
+            change = (with_relations, with_gaps, with_places)[int(rng.integers(3))]
+            return with_choices(rng, change(rng, problem) if rng.random() < 0.4 else problem)
 
 
 def all_rules_setups(rng: np.random.Generator) -> Problem:

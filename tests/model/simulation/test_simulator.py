@@ -27,6 +27,7 @@ from tests.model.tiny import (
     with_own_costs, with_own_durations, with_pickups, with_places, with_reloads, with_setups,
     with_table, with_turnaround,
 )
+from tests.model.tiny_choices import with_choices
 from tests.model.tiny_company import companions, with_relations
 from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
@@ -59,7 +60,7 @@ class Position:
         assert self.vehicle is not None
         self.vehicle = after(problem, self.vehicle, kind, target)
         if kind != RETURN:
-            self.served.add(target)
+            self.served.update(problem.places_of(target))
 
 
 def walk(problem: Problem, rng: np.random.Generator) -> Iterator[tuple[list[int], Position]]:
@@ -242,6 +243,19 @@ def shipments_both_ways(rng: np.random.Generator, problem: Problem) -> Problem:
 def shipments_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_shipments(rng, with_some(rng, problem, with_gaps, with_places, with_beginnings,
                                          with_table, with_fliers, with_drone_types))
+
+
+def test_one_place_of_a_customer_is_used() -> None:
+    elsewhere = 0
+    for seed in range(60):
+        rng = np.random.default_rng((seed, 77))
+        problem = with_choices(rng, with_some(rng, draw_tiny(rng), with_gaps, with_places,
+                                              with_setups, with_pickups, with_duty))
+        assert_exact(problem, rng, seed)
+        targets = {code // NUM_KINDS for code in roll([problem], seed).rollouts[0].actions
+                   if code % NUM_KINDS in (DRIVE, LAUNCH)}
+        elsewhere += bool(targets & problem.other_nodes)
+    assert elsewhere > 20
 
 
 @pytest.mark.parametrize("change", [with_shipments, shipments_both_ways, shipments_among_all])

@@ -945,6 +945,7 @@ export default {
   field: {
     address: 'Adresse',
     allowed: 'Erlaubt',
+    alternatives: 'Andere Orte',
     altitude: 'Höhe',
     after_departure: 'Nach Abfahrt',
     at: 'Wo',
@@ -1190,8 +1191,18 @@ export default {
         'Was es kostet, diesen Kunden auszulassen. Leer: wie für alle, siehe „Flotte“.',
       vehicles: 'Welche Fahrzeuge kommen dürfen. Leer: alle.',
       vehicle_costs: 'Was es mehr kostet, mit einem Typ oder Fahrzeug zu kommen: van-3.',
+      alternatives: 'Orte, die stattdessen dienen können, etwa eine Packstation; einer dient.',
       launch: 'Ob Drohnen dort von einem Fahrzeug starten und wieder landen dürfen.',
       info: 'Was der Fahrer wissen soll, je eine Zeile: Adresse, Telefon, Hinweise.',
+    },
+    AlternativeInput: {
+      id: 'Der Name des Ortes unter denen des Kunden.',
+      location: 'Wo er liegt: Länge und Breite oder eine Adresse; in der Ebene x und y.',
+      location_index: 'Zeile dieses Ortes in den Wegetabellen, ab 0.',
+      service_duration: 'Zeit dort. Leer: wie beim Kunden.',
+      time_window: 'Wann die Bedienung dort beginnen darf. Leer: jederzeit.',
+      time_windows: 'Mehrere Zeitfenster; wer zwischen zweien kommt, wartet auf das nächste.',
+      cost: 'Was es kostet, dass dieser Ort dient.',
     },
     TimeWindowInput: {
       earliest: 'Die Bedienung beginnt nicht früher; wer eher kommt, wartet.',

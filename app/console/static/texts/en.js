@@ -931,6 +931,7 @@ export default {
   field: {
     address: 'Address',
     allowed: 'Allowed',
+    alternatives: 'Other places',
     altitude: 'Altitude',
     after_departure: 'After departure',
     at: 'Where',
@@ -1176,8 +1177,18 @@ export default {
       unassigned_cost: 'What leaving this customer out costs. Empty: as for all, see Fleet.',
       vehicles: 'Which vehicles may come. Empty: all.',
       vehicle_costs: 'What it costs more to be served by a type, or one vehicle: van-3.',
+      alternatives: 'Places that may be used instead, such as a locker; one place is.',
       launch: 'Whether drones may take off from a truck there and be recovered.',
       info: 'What the driver is to know, a line each: address, phone, notes.',
+    },
+    AlternativeInput: {
+      id: 'The name of the place among those of the customer.',
+      location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',
+      location_index: 'Row of this place in the tables of legs, from 0.',
+      service_duration: 'Time spent there. Empty: as at the customer.',
+      time_window: 'When service may start there. Empty: at any time.',
+      time_windows: 'Several windows; whoever comes between two waits for the next.',
+      cost: 'What it costs that this place is used.',
     },
     TimeWindowInput: {
       earliest: 'Service starts no earlier; who comes before waits.',
