@@ -13,11 +13,17 @@ from typing import Any
 import numpy as np
 
 from model.engine.instance import Instance
-from model.problem import Customer, Depot, Problem, VehicleType
+from model.problem import Customer, Depot, IntArray, Problem, VehicleType
 from model.search.strategy import Moves
 
 MOST_COMPARED = 1000
 """Nodes up to which all legs by truck and drone are compared, which takes 20 ms there."""
+
+MOST_WALKED = 200
+"""Nodes up to which ways by a third place are compared, as far as legs aren't computed: 40 ms."""
+
+LEEWAY = 10
+"""Millimetres by which a leg may be longer than another way, as each is rounded."""
 
 PROBLEM = ("depots", "customers", "vehicle_types", "travel", "coordinates", "unassigned_cost",
            "amount_decimals", "may_serve", "must_serve", "incompatible_goods", "num_dimensions")
@@ -77,7 +83,15 @@ def _flies_no_cheaper(problem: Problem, kind: VehicleType) -> bool:
     assert kind.drones is not None
     if problem.num_nodes > MOST_COMPARED:
         return False
-    driven, flown = (problem.travel[travel].arrays()[1]
-                     for travel in (kind.travel, kind.drones.travel))
+    road, air = problem.travel[kind.travel], problem.travel[kind.drones.travel]
+    driven, flown = road.arrays()[1], air.arrays()[1]
     return bool(np.array_equal(driven, driven.T)
-                and (flown * kind.drones.cost_per_km >= driven * kind.cost_per_km).all())
+                and (flown * kind.drones.cost_per_km >= driven * kind.cost_per_km).all()
+                and (road.straight is not None or _are_shortest_ways(driven)))
+
+
+def _are_shortest_ways(driven: IntArray) -> bool:
+    """Tell whether no leg is longer than the way by a third place, as stated tables need not be."""
+    return len(driven) <= MOST_WALKED and all(
+        bool((driven <= driven[:, [by]] + driven[by] + LEEWAY).all())
+        for by in range(len(driven)))

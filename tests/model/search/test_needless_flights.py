@@ -39,6 +39,14 @@ def with_longer_way(problem: Problem) -> Problem:
     return replace(problem, travel=(Travel(road.duration[:], distance), *others))
 
 
+def with_detours(problem: Problem) -> Problem:
+    """Let a leg be longer by road, both ways, than by way of the depot."""
+    road, *others = problem.travel
+    distance = road.distance[:]
+    distance[1, 2] = distance[2, 1] = distance[1, 0] + distance[0, 2] + 1_000_000
+    return replace(problem, travel=(Travel(road.duration[:], distance), *others))
+
+
 def cleared(problem: Problem) -> tuple[Instance, Instance]:
     """Return a problem as it is packed, and without needless flights."""
     packed = pack([problem])
@@ -58,7 +66,7 @@ def test_whom_a_truck_may_serve_no_drone_flies_to(rule: Callable[[Problem], Prob
 
 
 @pytest.mark.parametrize("rule", [
-    with_drones(cost_per_km=0.99), with_longer_way, with_vehicles(max_stops=5),
+    with_drones(cost_per_km=0.99), with_longer_way, with_detours, with_vehicles(max_stops=5),
     with_vehicles(cost_per_stop=1.0), with_vehicles(max_trip_distance=10**8),
     with_vehicles(latest=10**8), with_customers(pickup=(1,)), with_customers(latest=10**8),
     *(RULES[name] for name in (
