@@ -8,8 +8,13 @@ from model.problem import Problem
 
 
 def lifted(problem: Problem, node: int) -> Iterator[tuple[str, Problem]]:
-    """Yield rules that keep vehicles from a customer, as requests name them, and no longer do."""
+    """Yield rules that keep vehicles from a customer, as requests name them, and no longer do.
+
+    None of a shipment's ends: no vehicle is tried for one without the other.
+    """
     customer = problem.customer_at(node)
+    if node in problem.shipment_at:
+        return
     if not all(problem.allows(kind, node) for kind in range(len(problem.vehicle_types))):
         yield "vehicles", _open_to_all(problem, node)
     if any(not customer.skills <= kind.skills for kind in problem.vehicle_types):

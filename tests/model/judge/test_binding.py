@@ -8,7 +8,7 @@ from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision
-from model.problem import MICROJOULES_PER_WH, Energy, IncompatibleGoods, Overtime
+from model.problem import MICROJOULES_PER_WH, Energy, IncompatibleGoods, Overtime, Shipment
 from model.solution import Solution, Trip
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
@@ -187,3 +187,17 @@ def test_who_must_be_flown_to_is_told_what_that_costs(tiny_problem, customers, t
     solution = plan(problem, route(A, B, D, sorties=(SortieDecision((C,), 2, 3),)))
     # From b to c and on to d: 2 km by air.
     assert binding(problem, solution, C)["served_by"] == (None, pytest.approx(6.0))
+
+
+def test_ends_of_shipments_are_asked_about_whatever_goods_and_skills_they_have(
+        tiny_problem, customers, truck):
+    a, b, c, d = (replace(each, skills=frozenset({"cold"}), goods=frozenset({"food"}))
+                  for each in customers)
+    ends = (replace(each, demand=(0,)) for each in (c, d))
+    problem = replace(
+        tiny_problem(a, b, *ends, truck=replace(truck, count=2, skills=frozenset({"cold"}))),
+        incompatible_goods=(IncompatibleGoods(frozenset({"food", "paint"})),),
+        shipments=(Shipment("s", C, D, (1000,)),))
+    solution = plan(problem, route(A, B, C, D))
+    for end in (C, D):
+        assert binding(problem, solution, end) == {}
