@@ -57,7 +57,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
         breaks=tuple([_break(each) for each in stated.breaks]),
-        driving=_driving(stated.driving_rules),
+        driving=driving_rules(stated.driving_rules),
     ))
     kind = _in_time(kind, travels)
     return _flying(kind, stated, travels, decimals, amounts) if stated.flies else kind
@@ -100,7 +100,8 @@ def _break(stated: BreakInput) -> Break:
         after_departure=stated.after_departure, anywhere=stated.at == "anywhere", paid=stated.paid)
 
 
-def _driving(stated: DrivingRulesInput | None) -> DrivingRules | None:
+def driving_rules(stated: DrivingRulesInput | None) -> DrivingRules | None:
+    """Return rules as stated; None if there are none."""
     if stated is None:
         return None
 

@@ -15,7 +15,7 @@ from model.problem import REST, UNLIMITED, DrivingRules, DroneType, Problem
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
-from tests.model.driving_law import Law, offences
+from benchmarks.quality.driving_law import Law, offences
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day
