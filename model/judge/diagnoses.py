@@ -12,7 +12,7 @@ from model.judge.diagnosis import (
 from model.judge.flight_diagnoses import (
     endurance_broken, energy_broken, max_range_broken, unreachable_broken, wind_broken,
 )
-from model.judge.driving import travel_duration
+from model.judge.driving import excesses, travel_duration
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import amounts
@@ -282,8 +282,20 @@ def _breaks(attempt: Attempt) -> Diagnosis:
 
 
 def _driving(attempt: Attempt) -> Diagnosis:
-    return Diagnosis("DRIVING", f"Serving it alone takes longer than drivers of "
-                     f"{attempt.vehicle_type.id} may be at the wheel, or at work.", None, None)
+    kind, trips = attempt.vehicle_type, attempt.solution.routes[0].trips
+    rules, found = kind.driving, list(excesses(kind, trips))
+    if rules is None or {each.what for each in found} != {"day"}:
+        return Diagnosis("DRIVING", f"Serving it alone takes longer than drivers of {kind.id} may "
+                         "be at the wheel, or at work.", None, None)
+    excess = up_to_tenth(found[0].excess, MS_PER_MINUTE)
+    enough = up_to_tenth(rules.max_driving_per_day + excess, MS_PER_MINUTE)
+    changed = replace(rules, max_driving_per_day=min(enough, UNLIMITED))
+    return Diagnosis(
+        "DRIVING",
+        f"Serving it alone takes {in_minutes(excess)} more than drivers of {kind.id} may be at the "
+        "wheel in a day.",
+        if_stated(f"fits if {kind.id}'s drivers could drive {in_minutes(enough)} a day", enough),
+        with_type(attempt, replace(kind, driving=changed)))
 
 
 def _unreachable(attempt: Attempt) -> Diagnosis:

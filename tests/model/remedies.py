@@ -86,6 +86,11 @@ def _longer(overtime: Overtime | None, text: str) -> Overtime:
     return replace(overtime, max_duration=overtime.max_duration + _units(text, MINUTE))
 
 
+def _drive_longer(kind: VehicleType, text: str) -> VehicleType:
+    assert kind.driving is not None
+    return replace(kind, driving=replace(kind.driving, max_driving_per_day=_units(text, MINUTE)))
+
+
 ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
     "fits if endurance were (.+) minutes? longer": _longer_endurance,
     "fits if max_range were (.+) km longer": _longer_range,
@@ -110,6 +115,7 @@ ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
         kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
     "fits if .+ could travel (.+) minutes? longer": lambda kind, text: replace(
         kind, max_travel_duration=(kind.max_travel_duration or 0) + _units(text, MINUTE)),
+    "fits if .+'s drivers could drive (.+) minutes? a day": _drive_longer,
     "fits if trips could be (.+) km longer": lambda kind, text: replace(
         kind, max_trip_distance=(kind.max_trip_distance or 0) + _units(text, KM)),
     "fits if .+ may pick up at any tim(e)": lambda kind, _: replace(kind, pickups="any"),

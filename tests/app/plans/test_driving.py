@@ -99,7 +99,8 @@ def test_a_day_that_is_too_long_is_told(service: httpx.Client, far: Request) -> 
     far["customers"][1]["location"] = [9, 500]
     plan = planned(service, far)
     left, = plan["unassigned"]
-    assert {reason["code"] for reason in left["reasons"]} == {"DRIVING"}
+    assert {(reason["code"], reason["remedy"]) for reason in left["reasons"]} == {
+        ("DRIVING", "fits if van's drivers could drive 1166.9 minutes a day")}
 
 
 def test_looser_numbers_are_told(service: httpx.Client, far: Request) -> None:

@@ -6,7 +6,7 @@ import pytest
 from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    MAX_MONEY, MAX_QUANTITY, UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime,
+    MAX_MONEY, MAX_QUANTITY, UNLIMITED, UNREACHABLE, DrivingRules, IncompatibleGoods, Overtime,
     SpeedProfile, Travel,
 )
 from model.solution import Solution
@@ -47,6 +47,9 @@ def reason_for_d(problem, solution=NOBODY_SERVED):
     ("TRAVEL_DURATION", {"max_travel_duration": 15 * MINUTE}, {},
      "The way there and back takes 1 minute more than truck may travel.",
      "fits if truck could travel 1 minute longer"),
+    ("DRIVING", {"driving": DrivingRules(9 * MINUTE, MINUTE, (), 15 * MINUTE)}, {},
+     "Serving it alone takes 1 minute more than drivers of truck may be at the wheel in a day.",
+     "fits if truck's drivers could drive 16 minutes a day"),
     ("SHIFT", {"latest": 10 * MINUTE, "overtime": Overtime(1.0, 9 * MINUTE)}, {},
      "truck would be back 2 minutes after its shift and all the overtime allowed.",
      "fits if truck could work 2 minutes more overtime"),

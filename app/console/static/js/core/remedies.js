@@ -98,6 +98,15 @@ const CHANGES = [
       add(request, [...type, 'max_travel_duration'], numberOf(more) * SECONDS_PER_MINUTE),
   ],
   [
+    new RegExp(`^fits if .+'s drivers could drive ${NUMBER} minutes? a day$`),
+    (request, { type }, all) =>
+      setIn(
+        request,
+        [...type, 'driving_rules', 'max_driving_per_day'],
+        numberOf(all) * SECONDS_PER_MINUTE,
+      ),
+  ],
+  [
     new RegExp(`^fits if its (?:last )?window closed ${NUMBER} minutes? later$`),
     (request, { customer }, more) =>
       closeLater(request, customer, windowsOf(getIn(request, customer)).length - 1, more),
