@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from app.schemas.customer import place_name
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
 
@@ -20,10 +21,18 @@ def carry(info: Info, reply: dict[str, Any]) -> None:
     if not info:
         return
     for halt in _halts(reply):
-        kind = halt.get("kind", "customer")
-        name = end_name(halt["id"], kind) if kind in ENDS else halt["id"]
-        if kind in ("customer", *ENDS) and name in info:
+        kind, name = named(halt)
+        if kind == "customer" and name in info:
             halt["info"] = dict(info[name])
+
+
+def named(halt: Mapping[str, Any]) -> tuple[str, str]:
+    """Return the kind of a halt of a reply, and its name; a customer's is that among them all."""
+    kind, name = halt.get("kind", "customer"), halt["id"]
+    if kind in ENDS:
+        return "customer", end_name(name, kind)
+    other = halt.get("alternative")
+    return kind, name if other is None else place_name(name, other)
 
 
 def _halts(reply: dict[str, Any]) -> Iterator[dict[str, Any]]:

@@ -24,7 +24,7 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
     """Return what is said of one customer."""
     problem = bench.problem
     return {
-        "customer": problem.customer_at(bench.node).id,
+        "customer": problem.customer_at(problem.first_place(bench.node)).id,
         "cost": cost_reply(bench.plan.evaluation.cost),
         "here": here_reply(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],

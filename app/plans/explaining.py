@@ -23,6 +23,7 @@ from model.judge.bench import Bench, Setting
 from model.judge.binding import find_binding
 from model.judge.idle_drones import idle_drones
 from model.judge.launch_sites import without_idle_stops
+from model.judge.places import used_place
 from model.judge.retiming import read_route, time_route
 from model.judge.worth import sorties_worth
 from model.planner import Listener, Planner, PlanOptions, PlanResult
@@ -182,6 +183,7 @@ class _Explainer:
         node = next(node for node, customer
                     in enumerate(self._problem.customers, self._problem.num_depots)
                     if customer.id == name)
+        node = used_place(self._problem, self._solution, node)
         bench = Bench(self._problem, self._solution, node, self._setting, self._judged)
         share = ALTERNATIVES_SHARE * (0.3 if question.drones else 1.0)
         found = find_alternatives(bench, question.after(share))

@@ -20,7 +20,7 @@ from app.serving.load.bodies import ReceivedBody
 from model.judge.bench import Bench, Trial
 from model.judge.check import Evaluation
 from model.judge.fitting import find_fits, new_violations, spot_of, vehicle_of
-from model.judge.places import find_place
+from model.judge.places import find_place, used_place
 from model.solution import Solution
 
 TRYING_SHARE = 0.9
@@ -47,12 +47,12 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     _require_readable(evaluation)
     now, limit = time.perf_counter(), request.options.time_limit
     until = max(body.received_at + TRYING_SHARE * limit, now + LEAST_TRYING * limit)
-    node = _node_of(task, request)
+    node = used_place(problem, solution, _node_of(task, request))
     bench = Bench(problem, _with_customer(solution, node), node, task.setting, judged)
     fits = find_fits(bench, request.count, until,
                      vehicle_of if request.one_per_vehicle else spot_of)
     reply: Data = {
-        "customer": task.problem.customer_at(node).id,
+        "customer": problem.customer_at(problem.first_place(node)).id,
         "cost": cost_reply(evaluation.cost),
         "here": here_reply(bench),
         "places": [_place_reply(bench, trial) | {"route": _route(task, bench, trial)}

@@ -6,6 +6,7 @@ from itertools import pairwise
 from typing import Any
 
 from app.maps.roads.roads import NO_ROADS, Roads
+from app.plans.carried import named
 from app.plans.road_lines import Line, RoadLines, encoded
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.launches import drones_named
@@ -65,7 +66,7 @@ class Geometry:
             for trip in route["trips"]:
                 stops = [stop for stop in trip["stops"] if stop["kind"] != "break"]
                 places = _places(trip["stops"])
-                nodes = [self._nodes[stop["kind"], stop["id"]] for stop in stops]
+                nodes = [self._nodes[named(stop)] for stop in stops]
                 driven = (self._flown(nodes, kind, kind, until) if kind.flies
                           else self._driven(nodes, kind.profile, until))
                 for stop, line in zip(stops[1:], driven, strict=True):
@@ -80,7 +81,7 @@ class Geometry:
                      drones: DronesInput, until: float) -> None:
         visits = sortie["customers"]
         nodes = [stops[sortie["launch_stop"]],
-                 *(self._nodes["customer", visit["id"]] for visit in visits),
+                 *(self._nodes[named(visit)] for visit in visits),
                  stops[sortie["recovery_stop"]]]
         *lines, last = self._flown(nodes, kind, drones, until)
         for visit, line in zip(visits, lines, strict=True):

@@ -37,13 +37,14 @@ def replan_reply(problem: Problem, replanning: Replanning, solution: Solution) -
 
 def _parcels(problem: Problem, replanning: Replanning, solution: Solution) -> list[Data]:
     """Return whose parcels are aboard vehicles that do nothing more, and who loads them where."""
-    loading = {node: (route, trip) for route in solution.routes for trip in route.trips
-               for node in _customers(trip)}
+    loading = {problem.first_place(node): (route, trip) for route in solution.routes
+               for trip in route.trips for node in _customers(trip)}
     told = []
     for node, vehicle in replanning.stranded.items():
-        route, trip = loading.get(node, (None, None))
+        own = problem.first_place(node)
+        route, trip = loading.get(own, (None, None))
         told.append({
-            "id": problem.customer_at(node).id,
+            "id": problem.customer_at(own).id,
             "vehicle": vehicle_name(problem, Route(*vehicle, ())),
             "back": replanning.past.returned[node] / 1000,
             "depot": None if trip is None else problem.depots[trip.stops[0].node].id,

@@ -8,7 +8,7 @@ from app.requests.conversion.groups import Roster, groups_of
 from app.requests.conversion.names import drones_of
 from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
-from app.schemas.customer import TimeWindowInput, VehiclesInput
+from app.schemas.customer import TimeWindowInput, VehiclesInput, place_name
 
 Entry = TypeVar("Entry")
 
@@ -31,6 +31,16 @@ def window_errors(draft: Draft) -> Errors:
             yield from _order_errors(draft, (*path, "time_windows", index), window)
             yield from _price_errors((*path, "time_windows", index), window)
         yield from _sequence_errors(draft, (*path, "time_windows"), customer.time_windows)
+
+
+def place_errors(draft: Draft) -> Errors:
+    """Say which other places can't be told from customers by their names."""
+    for path, customer in draft.known_customers():
+        for index, place in enumerate(customer.alternatives):
+            if customer.id.endswith(place_name("", place.id)):
+                yield error_at("DUPLICATE_ID", (*path, "alternatives", index, "id"),
+                               f"The customer's own id ends in {place_name('', place.id)!r}: give "
+                               "the place another.")
 
 
 def vehicle_errors(draft: Draft) -> Errors:

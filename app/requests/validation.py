@@ -7,7 +7,7 @@ import numpy as np
 from app.requests.airspace_validation import airspace_errors
 from app.requests.conversion.amounts import amount_errors
 from app.requests.customer_validation import (
-    group_errors, service_errors, vehicle_errors, window_errors,
+    group_errors, place_errors, service_errors, vehicle_errors, window_errors,
 )
 from app.requests.draft import Draft, Errors, Path, are_right, error_at, point_errors
 from app.requests.fleet_validation import (
@@ -46,6 +46,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *window_errors(draft),
         *(of_vehicles or group_errors(draft)),
         *service_errors(draft),
+        *place_errors(draft),
         *_goods_errors(draft),
         *_fairness_errors(draft),
         *relation_errors(draft),

@@ -205,6 +205,11 @@ def place_name(customer: str, alternative: str) -> str:
     return f"{customer}/{alternative}"
 
 
+def place_of(name: str, alternative: str) -> str:
+    """Return the same where a plan that was read before may name the place already."""
+    return name if name.endswith(place_name("", alternative)) else place_name(name, alternative)
+
+
 def customer_of(place: str, alternative: str | None) -> str:
     """Return the id of the customer whose other place has a name; of his own, the name itself."""
     return place if alternative is None else place.removesuffix(place_name("", alternative))

@@ -8,7 +8,7 @@ from typing import Annotated, Any, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
-from app.schemas.customer import customer_of, place_name
+from app.schemas.customer import customer_of, place_of
 from app.schemas.fields import Location
 from app.schemas.limits import MAX_VEHICLES
 from app.schemas.shipment import ENDS, end_name
@@ -67,7 +67,7 @@ class VisitInput(_Plan):
     def _name_place(self) -> Self:
         """Name another place as the customer that it is."""
         if self.alternative is not None:
-            self.__dict__["id"] = place_name(self.id, self.alternative)
+            self.__dict__["id"] = place_of(self.id, self.alternative)
         return self
 
     @property
@@ -106,7 +106,7 @@ class StopInput(_Plan):
         if self.kind in ENDS:
             self.__dict__ |= {"kind": "customer", "id": end_name(self.id, self.kind)}
         elif self.alternative is not None:
-            self.__dict__["id"] = place_name(self.id, self.alternative)
+            self.__dict__["id"] = place_of(self.id, self.alternative)
         return self
 
     @property

@@ -118,7 +118,8 @@ class Bench:
     def without(self) -> float:
         """What the plan costs without the customer, nothing being counted for leaving him out."""
         cost = self.left_out.evaluation.cost
-        left_out = self.problem.cost_of_leaving_out(self.problem.customer_at(self.node))
+        own = self.problem.first_place(self.node)
+        left_out = self.problem.cost_of_leaving_out(self.problem.customer_at(own))
         return cost.total - left_out
 
     def draft(self, place: Place, problem: Problem | None = None) -> "Draft":

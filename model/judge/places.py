@@ -11,6 +11,7 @@ from typing import Literal, NamedTuple
 
 from model.judge.past import Vehicle
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
+from model.problem import Problem
 from model.solution import Route, Solution, Stop, Trip, Visit
 
 Means = Literal["truck", "drone"]
@@ -48,6 +49,13 @@ def halts(trip: Trip) -> list[Stop | Visit]:
     for sortie in trip.sorties:
         found += sortie.visits
     return found
+
+
+def used_place(problem: Problem, solution: Solution, node: int) -> int:
+    """Return the place of a customer that a plan uses; his own if it leaves him out."""
+    places = problem.places_of(node)
+    return next((place for place in places if len(places) > 1
+                 and find_place(solution, place) is not None), places[0])
 
 
 def find_place(solution: Solution, node: int) -> Found | None:

@@ -20,6 +20,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.reading import read_json, read_request, request_errors
 from app.requests.refusal import require_readable
+from app.schemas.customer import place_name
 from app.schemas.day import DayOfBody
 from app.schemas.errors import (
     MAX_LISTED_ERRORS, InputError, InvalidRequestError, NoRoadsError, json_path, schema_errors,
@@ -231,7 +232,13 @@ _SMALLEST: dict[str, Any] = {"depots": [], "customers": [], "fleet": []}
 def _sections(base: PlanRequest, grid: Mapping[str, Sequence[Any]]) -> dict[str, Any]:
     """Return the fields of the base that a grid varies as JSON, defaults included."""
     names = {text.partition(".")[0].partition("[")[0] for text in grid}
-    return base.model_dump(mode="json", by_alias=True, include=names)
+    stated = base.model_dump(mode="json", by_alias=True, include=names)
+    # Other places are made of what their customers state, once more where a scenario is read.
+    places = {place_name(each.id, place.id) for each in base.customers
+              for place in each.alternatives}
+    if places and "customers" in stated:
+        stated["customers"] = [each for each in stated["customers"] if each["id"] not in places]
+    return stated
 
 
 def _axes(sections: Sections, grid: Mapping[str, Sequence[Any]]) -> tuple[list[Axis],

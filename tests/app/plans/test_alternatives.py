@@ -112,3 +112,25 @@ def test_what_a_customer_says_of_all_places_is_wrong_once(searching: httpx.Clien
     errors = searching.post("/plan", json=lockers).json()["errors"]
     assert [error["path"] for error in errors] == [
         "$.customers[0].vehicles.allowed[0]", "$.relations[0].customers[1]"]
+
+
+def test_the_place_that_is_used_is_explained_and_drawn(searching: httpx.Client,
+                                                       lockers: Request) -> None:
+    lockers["options"]["geometry"] = True
+    plan = searching.post("/plan", json=lockers).json()
+    assert halts(plan)["A"]["geometry"]
+    asked = {"problem": lockers, "plan": plan, "customer": "A"}
+    told = searching.post("/explain", json=asked).json()
+    assert told["customer"] == "A"
+    left_out = next(each for each in told["alternatives"] if each["kind"] == "unassigned")
+    assert left_out["cost"]["total"] > 100
+    fit = searching.post("/fit", json=asked).json()
+    assert fit["customer"] == "A"
+    assert fit["here"] is not None
+
+
+def test_a_name_that_may_mean_a_place_twice_is_refused(searching: httpx.Client,
+                                                       lockers: Request) -> None:
+    lockers["customers"][0]["id"] = "A/locker"
+    errors = searching.post("/plan", json=lockers).json()["errors"]
+    assert [error["path"] for error in errors] == ["$.customers[0].alternatives[0].id"]

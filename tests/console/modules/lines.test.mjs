@@ -127,3 +127,24 @@ test('a leg is told with its road', () => {
   assert.ok('Straight' in Object.fromEntries(describe(REQUEST, straight, 'l:0/0/1').facts));
   assert.equal(describe(REQUEST, bent, 'l:0/0/0'), null);
 });
+
+test('who is served at another place is told and drawn there', () => {
+  const [customer, ...others] = REQUEST.customers;
+  const locker = { id: 'locker', location: [5, 5], cost: 2, service_duration: 30 };
+  const request = {
+    ...REQUEST,
+    customers: [{ ...customer, service_duration: 60, alternatives: [locker] }, ...others],
+  };
+  const stops = [
+    halt('depot', 'hub', 0),
+    halt('customer', 'A', 20, { alternative: 'locker' }),
+    halt('depot', 'hub', 40),
+  ];
+  const trip = { load: [1], load_rate: 1, distance: 4, duration: 40, stops, sorties: [] };
+  const route = { vehicle: 'van-1', type: 'van', trips: [trip] };
+  const index = indexPlan(request, { routes: [route], unassigned: [], summary: {}, cost: {} });
+  const served = index.halts.get('c:A');
+  assert.deepEqual([served.location, served.source.service_duration], [[5, 5], 30]);
+  const { facts } = describe(request, index, 'c:A');
+  assert.ok(facts.some(([term, value]) => term === 'Served at' && value === 'locker'));
+});

@@ -327,6 +327,7 @@ export default {
     onlyBy: 'Nur mit',
     notBy: 'Nicht mit',
     costsBy: 'Kosten mit',
+    servedAt: 'Bedient bei',
     leftOut: 'Nicht eingeplant',
     costs: 'kostet {{price}}',
     served: 'Bedient',

@@ -314,6 +314,7 @@ export default {
     onlyBy: 'Only by',
     notBy: 'Not by',
     costsBy: 'Costs by',
+    servedAt: 'Served at',
     leftOut: 'Left out',
     costs: 'costs {{price}}',
     served: 'Served',

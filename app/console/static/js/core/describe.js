@@ -67,6 +67,9 @@ function customerFacts(customer) {
   for (const [name, price] of Object.entries(customer.vehicle_costs ?? {})) {
     facts.push([`${t('about.costsBy')} ${name}`, money(price)]);
   }
+  if (customer.alternatives?.length) {
+    facts.push([t('field.alternatives'), customer.alternatives.map(({ id }) => id).join(', ')]);
+  }
   facts.push(...Object.entries(customer.info ?? {}));
   const price = customer.unassigned_cost;
   if (price !== null && price !== undefined) {
@@ -94,6 +97,7 @@ export function haltFacts(halt) {
     [t('about.arrival'), clock(halt.arrival, { precise: true })],
   ];
   if (halt.kind !== 'customer') facts[0][0] = t('about.vehicle');
+  if (halt.alternative) facts.push([t('about.servedAt'), halt.alternative]);
   if (halt.setup > 0) facts.push([t('about.setsUp'), duration(halt.setup)]);
   if (halt.waiting > 0) {
     facts.push([

@@ -98,7 +98,7 @@ function indexTrip(index, vehicle, reply, number) {
     const key = isCustomer ? `c:${stop.id}` : `d:${place}/${position}`;
     // A truck may come back to a depot or a customer for its drones.
     const source = isCustomer
-      ? index.customers.get(stop.id)
+      ? placedAt(index.customers.get(stop.id), stop.alternative)
       : stop.kind === 'break'
         ? undefined
         : (index.depots.get(`${stop.kind} ${stop.id}`) ??
@@ -132,7 +132,7 @@ function indexTrip(index, vehicle, reply, number) {
       visits: [],
     };
     entry.visits = sortie.customers.map((visit) => {
-      const source = index.customers.get(visit.id);
+      const source = placedAt(index.customers.get(visit.id), visit.alternative);
       const halt = haltOf(`c:${visit.id}`, { ...visit, kind: 'customer' }, trip, source);
       return remember(index, {
         ...halt,
@@ -172,11 +172,22 @@ function near([x, y], [otherX, otherY]) {
   return Math.abs(x - otherX) < NEAR && Math.abs(y - otherY) < NEAR;
 }
 
+/** Return a customer as it is at the place that is used, its own unless that is told. */
+function placedAt(customer, alternative) {
+  const place = customer?.alternatives?.find(({ id }) => id === alternative);
+  if (!place) return customer;
+  const { id: _id, cost: _cost, service_duration: service, ...there } = place;
+  const { location: _place, time_window: _one, time_windows: _several, ...rest } = customer;
+  const own = service == null ? {} : { service_duration: service, service_duration_by_type: {} };
+  return { ...rest, ...there, ...own };
+}
+
 function haltOf(key, reply, trip, source) {
   return {
     key,
     kind: reply.kind,
     id: reply.id,
+    alternative: reply.alternative ?? null,
     trip,
     vehicle: trip.vehicle,
     source,

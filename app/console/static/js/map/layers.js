@@ -133,7 +133,10 @@ export function customerMarks(request, index, parts, dark) {
     .map((customer) => {
       const key = `c:${customer.id}`;
       const [Kind, base] = customerStyle(index, customer, parts, dark, radius);
-      return { key, base, layer: new Kind(latLng(customer.location), { ...base, key }) };
+      const halt = index?.halts.get(key);
+      // Who is served at another place than its own is shown there.
+      const place = (halt?.alternative && halt.location) || customer.location;
+      return { key, base, layer: new Kind(latLng(place), { ...base, key }) };
     });
 }
 
