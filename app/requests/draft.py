@@ -66,6 +66,7 @@ class Draft:
     launch_sites: Sequence[LaunchSiteInput | None] | None = ()
     fairness: FairnessInput | None = None
     relations: Sequence[RelationInput] = ()
+    shipment_ends: frozenset[str] = frozenset()  # names among customers
     added: frozenset[str] = frozenset()  # names among customers of ends, and of other places
 
     def places(self, customers: bool = True) -> Iterator[Placed]:

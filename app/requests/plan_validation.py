@@ -2,7 +2,7 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from app.requests.conversion.launches import launch_durations
@@ -29,16 +29,19 @@ class Names:
     depots: Sequence[DepotInput] | None
     customers: frozenset[str] | None
     fleet: Mapping[str, VehicleTypeInput] | None
+    shipment_ends: frozenset[str] = frozenset()  # names among customers
 
     @classmethod
     def of(cls, depots: Sequence[DepotInput | None] | None,
            customers: Sequence[CustomerInput | None] | None,
-           fleet: Sequence[VehicleTypeInput | None] | None) -> "Names":
+           fleet: Sequence[VehicleTypeInput | None] | None,
+           shipment_ends: frozenset[str] = frozenset()) -> "Names":
         """Collect the names of a request's parts, None standing for what is broken."""
         known, kinds = _unbroken(customers), _unbroken(fleet)
         return cls(_unbroken(depots),
                    None if known is None else frozenset(customer.id for customer in known),
-                   None if kinds is None else {kind.id: kind for kind in kinds})
+                   None if kinds is None else {kind.id: kind for kind in kinds},
+                   shipment_ends)
 
     def _home(self, vehicle_type: VehicleTypeInput) -> PlaceName | None:
         """Return the depot of a type."""
@@ -103,6 +106,11 @@ def _begun(trip: TripInput, kind: VehicleTypeInput | None, now: int) -> _Begun:
         if thousandths(sortie.launch_time) - durations[index] <= now), durations)
 
 
+def _as_whole(trip: TripInput, begun: _Begun) -> _Begun:
+    """Return a trip that has begun as one that is made to its end."""
+    return replace(begun, left=len(trip.stops), launched=tuple(range(len(trip.sorties))))
+
+
 class _Checker:
     """Compares a plan with its request."""
 
@@ -148,6 +156,12 @@ class _Checker:
             is_open = (is_last and kind is not None and kind.end == "open"
                        and (len(trip.stops) < 2 or trip.stops[-1].kind == "customer"))
             begun = _begun(trip, kind, self._now)
+            if begun and any(stop.id in self._names.shipment_ends for stop in trip.stops):
+                if begun.left < len(trip.stops) and route.vehicle in self._replan.unavailable:
+                    yield _error("SHIPMENTS_UNDER_WAY", here, "The trip has begun, and has "
+                                 "shipments that nobody else can take over yet: leave its vehicle "
+                                 "out of unavailable.")
+                begun = _as_whole(trip, begun)
             shape = list(self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)))
             yield from shape
             if shape or not begun:

@@ -7,7 +7,7 @@ from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails, from_json, to_json
 
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
-from app.requests.draft import Draft, error_at
+from app.requests.draft import Draft
 from app.requests.ends import added_names, stated_path
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
@@ -69,10 +69,6 @@ def request_errors(request: PlanRequest, policies: Collection[str] | None,
     """Return every error of a request that fits the schema."""
     draft = _whole_draft(request)
     errors = [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
-    if request.shipments and request.replan and request.replan.freeze_before is not None:
-        errors.append(error_at("SHIPMENTS_UNDER_WAY", ("replan", "freeze_before"),
-                               "Plans with shipments can't be gone on from amid the day yet: "
-                               "leave freeze_before out."))
     errors = errors or list(leg_errors(request, bounds))
     if not errors or not draft.added:
         return errors
@@ -166,6 +162,7 @@ def _whole_draft(request: PlanRequest) -> Draft:
         launch_sites=request.launch_sites,
         fairness=request.fairness,
         relations=request.relations,
+        shipment_ends=frozenset(end.id for each in request.shipments for end in each.ends()),
         added=frozenset(added_names(request)),
     )
 

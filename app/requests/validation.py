@@ -70,7 +70,8 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *wind_errors(draft),
         *_policy_errors(draft, policies),
         *_day_errors(draft),
-        *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet)),
+        *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet,
+                                              draft.shipment_ends)),
     ]
 
 

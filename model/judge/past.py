@@ -1,7 +1,8 @@
 """What of a plan has happened by an instant: facts that a new plan has to begin with.
 
 What has departed stays as it is, to the millisecond. A truck that is driving arrives when the plan
-says and serves that stop; a drone that was launched flies its sortie to the end. All else is free.
+says and serves that stop; a drone that was launched flies its sortie to the end. All else is free,
+but for trips that fetch and bring shipments, or are flown: they are made to the end.
 """
 
 from collections.abc import Collection, Iterator, Mapping
@@ -120,7 +121,10 @@ def parcels_aboard(problem: Problem, plan: Solution, now: int,
 def _known_trips(problem: Problem, route: Route, now: int,
                  is_unavailable: bool) -> Iterator[KnownTrip]:
     for trip in route.trips:
-        known = _known_trip(problem, problem.vehicle_types[route.vehicle_type], trip, now)
+        kind = problem.vehicle_types[route.vehicle_type]
+        is_cut = is_unavailable and not kind.flies
+        until = now if is_cut else _bound_until(problem, kind, trip, now)
+        known = _known_trip(problem, kind, trip, until)
         if known is None:
             return
         if is_unavailable and known.rest != "nothing":
@@ -128,6 +132,20 @@ def _known_trips(problem: Problem, route: Route, now: int,
             if not known.sorties and all(s.node < problem.num_depots for s in known.stops):
                 return
         yield known
+
+
+def _bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> int:
+    """Return up to when a trip is made as planned once it has begun: some to their end.
+
+    Whoever has taken off flies its trip to the end, and ends of shipments are served in pairs.
+    """
+    nodes = [stop.node for stop in trip.stops]
+    is_whole = (kind.flies and min(nodes, default=0) >= 0) or any(
+        node in problem.shipment_at for node in nodes)
+    begins = [*(stop.departure for stop in trip.stops[:1]), *launch_begins(trip.sorties, kind)]
+    if not is_whole or min(begins, default=now + 1) > now:
+        return now
+    return max([now, *(stop.departure for stop in trip.stops)])
 
 
 def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> KnownTrip | None:
@@ -139,9 +157,6 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
         trip.sorties, launch_begins(trip.sorties, kind), strict=True) if begin <= now]
     if not left and not launched:
         return None
-    if kind.flies and all(stop.node >= 0 for stop in trip.stops):
-        # Who has taken off flies its trip to the end.
-        left = len(trip.stops)
     stops = [KnownStop(stop.node, stop.arrival,
                        stop.service_start if _opens(problem, stop) else stop.arrival,
                        stop.departure)
@@ -152,7 +167,8 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
     nodes = [stop.node for stop in trip.customer_stops]
     nodes += [visit.node for sortie in trip.sorties for visit in sortie.visits]
     sorties = tuple(_known_sortie(sortie, trip, len(stops), now) for sortie in launched)
-    return KnownTrip(tuple(stops), sorties, frozenset(node for node in nodes if node >= 0),
+    return KnownTrip(tuple(stops), sorties, frozenset(
+        node for node in nodes if node >= 0 and node not in problem.shipment_at),
                      "nothing" if is_over else "anything")
 
 

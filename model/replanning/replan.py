@@ -25,8 +25,8 @@ from model.replanning.workers import Worker, find_workers, vehicle_name
 from model.solution import Route, Solution
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
-                        "SORTIE_STOPS", "UNREACHABLE"})
-"""Broken rules with which nothing that has happened can be read."""
+                        "SORTIE_STOPS", "UNREACHABLE", "PAIR"})
+"""Broken rules with which nothing that has happened can be read, or gone on from."""
 
 
 class SettledPartError(ValueError):

@@ -99,9 +99,26 @@ def test_a_plan_with_shipments_is_explained_and_gone_on_from(searching: httpx.Cl
     assert again["cost"]["total"] == pytest.approx(plan["cost"]["total"])
 
 
-def test_a_plan_with_shipments_is_not_gone_on_from_amid_the_day(searching: httpx.Client,
-                                                                paired: Request) -> None:
+def test_a_trip_with_shipments_is_made_to_its_end(searching: httpx.Client,
+                                                  paired: Request) -> None:
     plan = searching.post("/plan", json=paired).json()
+    (route,), vehicle = plan["routes"], plan["routes"][0]["vehicle"]
+    now = max(trip["stops"][0]["departure"] for trip in route["trips"])
+    paired["fleet"][0] |= {"count": 2, "max_trips": 2}
+    paired["customers"].append({"id": "new", "location": [2, 1], "demand": [1]})
+    terms = {"plan": plan, "freeze_before": now}
+    later = searching.post("/plan", json=paired | {"replan": terms}).json()
+    assert later["unassigned"] == []
+    same, = [each for each in later["routes"] if each["vehicle"] == vehicle]
+    made = len(route["trips"])
+    assert [stops_of({"routes": [{"trips": each["trips"][:made]}]}) for each in (same, route)] == (
+        2 * [stops_of({"routes": [route]})])
+    checked = searching.post("/check", json={
+        "problem": paired | {"replan": terms}, "plan": later}).json()
+    assert checked["feasible"], checked
     refused = searching.post("/plan", json=paired | {
-        "replan": {"plan": plan, "freeze_before": 10}})
+        "replan": terms | {"unavailable": [vehicle]}})
     assert [error["code"] for error in refused.json()["errors"]] == ["SHIPMENTS_UNDER_WAY"]
+    # A shipment that is on its way can't be cancelled.
+    cancelled = searching.post("/plan", json=paired | {"replan": terms, "customers": []})
+    assert {error["code"] for error in cancelled.json()["errors"]} == {"UNKNOWN_CUSTOMER"}

@@ -29,6 +29,7 @@ from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
 )
 from tests.model.tiny_prices import with_vehicle_costs
+from tests.model.tiny_shipments import with_shipments
 from training.instances import VARIANTS, generate
 
 pytestmark = pytest.mark.slow
@@ -329,6 +330,36 @@ def test_tiny_plans_go_on_from_launch_sites(
         seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     replan_and_check(planner, change(rng, draw_for_drones(rng)), rng)
+
+
+def parts_of(problem: Problem, plan: Solution) -> dict[int, tuple[Vehicle, int]]:
+    """Return on which vehicle's trip ends of shipments are served."""
+    return {stop.node: (Vehicle(route.vehicle_type, route.vehicle), number)
+            for route in plan.routes for number, trip in enumerate(route.trips)
+            for stop in trip.stops if stop.node in problem.shipment_at}
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_tiny_plans_with_shipments_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 16))
+    problem = with_shipments(rng, draw_tiny(rng))
+    plan = planner.plan(problem, OPTIONS, start=nobody(problem)).solution
+    if not plan.routes:
+        return
+    times = instants(plan)
+    now = int(rng.choice(times))
+    problem = something_happens(rng, problem, max(times))
+    replanning = Replanning(problem, Terms(plan, now, grounded=lost(rng, problem)))
+    result = replanning.plan(planner, OPTIONS)
+    assert replanning.check(result.solution).violations == ()
+    assert_unchanged(problem, plan, result.solution, now, frozenset())
+    stays, before = parts_of(problem, result.solution), parts_of(problem, plan)
+    for route in plan.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        for number, _, _ in begun(problem, route, now):
+            for node in (node for node, part in before.items() if part == (vehicle, number)):
+                assert stays[node] == (vehicle, number)
+    replan_later(planner, problem, result.solution, now + (max(times) - now) // 2, frozenset())
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
