@@ -59,7 +59,8 @@ def _hours_of_type(kind: VehicleTypeInput, path: Path, known: Mapping[str, Hours
     places = {home, *kind.reload_depots} if kind.max_trips > 1 else set[str]()
     if starts_there or kind.end == "depot":
         places.add(home)
-    if opens > closes:
+    if opens > closes or (shift.latest is not None
+                          and shift.earliest <= shift.latest < opens):
         yield error_at("DEPOT_CLOSED", (*path, "shift"),
                        f"The depot {home!r} isn't open during the shift: change the depot's "
                        "time_window or the shift.")

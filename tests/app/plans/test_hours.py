@@ -12,6 +12,8 @@ Request = dict[str, Any]
 
 @pytest.mark.parametrize(("hours", "more", "code"), [
     ({"latest": 600}, {"shift": {"earliest": 900}}, "DEPOT_CLOSED"),
+    ({"earliest": 600}, {"shift": {"latest": 300}, "overtime": {"cost_per_hour": 1}},
+     "DEPOT_CLOSED"),
     ({"latest": 600}, {"end": {"location": [9, 9]}, "max_trips": 2}, "HOURS_DIFFER"),
     ({"earliest": 600}, {"start_location": [9, 9]}, "HOURS_DIFFER"),
     ({"latest": 600}, {"overtime": {"cost_per_hour": 1}, "max_working_duration": 60,
