@@ -138,8 +138,8 @@ class _Team:
         """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
         while True:
             stay = STAY if self._is_in_parts() else 0
-            for worker, part in zip(self.workers, crew.spread(), strict=True):
-                worker.searcher, worker.span = part, span
+            for worker, (data, part) in zip(self.workers, crew.spread(), strict=True):
+                worker.data, worker.searcher, worker.span = data, part, span
                 part.count.stay = stay
                 if stay == 0:
                     part.count.focus = NOWHERE

@@ -16,6 +16,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from model.problem import MOST_RELATIONS, BoolArray, FloatArray, IntArray
+from model.search.hubs import stocks_of, taken_by
 from model.search.route.layout import (
     ELSEWHERE, NOWHERE, OTHERS, Fleet, ProblemData, are_kept,
 )
@@ -26,13 +27,12 @@ from model.search.sharing import ROUNDING
 def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     """Let the best plan take over the parts of the plan as it is that cost less. In place.
 
-    Where that would take too many vehicles, those parts alone that need no more of any type. None
-    where routes share batteries, or places to charge, of which there are only so many, or where the
-    plan costs something as a whole.
+    Where that would take too many vehicles, batteries or places to charge, those parts alone that
+    need no more of any. None where the plan costs something as a whole.
 
     Who is to go with others stays in one part with them, so that no other part serves them too.
     """
-    if len(data.hub) or data.fairness.makespan > 0 or data.fairness.balance > 0:
+    if data.fairness.makespan > 0 or data.fairness.balance > 0:
         return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
     nodes, unit = np.arange(data.num_depots, data.num_nodes), np.arange(data.num_nodes)
@@ -50,11 +50,13 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     better = saved > ROUNDING
     if not better.any():
         return
-    used = _used(searcher, old, new, better)
-    if (used > data.type["count"][:data.num_types]).any() or used.sum() > slots:
-        for k in range(data.num_types):
-            better &= _routes(now, new, slots, k) <= _routes(best, old, slots, k)
-        used = _used(searcher, old, new, better)
+    needed = _needed(data, now, new, slots) - _needed(data, best, old, slots)
+    used = best.used + needed[better, :data.num_types].sum(axis=0)
+    stocks = taken_by(data, best, slots).sum(axis=0) + needed[better, data.num_types:].sum(axis=0)
+    if ((used > data.type["count"][:data.num_types]).any() or used.sum() > slots
+            or (stocks > stocks_of(data)).any()):
+        better &= (needed <= 0).all(axis=1)
+        used = best.used + needed[better, :data.num_types].sum(axis=0)
     best.used[:] = used
     searcher.value.best -= float(saved[better].sum())
     _exchange(searcher, better[old], better[new])
@@ -128,20 +130,17 @@ def _costs(data: ProblemData, fleet: Fleet, part: IntArray) -> FloatArray:
     return np.bincount(part, each, len(part) + 1).astype(np.float64)
 
 
-def _routes(fleet: Fleet, part: IntArray, slots: int, k: int) -> IntArray:
-    """Return (part,) how many routes are of a type; `part` as in `_costs`."""
-    routes = fleet.route[:slots]
-    of_type = (routes["type"] == k) & (routes["length"] > 0)
-    return np.bincount(part[:len(routes)][of_type], minlength=len(part) + 1)
+def _needed(data: ProblemData, fleet: Fleet, part: IntArray, slots: int) -> IntArray:
+    """Return (part, kind) how many routes there are of each type, and what they take of stocks.
 
-
-def _used(searcher: Searcher, old: IntArray, new: IntArray, better: BoolArray) -> IntArray:
-    """Return (type,) how many routes there are if parts of the best plan become the new ones."""
-    used = searcher.best.used.copy()
-    for fleet, part, sign in ((searcher.best, old, -1), (searcher.now, new, 1)):
-        slots = np.flatnonzero(better[part[:len(searcher.active)]])
-        used += sign * np.bincount(fleet.route["type"][slots], minlength=len(used))
-    return used
+    `part` as in `_costs`.
+    """
+    there = np.flatnonzero(fleet.route["length"][:slots])
+    each = np.zeros((slots, data.num_types), np.int64)
+    each[there, fleet.route["type"][there]] = 1
+    needed = np.zeros((len(part) + 1, data.num_types + 2 * len(data.hub)), np.int64)
+    np.add.at(needed, part[there], np.hstack([each, taken_by(data, fleet, slots)])[there])
+    return needed
 
 
 def _exchange(searcher: Searcher, old: BoolArray, new: BoolArray) -> None:

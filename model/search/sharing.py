@@ -5,6 +5,7 @@ import numpy as np
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
 from model.search.beginning.translate import empty_searcher
+from model.search.hubs import shared_out, taken_by
 from model.search.route.layout import NOWHERE, OTHERS, ProblemData, are_kept
 from model.search.route.state import ALL, Searcher
 
@@ -35,27 +36,38 @@ class Crew:
         self._divided = False
         self._rng = np.random.default_rng(seeds[0])
 
-    def spread(self) -> list[Searcher]:
-        """Return searches that go on from the routes of all, a region each if there are enough."""
+    def spread(self) -> list[tuple[ProblemData, Searcher]]:
+        """Return searches that go on from the routes of all, a region each if there are enough.
+
+        And their problem each, in which a region has stocks of its own.
+        """
         whole, threads = self.whole, len(self._rooms)
         if threads == 1:
-            return self._rooms
+            return [(self._data, whole)]
         routes = int(whole.count.active)
         self._divided = (whole.count.customers >= DIVIDED_FROM
-                         and routes >= FEWEST_ROUTES * threads and len(self._data.hub) == 0
+                         and routes >= FEWEST_ROUTES * threads
                          and not are_kept(self._data).any())
         if self._divided:
-            self._divide()
-            return self._parts
+            owner = regions(self._place, whole, threads, self._rng)
+            self._divide(owner)
+            return list(zip(self._problems(owner), self._parts, strict=True))
         self._parts = self._rooms
         for part in self._parts:
             take_all(self._data, whole, part)
-        return self._parts
+        return [(self._data, part) for part in self._parts]
 
-    def _divide(self) -> None:
+    def _problems(self, owner: IntArray) -> list[ProblemData]:
+        """Return the problem of each part, with a share of what routes leave of stocks."""
+        threads = len(self._rooms)
+        if len(self._data.hub) == 0:
+            return [self._data] * threads
+        return shared_out(self._data, taken_by(self._data, self.whole.now, len(owner)), owner,
+                          threads)
+
+    def _divide(self, owner: IntArray) -> None:
         """Give each part the routes of a region, and a share of vehicles and slots left over."""
         whole, threads = self.whole, len(self._rooms)
-        owner = regions(self._place, whole, threads, self._rng)
         missing = whole.missing[: whole.count.missing]
         beside = whole.now.where["slot"][self._data.near[missing]]
         nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]

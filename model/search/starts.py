@@ -33,9 +33,9 @@ class Starts:
             if anew:
                 begin_again(self._data, room, self._linked)
 
-    def spread(self) -> list[Searcher]:
-        """Return the searches as they are."""
-        return self._rooms
+    def spread(self) -> list[tuple[ProblemData, Searcher]]:
+        """Return the searches as they are, and their problem."""
+        return [(self._data, room) for room in self._rooms]
 
     def gather(self) -> None:
         """Keep the best of all in the whole."""

@@ -9,6 +9,7 @@ from model.judge.hubs import taken_at_hubs
 from model.problem import UNLIMITED, Energy, Problem, VehicleType
 from model.solution import Route
 from tests.model.tiny import MINUTE, draw_battery
+from training.instances import generate
 
 
 def with_fliers(rng: np.random.Generator, problem: Problem, share: float = 0.7) -> Problem:
@@ -70,3 +71,25 @@ def without_taken(problem: Problem, routes: Sequence[Route]) -> Problem:
                 else depot.batteries - taken.batteries[node],
                 chargers=None if depot.chargers is None else depot.chargers - taken.chargers[node])
         for node, depot in enumerate(problem.depots)))
+
+
+def from_hubs(rng: np.random.Generator, customers: int, batteries: int) -> Problem:
+    """Return a day of drones that fly trips of a few customers each from a depot."""
+    problem = generate(rng, customers, "multitrip")
+    few = 4 * max(customer.demand[0] for customer in problem.customers)
+    return replace(
+        problem, depots=tuple(replace(depot, batteries=batteries) for depot in problem.depots),
+        customers=tuple(replace(customer, served_by="either") for customer in problem.customers),
+        vehicle_types=tuple(replace(
+            kind, flies=True, drones=None, more_drones=(), speed_profile=None, count=12,
+            capacity=(few, *kind.capacity[1:]), max_trips=4) for kind in problem.vehicle_types))
+
+
+def charging(problem: Problem, chargers: int) -> Problem:
+    """Return a problem whose drones are charged between trips, a few of them."""
+    power = (1000, 1000)
+    energy = Energy(10**12, 1.0, (0, 2000), power, power, power, power, charge=1000)
+    return replace(
+        problem, depots=tuple(replace(depot, batteries=None, chargers=chargers)
+                              for depot in problem.depots),
+        vehicle_types=tuple(replace(kind, energy=energy) for kind in problem.vehicle_types))

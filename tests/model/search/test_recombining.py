@@ -21,6 +21,7 @@ from model.search.route.state import Searcher
 from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
+from tests.model.fliers import charging, from_hubs
 from tests.model.search.found import read_plan
 
 pytestmark = pytest.mark.slow
@@ -90,6 +91,25 @@ def test_plan_put_together_keeps_all_rules(variant: str) -> None:
             evaluation = check(problem, read_plan(data, searcher))
             assert evaluation.violations == ()
             assert evaluation.cost.total <= float(searcher.value.best) * (1 + 1e-9)
+
+
+def test_plans_put_together_take_no_more_than_hubs_have() -> None:
+    """Of batteries, or places to charge."""
+    better = 0
+    for seed in range(6):
+        problem, charged = from_hubs(np.random.default_rng(seed), 60, batteries=8), seed % 2 > 0
+        if charged:
+            problem = charging(problem, 2)
+        data, searcher = searched(problem, seed, 20)
+        for _ in range(20):
+            anneal(data, searcher, 20, ANY)
+            before = float(searcher.value.best)
+            take_better_parts(data, searcher)
+            better += float(searcher.value.best) < before
+            evaluation = check(problem, read_plan(data, searcher))
+            assert evaluation.violations == ()
+            assert evaluation.cost.total <= float(searcher.value.best) * (1 + 1e-9)
+    assert better > 3
 
 
 def test_who_goes_together_does_so_in_plans_put_together() -> None:

@@ -8,9 +8,11 @@ from model.engine.instance import pack
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
+from model.search.hubs import shared_out, taken_by
 from model.search.sharing import DIVIDED_FROM, regions
 from model.search.problem_data import make_data
 from model.solution import Solution
+from tests.model.fliers import from_hubs
 from training.instances import generate
 
 
@@ -25,6 +27,23 @@ def test_regions_are_searched_side_by_side(variant: str, threads: int) -> None:
     assert evaluation.cost.total <= found.cost * (1 + 1e-9)
     assert found.cost < found.first_cost
     assert found.solution == again.solution
+
+
+def test_regions_share_what_hubs_have() -> None:
+    problem = from_hubs(np.random.default_rng(1), DIVIDED_FROM + 10, batteries=90)
+    config = SearchConfig(seed=5, threads=2, turns=80)
+    found = improve(problem, pack([problem]), Solution((), ()), config)
+    assert check(problem, found.solution).violations == ()
+    data = make_data(problem, pack([problem]))
+    whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
+    begin_anew(data, whole, False)
+    owner = np.arange(len(whole.active)) % 3
+    taken = taken_by(data, whole.now, len(whole.active))
+    parts = [part.hub["batteries"] for part in shared_out(data, taken, owner, 3)]
+    assert np.sum(parts, axis=0).tolist() == [90]
+    for number, part in enumerate(parts):
+        assert part[0] >= taken[owner == number, 0].sum()
+    assert taken[:, 0].sum() > 0
 
 
 @pytest.mark.parametrize("threads", [2, 5])

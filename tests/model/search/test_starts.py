@@ -68,7 +68,7 @@ def test_every_search_begins_with_a_legal_plan_of_its_own(variant: str) -> None:
     starts = Starts(data, whole, np.random.SeedSequence(1).spawn(3))
     for anew in (False, True, True):
         starts.begin(anew)
-        for room in starts.spread():
+        for _, room in starts.spread():
             evaluation = check(problem, read_plan(data, room))
             assert evaluation.violations == ()
             assert evaluation.cost.total <= room.value.best * (1 + 1e-9)
@@ -84,11 +84,11 @@ def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
     starts = Starts(data, whole, np.random.SeedSequence(1).spawn(2))
     for anew in (False, True):
         starts.begin(anew)
-        for room in starts.spread():
+        for _, room in starts.spread():
             room.value.temperature = 1e-3
             anneal(data, room, 300, ANY)
         starts.gather()
-        least = min(float(room.value.best) for room in starts.spread())
+        least = min(float(room.value.best) for _, room in starts.spread())
         assert whole.value.best <= least * (1 + 1e-9)
     go_on_from_best(data, whole)
     assert whole.value.cost == pytest.approx(float(whole.value.best))
