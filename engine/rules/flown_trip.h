@@ -38,8 +38,8 @@ inline Int calm_trip_until(const VehicleType& type, Int start) {
     return calm < far ? recovery_end(type, calm) : far;
 }
 
-// How much later a trip from `start` to `end` has to begin for calm, if the vehicle flies by itself:
-// as the next storm is over; `far` if it never is.
+// How much later a trip from `start` to `end` has to begin for calm, if the vehicle flies by
+// itself: as the next storm is over; `far` if it never is.
 inline Int wait_for_calm(const VehicleType& type, Int start, Int end) {
     if (!flies(type) || end <= calm_trip_until(type, start)) return 0;
     const Int takeoff = take_off(type, start, 0);
