@@ -1,17 +1,33 @@
 """Where a request states who counts as customers behind its own: other places, and ends."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from app.schemas.customer import AlternativeInput, place_name
+from app.schemas.errors import InputError
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
 
 _CUSTOMER = re.compile(r"\$\.customers\[(\d+)\](.*)", re.DOTALL)
+_NAMED = re.compile(r"(customers\[\d+\])( has the same id)")
 
 OWN = frozenset(AlternativeInput.model_fields)
 """What other places state; all else is said by the customer."""
 
+
+def stated_errors(request: PlanRequest, errors: Iterable[InputError]) -> list[InputError]:
+    """Return errors where a request states them.
+
+    What both ends of a shipment, or all places of a customer, have from it is wrong once.
+    """
+    stated = {}
+    for error in errors:
+        path = stated_path(request, error.path)
+        message = _NAMED.sub(lambda match: stated_path(request, f"$.{match[1]}.id")[2:-3]
+                             + match[2], error.message)
+        stated[error.code, path] = error.model_copy(
+            update={"path": path, "message": message})
+    return list(stated.values())
 
 def added_names(request: PlanRequest) -> Iterator[str]:
     """Yield the names of all who count as customers beside those stated."""

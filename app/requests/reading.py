@@ -8,7 +8,7 @@ from pydantic_core import ErrorDetails, from_json, to_json
 
 from app.requests.bounds import UNBOUNDED, Bounds, bound_errors, leg_errors
 from app.requests.draft import Draft
-from app.requests.ends import added_names, stated_path
+from app.requests.ends import added_names, stated_errors
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
 from app.schemas.customer import CustomerInput
@@ -70,12 +70,7 @@ def request_errors(request: PlanRequest, policies: Collection[str] | None,
     draft = _whole_draft(request)
     errors = [*semantic_errors(draft, policies), *bound_errors(draft, bounds)]
     errors = errors or list(leg_errors(request, bounds))
-    if not errors or not draft.added:
-        return errors
-    told = [error.model_copy(update={"path": stated_path(request, error.path)})
-            for error in errors]
-    # What all places of a customer have from him is wrong once.
-    return list({(error.code, error.path): error for error in told}.values())
+    return stated_errors(request, errors) if errors and draft.added else errors
 
 
 def read_json(body: bytes) -> Any:

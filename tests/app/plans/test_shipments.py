@@ -41,6 +41,14 @@ def test_a_shipment_is_fetched_before_it_is_brought(searching: httpx.Client,
     assert checked["summary"] == plan["summary"]
 
 
+def test_ways_to_both_ends_are_told(searching: httpx.Client, paired: Request) -> None:
+    paired["options"]["geometry"] = True
+    plan = searching.post("/plan", json=paired).json()
+    [[_, *stops]] = [trip["stops"] for route in plan["routes"] for trip in route["trips"]]
+    assert {"pickup", "delivery"} < {stop["kind"] for stop in stops}
+    assert all(stop["geometry"] for stop in stops)
+
+
 def test_a_plan_that_brings_before_it_fetches_is_refused(searching: httpx.Client,
                                                          paired: Request) -> None:
     plan = searching.post("/plan", json=paired).json()
@@ -122,3 +130,11 @@ def test_a_trip_with_shipments_is_made_to_its_end(searching: httpx.Client,
     # A shipment that is on its way can't be cancelled.
     cancelled = searching.post("/plan", json=paired | {"replan": terms, "customers": []})
     assert {error["code"] for error in cancelled.json()["errors"]} == {"UNKNOWN_CUSTOMER"}
+
+
+def test_two_shipments_of_one_name_are_told_once(searching: httpx.Client,
+                                                 paired: Request) -> None:
+    paired["shipments"].append(paired["shipments"][0])
+    errors = searching.post("/plan", json=paired).json()["errors"]
+    assert [(error["code"], error["path"], error["message"]) for error in errors] == [
+        ("DUPLICATE_ID", "$.shipments[1].id", "shipments[0] has the same id: give each its own.")]
