@@ -5,6 +5,7 @@ import { lengthOf, planeOf } from './geometry.js';
 import { partsOf } from './plan.js';
 import { saidOf } from './said.js';
 import { titleOfVehicle } from './vehicle-labels.js';
+import { isVisit, leftOutOf, visitsOf } from './visits.js';
 import { windowsInWords, windowsOf } from './windows.js';
 import { t } from '../texts.js';
 
@@ -20,13 +21,21 @@ export function describe(request, index, key) {
   if (key[0] === 'v') return describeVehicle(index, key);
   const halt = index?.halts.get(key);
   if (key[0] === 'd') return halt ? { title: titleOf(halt), facts: haltFacts(halt) } : null;
-  const customer = request.customers.find(({ id }) => id === key.slice(2)) ?? halt?.source;
+  const customer = visitsOf(request).find(({ id }) => id === key.slice(2)) ?? halt?.source;
   if (!customer) return null;
   return {
     title: customer.id,
     facts: [...customerFacts(customer), ...servedFacts(index, halt, key)],
     late: halt?.lateness > 0,
   };
+}
+
+/** What stops are for that serve no customer, or a part of a shipment. */
+const NOTES = { launch_site: 'site', break: 'rest', pickup: 'pickup', delivery: 'delivery' };
+
+/** Return what a stop is for, null where it serves a customer or is a depot. */
+export function noteOf({ kind }) {
+  return kind in NOTES ? t(`routes.${NOTES[kind]}`) : null;
 }
 
 function titleOf({ kind, id }) {
@@ -81,7 +90,7 @@ function customerFacts(customer) {
 function servedFacts(index, halt, key) {
   if (!index) return [];
   if (halt) return haltFacts(halt);
-  const out = index.plan.unassigned.find(({ id }) => id === key.slice(2));
+  const out = leftOutOf(index.plan).find(({ id }) => id === key.slice(2));
   return [
     [t('about.served'), out ? t('about.isOut') : t('about.notYet')],
     ...(out?.reasons ?? []).slice(0, MOST_REASONS).map((reason) => [
@@ -96,7 +105,7 @@ export function haltFacts(halt) {
     [t('about.servedBy'), halt.sortie ? halt.sortie.drone : halt.vehicle.name],
     [t('about.arrival'), clock(halt.arrival, { precise: true })],
   ];
-  if (halt.kind !== 'customer') facts[0][0] = t('about.vehicle');
+  if (!isVisit(halt)) facts[0][0] = t('about.vehicle');
   if (halt.alternative) facts.push([t('about.servedAt'), halt.alternative]);
   if (halt.setup > 0) facts.push([t('about.setsUp'), duration(halt.setup)]);
   if (halt.waiting > 0) {
@@ -152,7 +161,7 @@ function describeTrip(index, key) {
       [t('about.loaded'), `${amounts(trip.reply.load)} (${percent(trip.reply.load_rate)})`],
       [trip.vehicle.flies ? t('about.flown') : t('about.driven'), km(trip.reply.distance)],
       [t('about.takes'), duration(trip.reply.duration)],
-      [t('about.stops'), String(trip.stops.filter(({ kind }) => kind === 'customer').length)],
+      [t('about.stops'), String(trip.stops.filter(isVisit).length)],
       trip.vehicle.flies
         ? [t('about.energy'), wattHours(trip.reply.energy_wh)]
         : [t('about.flights'), String(trip.sorties.length)],

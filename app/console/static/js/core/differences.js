@@ -4,6 +4,7 @@ import { money } from './format.js';
 import { matchVehicles } from './matching.js';
 import { indexPlan } from './plan.js';
 import { trueCost } from './terms.js';
+import { isVisit, leftOutOf, visitName } from './visits.js';
 import { t } from '../texts.js';
 
 /** Return `[{path, before, after}]` of two requests; entries with an id are matched by it. */
@@ -107,10 +108,11 @@ export function movedCustomers(former, entry, pairs = matchVehicles(former, entr
 /** Return who serves each customer: `{vehicle, drone, shown}`, no vehicle for nobody. */
 function serversOf(request, plan) {
   const nobody = { vehicle: null, drone: null, shown: t('difference.nobody') };
-  const servers = new Map(plan.unassigned.map(({ id }) => [id, nobody]));
-  for (const { kind, id, sortie, vehicle } of indexPlan(request, plan).halts.values()) {
-    if (kind !== 'customer') continue;
-    servers.set(id, {
+  const servers = new Map(leftOutOf(plan).map(({ id }) => [id, nobody]));
+  for (const halt of indexPlan(request, plan).halts.values()) {
+    if (!isVisit(halt)) continue;
+    const { sortie, vehicle } = halt;
+    servers.set(visitName(halt), {
       vehicle: vehicle.name,
       drone: sortie ? (sortie.reply.drone_type ?? 'drone') : null,
       shown: sortie ? sortie.drone : vehicle.name,

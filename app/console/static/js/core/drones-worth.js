@@ -1,6 +1,7 @@
 /** What a plan's drones do, in numbers. */
 
 import { droneCount } from './drones.js';
+import { isVisit } from './visits.js';
 
 /**
  * Return `{drones, customers, ofHubs, present}`: drones of a plan that fly, whom they serve, how
@@ -12,7 +13,7 @@ export function flownIn({ request, plan }) {
   const own = plan.routes.filter(({ type }) => types.get(type)?.flies);
   const sorties = plan.routes.flatMap(({ trips }) => trips.flatMap((trip) => trip.sorties ?? []));
   const served = own.flatMap(({ trips }) => trips.flatMap(({ stops }) => stops))
-    .filter(({ kind }) => kind === 'customer').length;
+    .filter(isVisit).length;
   const carried = plan.routes.reduce((sum, { type }) => sum + droneCount(types.get(type)), 0);
   return {
     drones: new Set(sorties.map(({ drone }) => drone)).size + own.length,

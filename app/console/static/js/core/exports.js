@@ -4,6 +4,7 @@ import { csvCell } from './csv.js';
 import { clock } from './format.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
+import { visitsOf } from './visits.js';
 import { t } from '../texts.js';
 
 const COLUMNS = [
@@ -82,7 +83,7 @@ export function geoJson(index, legsOf) {
   const features = [
     ...request.depots.flatMap((depot) => point(depot, { kind: 'depot', id: depot.id })),
     ...standsOf(request).flatMap(({ kind, id, location }) => point({ location }, { kind, id })),
-    ...request.customers.flatMap((customer) =>
+    ...visitsOf(request).flatMap((customer) =>
       point(customer, customerProperties(index, customer)),
     ),
     ...index.vehicles.flatMap((vehicle) =>

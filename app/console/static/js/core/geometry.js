@@ -2,6 +2,7 @@
 
 import { standsOf } from './stands.js';
 import { placeOf } from './places.js';
+import { visitsOf } from './visits.js';
 
 const EARTH_RADIUS_M = 6371008.8;
 const RADIANS = Math.PI / 180;
@@ -25,7 +26,7 @@ export function planeOf(request) {
       fromPlane: ([x, y]) => [x / unit, y / unit],
     };
   }
-  const all = [...request.depots, ...standsOf(request), ...request.customers];
+  const all = [...request.depots, ...standsOf(request), ...visitsOf(request)];
   const places = all.map(placeOf).filter(Boolean);
   const [west, south, east, north] = boundsOf(places) ?? [0, 0, 0, 0];
   const origin = [(west + east) / 2, (south + north) / 2];

@@ -10,6 +10,7 @@ import { penaltyOf, trueCost } from './terms.js';
 import { rowWindows, tickStep, timelineRows } from './timeline.js';
 import { escaped } from './exports.js';
 import { placeOf } from './places.js';
+import { visitsOf } from './visits.js';
 import { t } from '../texts.js';
 
 const WIDTH = 1200;
@@ -50,7 +51,7 @@ function titleShapes({ request, plan }) {
 function mapShapes(index, legsOf) {
   const { request } = index;
   const { toPlane } = planeOf(request);
-  const places = [...request.depots, ...standsOf(request), ...request.customers];
+  const places = [...request.depots, ...standsOf(request), ...visitsOf(request)];
   const known = places.map(placeOf).filter(Boolean);
   const rings = request.airspace?.no_fly ?? [];
   const bounds = boundsOf([...known, ...rings.flat()].map(toPlane));
@@ -62,7 +63,7 @@ function mapShapes(index, legsOf) {
     ...index.vehicles.flatMap((vehicle) =>
       vehicle.trips.flatMap((trip) => tripShapes(trip, legsOf, at)),
     ),
-    ...request.customers.flatMap((customer) => customerShapes(index, customer, at)),
+    ...visitsOf(request).flatMap((customer) => customerShapes(index, customer, at)),
     ...stands.flatMap(({ kind, id, location }) => [
       kind === 'launch_site'
         ? { kind: 'circle', at: at(location), radius: 6, colour: INK, fill: '#ffffff' }

@@ -2,6 +2,7 @@
 
 import { t } from '../texts.js';
 import { getIn, setIn } from './paths.js';
+import { ENDS, visitName } from './visits.js';
 
 /**
  * Return a place's coordinates, null where it has none, or only an address.
@@ -37,6 +38,10 @@ export function soughtIn(request) {
   );
   request?.customers.forEach(({ id, location }, at) =>
     add(location, `c:${id}`, ['customers', at, 'location']),
+  );
+  request?.shipments?.forEach((shipment, at) =>
+    ENDS.forEach((kind) => add(shipment[kind]?.location,
+      `c:${visitName({ kind, id: shipment.id })}`, ['shipments', at, kind, 'location'])),
   );
   request?.fleet.forEach(({ id, start_location: start, end }, at) => {
     add(start, `start ${id}`, ['fleet', at, 'start_location']);

@@ -11,6 +11,7 @@ import { decodeLine } from './polyline.js';
 import { placeOf } from './places.js';
 import { standsOf } from './stands.js';
 import { labelOfVehicle } from './vehicle-labels.js';
+import { isVisit, visitName, visitsOf } from './visits.js';
 import { windowAt } from './windows.js';
 
 /** How exactly lines state places, which they round. */
@@ -23,7 +24,7 @@ const NEAR = 1e-5;
  */
 export function indexPlan(request, plan, given = null) {
   if (!plan) return null;
-  const customers = new Map(request.customers.map((customer) => [customer.id, customer]));
+  const customers = new Map(visitsOf(request).map((visit) => [visit.id, visit]));
   const depots = new Map(request.depots.map((depot) => [`depot ${depot.id}`, depot]));
   standsOf(request).forEach((stand) => depots.set(`${stand.kind} ${stand.id}`, stand));
   const types = new Map(request.fleet.map((type) => [type.id, type]));
@@ -94,11 +95,10 @@ function indexTrip(index, vehicle, reply, number) {
     sorties: [],
   };
   trip.stops = reply.stops.map((stop, position) => {
-    const isCustomer = stop.kind === 'customer';
-    const key = isCustomer ? `c:${stop.id}` : `d:${place}/${position}`;
+    const key = isVisit(stop) ? `c:${visitName(stop)}` : `d:${place}/${position}`;
     // A truck may come back to a depot or a customer for its drones.
-    const source = isCustomer
-      ? placedAt(index.customers.get(stop.id), stop.alternative)
+    const source = isVisit(stop)
+      ? placedAt(index.customers.get(visitName(stop)), stop.alternative)
       : stop.kind === 'break'
         ? undefined
         : (index.depots.get(`${stop.kind} ${stop.id}`) ??
@@ -256,7 +256,7 @@ export function keysWithin(index, key) {
   const trips = key[0] === 'v' ? vehicle?.trips : trip && [trip];
   return (trips ?? []).flatMap((each) => [
     each.key,
-    ...each.stops.filter(({ kind }) => kind === 'customer').map((halt) => halt.key),
+    ...each.stops.filter(isVisit).map((halt) => halt.key),
     ...each.sorties.flatMap((sortie) => [sortie.key, ...sortie.visits.map((visit) => visit.key)]),
   ]);
 }

@@ -20,9 +20,17 @@ export function assumedDrones({ customers = [], fleet = [] }) {
   return { count: 1, capacity, endurance: 1800, launch_duration: 60, recovery_duration: 60 };
 }
 
+/** Return a shipment that is picked up and delivered at a depot, until places are stated. */
+function blankShipment({ depots = [], fleet = [] }) {
+  const location = placeOf(depots[0]) ?? [0, 0];
+  const amount = Array(fleet[0]?.capacity?.length ?? 1).fill(1);
+  return { amount, pickup: { location }, delivery: { location } };
+}
+
 /** Return what a field of the fleet begins with when it is added, undefined for nothing known. */
 export function presetOf(name, request) {
   if (name === 'drones') return assumedDrones(request);
+  if (name === 'shipments') return blankShipment(request);
   const [depot] = request.depots ?? [];
   return name === 'launch_sites' && placeOf(depot) ? { location: placeOf(depot) } : undefined;
 }

@@ -3,6 +3,7 @@
 import { dronesOfSortie } from './drones.js';
 import { launchDurations } from './launches.js';
 import { titleOfVehicle } from './vehicle-labels.js';
+import { isVisit } from './visits.js';
 
 /** What bars mean, in the order of the legend. */
 export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload', 'rest'];
@@ -65,7 +66,7 @@ function serviceBy(type, customer) {
 }
 
 function stopBars(halt, type) {
-  const duration = halt.kind === 'customer' ? serviceBy(type, halt.source) : 0;
+  const duration = isVisit(halt) ? serviceBy(type, halt.source) : 0;
   const served = Math.min(halt.serviceStart + duration, halt.departure);
   if (halt.kind === 'break') {
     return [

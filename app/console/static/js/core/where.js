@@ -12,6 +12,7 @@ const NAMED = {
   fleet: 'type',
   depots: 'depot',
   launch_sites: 'launchSite',
+  shipments: 'shipment',
 };
 
 /** Lists of a plan, and of what is said of one, whose entries are called by numbers or names. */

@@ -6,6 +6,7 @@ import { tripDash, vehicleColour } from '../core/palette.js';
 import { isByAir, partsOf } from '../core/plan.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { standingIn } from '../core/replanning.js';
+import { isVisit, visitsOf } from '../core/visits.js';
 import { asksOf, reachOf, titleOfZone } from '../core/zone-words.js';
 import { zoneAreas } from '../core/zones.js';
 import { leaflet } from '../libraries.js';
@@ -126,9 +127,10 @@ function line(key, places, base) {
 
 /** Return the customers' marks by key. */
 export function customerMarks(request, index, parts, dark) {
-  const crowded = request.customers.length > 600;
+  const visits = visitsOf(request);
+  const crowded = visits.length > 600;
   const radius = crowded ? 3.2 : 5;
-  return request.customers
+  return visits
     .filter(placeOf)
     .map((customer) => {
       const key = `c:${customer.id}`;
@@ -222,7 +224,7 @@ export function tripLabels(index, dark) {
   if (index.plan.summary.trips > MOST_LABELS) return [];
   return index.vehicles.flatMap((vehicle) =>
     vehicle.trips.flatMap((trip) => {
-      const stops = trip.stops.filter(({ location, kind }) => location && kind === 'customer');
+      const stops = trip.stops.filter((halt) => halt.location && isVisit(halt));
       if (!stops.length) return [];
       const middle = stops[Math.floor((stops.length - 1) / 2)];
       const icon = labelIcon('trip-mark', trip.label, {
@@ -243,7 +245,7 @@ export function tripLabels(index, dark) {
 /** Return the numbers of a trip's stops. */
 export function stopNumbers(trip) {
   return trip.stops.flatMap((halt, number) =>
-    halt.kind === 'customer' && halt.location
+    isVisit(halt) && halt.location
       ? [
           L.marker(latLng(halt.location), {
             interactive: false,

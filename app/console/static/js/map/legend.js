@@ -2,6 +2,7 @@
 
 import { html, useEffect, useState } from '../libraries.js';
 import { t } from '../texts.js';
+import { visitsOf } from '../core/visits.js';
 
 const NARROW = '(max-width: 1100px)';
 
@@ -32,7 +33,7 @@ function entriesOf(request, index, parts) {
   const some = (test) => index?.vehicles.some((vehicle) => vehicle.trips.some(test));
   const drives = index?.vehicles.some((vehicle) => !vehicle.flies);
   const flies = some((trip) => trip.vehicle.flies || trip.sorties.length > 0);
-  const isNew = index && request.customers.some(({ id }) => !index.customers.has(id));
+  const isNew = index && visitsOf(request).some(({ id }) => !index.customers.has(id));
   const lost = [...parts.values()].some(({ isBroken, isOver }) => isBroken && !isOver);
   const entries = [
     [drives, 'road', 'vehicle'],
@@ -43,7 +44,7 @@ function entriesOf(request, index, parts) {
     [request.launch_sites?.length > 0, 'site', 'site'],
     [index?.plan.unassigned.length > 0, 'out', 'unassigned'],
     [isNew, 'new', 'isNew'],
-    [!index && request.customers.length > 0, 'new', 'customer'],
+    [!index && visitsOf(request).length > 0, 'new', 'customer'],
     [parts.size > 0, 'settled', 'settled'],
     [lost, 'lost', 'lost'],
     [pinned, 'pin', 'pinned'],

@@ -5,6 +5,7 @@ import { describe } from '../core/describe.js';
 import { flightLines } from '../core/flights.js';
 import { placeOf } from '../core/places.js';
 import { playback } from '../core/playback.js';
+import { visitsOf } from '../core/visits.js';
 import { Facts } from '../views/parts.js';
 import { html, render, useEffect, useLayoutEffect, useRef, useState } from '../libraries.js';
 import { store, useStore } from '../store.js';
@@ -67,7 +68,7 @@ function groundOf({ coordinate_system: system = 'planar', planar_unit: unit = 1 
 }
 
 function hasLocations(request) {
-  return [...request.depots, ...request.customers].some(placeOf);
+  return [...request.depots, ...visitsOf(request)].some(placeOf);
 }
 
 function Map({ request, entry, onView, isMain = false }) {

@@ -4,6 +4,7 @@ import { contains, keysWithin, partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { placeOf } from '../core/places.js';
 import { standsOf } from '../core/stands.js';
+import { visitsOf } from '../core/visits.js';
 import { leaflet } from '../libraries.js';
 import {
   customerMarks,
@@ -182,7 +183,7 @@ export class MapView {
 
   /** Return the places and ways of a problem and, if it is drawn, its plan. */
   #extentOf(request) {
-    const places = [...request.depots, ...standsOf(request), ...request.customers]
+    const places = [...request.depots, ...standsOf(request), ...visitsOf(request)]
       .map(placeOf)
       .filter(Boolean);
     const ways = request === this.request ? this.entries.flatMap(waysOf) : [];

@@ -1,21 +1,21 @@
 /** Customers and depots: a long table, and a form for the one that is selected. */
 
-import { edit, hover, indexOf, openTab, select, shownPlan } from '../actions.js';
+import { edit, hover, indexOf, select, shownPlan } from '../actions.js';
 import { amounts, clock } from '../core/format.js';
-import { removeIn, setIn } from '../core/paths.js';
 import { freeName } from '../core/changes.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
 import { saidOf } from '../core/said.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
 import { cancelOrders } from '../ordering.js';
-import { store, useStore } from '../store.js';
+import { useStore } from '../store.js';
 import { AddressSearch, DoubtedPlaces, PlaceOf } from './address-search.js';
 import { DayFields } from './day-fields.js';
-import { Field, Fields } from './form.js';
+import { Fields } from './form.js';
 import { LongTable } from './long-table.js';
 import { NewOrder } from './new-order.js';
 import { Name } from './parts.js';
+import { Places, Shipments } from './places.js';
 import { pasteNames, Pick, PickAll, PickedBar, soughtBy } from './picked-customers.js';
 import { WhyHere } from './why-here.js';
 import { t } from '../texts.js';
@@ -27,7 +27,8 @@ export function CustomersTab() {
   return html`<${NewOrder} /><${CustomerTable} key=${epoch} request=${request} />
     <${AddressSearch} request=${request} />
     <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
-    <${Places} request=${request} /><${DayFields} request=${request} />`;
+    <${Shipments} request=${request} /><${Places} request=${request} />
+    <${DayFields} request=${request} />`;
 }
 
 function CustomerTable({ request }) {
@@ -153,66 +154,4 @@ function SelectedCustomer({ request }) {
       <div class="buttons"><button type="button" onClick=${() =>
         cancelOrders([request.customers[position].id])}>${t('customers.remove')}</button></div>
     </div></details>`;
-}
-
-function Places({ request }) {
-  const schemas = useStore((state) => state.schemas);
-  const { properties } = schemas.PlanRequest;
-  const addDepot = () =>
-    edit(
-      setIn(request, ['depots', request.depots.length], {
-        id: freeName(request.depots, 'depot'),
-        location: [...(placeOf(request.depots[0]) ?? [0, 0])],
-      }),
-    );
-  return html`<details class="card"><summary>${t('customers.places')}
-      <span class="right">${t('customers.depots', {
-        count: request.depots.length,
-      })}</span></summary>
-    <div class="inside">
-      <${Field} name="coordinate_system" schema=${properties.coordinate_system}
-        keys=${['coordinate_system']} request=${request} onChange=${edit} />
-      ${
-        request.coordinate_system !== 'geographic' &&
-        ['planar_unit', 'planar_rounding'].map(
-          (name) => html`<${Field} key=${name} name=${name}
-        schema=${properties[name]} keys=${[name]} request=${request}
-          onChange=${edit} />`,
-        )
-      }
-      ${request.depots.map(
-        (_, position) => html`<fieldset class="group" key=${position}>
-        <legend>${t('where.depot', { id: String(position + 1) })}</legend>
-        <${Fields} schema=${schemas.DepotInput} keys=${['depots', position]} request=${request}
-          onChange=${edit} skip=${request.matrices ? [] : ['location_index']} />
-        ${
-          request.depots.length > 1 &&
-          html`<div class="buttons"><button type="button" onClick=${() =>
-            edit(removeIn(request, ['depots', position]))}>
-            ${t('customers.removeDepot')}</button></div>`
-        }
-      </fieldset>`,
-      )}
-      <${Field} name="launch_sites" schema=${properties.launch_sites} keys=${['launch_sites']}
-        request=${request} onChange=${edit} />
-      <${Field} name="relations" schema=${properties.relations} keys=${['relations']}
-        request=${request} onChange=${edit} />
-      <div class="buttons"><button type="button" onClick=${addDepot}>
-        ${t('customers.addDepot')}</button>
-        <button type="button" onClick=${clear}>${t('customers.empty')}</button></div>
-    </div></details>`;
-}
-
-/** Keep depots and fleet, drop customers and no-fly areas. */
-function clear() {
-  edit((request) => {
-    const { matrices, ...rest } = request;
-    return {
-      ...rest,
-      customers: [],
-      ...(rest.airspace && { airspace: { ...rest.airspace, no_fly: [] } }),
-    };
-  });
-  store.set({ selection: null });
-  openTab('customers');
 }

@@ -1,8 +1,10 @@
 /** Sheets for drivers, one page or more for each vehicle, for the printer alone. */
 
+import { noteOf } from '../core/describe.js';
 import { amounts, clock, duration, pointText, shownDate, timeWindow } from '../core/format.js';
 import { standingOf } from '../core/replanning.js';
 import { titleOfVehicle } from '../core/vehicle-labels.js';
+import { isVisit } from '../core/visits.js';
 import { html, render } from '../libraries.js';
 import { t } from '../texts.js';
 
@@ -56,10 +58,10 @@ function Sheet({ vehicle, parts, isGeographic, link }) {
         (halt, position) => html`<tr key=${halt.key}><td>${position || ''}</td>
         <td>${clock(halt.arrival)}</td><td>${clock(halt.departure)}</td>
         <td><strong>${halt.id}</strong>${
-          halt.kind === 'launch_site' && html` <small>${t('routes.site')}</small>`
+          noteOf(halt) && html` <small>${noteOf(halt)}</small>`
         }${place(halt, isGeographic)}</td>
-        <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
-        <td>${halt.kind === 'customer' ? handed(halt.source) : ''}</td>
+        <td>${isVisit(halt) ? timeWindow(halt.window) : ''}</td>
+        <td>${isVisit(halt) ? handed(halt.source) : ''}</td>
         <td>${orders(trip, halt).map((order) => html`<div
           key=${order}>${order}</div>`)}</td>
         <td>${standingInWords(standingOf(parts, {

@@ -294,13 +294,15 @@ function WordsField({ name, keys, request, onChange, errors, help }) {
   </div>`;
 }
 
+/** What entries that are added are called, with a number. */
+const STEMS = { drones: 'drone', launch_sites: 'site', shipments: 'shipment' };
+
 function ListField({ name, schema, keys, request, onChange, nullable, errors, choices, help }) {
   const schemas = useStore((state) => state.schemas);
   const values = getIn(request, keys) ?? [];
   const add = () => {
     const preset = presetOf(name, request);
-    const stem = name === 'launch_sites' ? 'site' : 'drone';
-    const entry = preset && { id: freeName(values, stem), ...preset };
+    const entry = preset && { id: freeName(values, STEMS[name]), ...preset };
     onChange(setIn(request, keys, [...values, entry ?? blank(schemas, schema.items)]));
   };
   const remove = (index) => {

@@ -35,9 +35,13 @@ export const TABS = {
   drivers: DriversTab,
 };
 
+/** Parts of a problem that the customers' tab has. */
+const OF_CUSTOMERS = new Set(['customers', 'shipments', 'depots', 'launch_sites', 'relations',
+  'coordinate_system', 'planar_unit', 'planar_rounding']);
+
 /** Return the tab where a place of the request is edited. */
 export function tabOf(keys) {
-  if (keys[0] === 'customers' || keys[0] === 'depots') return 'customers';
+  if (OF_CUSTOMERS.has(keys[0])) return 'customers';
   if (keys[0] === 'replan') return 'replan';
   return keys[0] === 'options' ? 'solve' : 'fleet';
 }

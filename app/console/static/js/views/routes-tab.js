@@ -1,7 +1,7 @@
 /** Routes: vehicles, their trips, and every stop and flight of these. */
 
 import { indexOf, shownPlan } from '../actions.js';
-import { describe } from '../core/describe.js';
+import { describe, noteOf } from '../core/describe.js';
 import {
   amounts, clock, duration, km, money, number, percent, timeWindow,
 } from '../core/format.js';
@@ -10,6 +10,7 @@ import { partsOf } from '../core/plan.js';
 import { vehicleColour } from '../core/palette.js';
 import { customersOf } from '../core/replanning.js';
 import { titleOfVehicle } from '../core/vehicle-labels.js';
+import { isVisit } from '../core/visits.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { useSavesNothing } from './drones-worth.js';
@@ -177,12 +178,11 @@ function Stop({ index, halt, selection, hovered }) {
     <th scope="row">${halt.kind === 'customer' && html`<${Grip} index=${index} halt=${halt} />`}
       <${SelectButton} of=${halt.key}>${halt.id}</${SelectButton}>${isLocked
         && halt.kind === 'customer' && html` <span
-          class="lock-mark">${t('routes.locked')}</span>`}${halt.kind === 'launch_site'
-        && html` <span class="help">${t('routes.site')}</span>`}${halt.kind === 'break'
-        && html` <span class="help">${t('routes.rest')}</span>`}</th>
+          class="lock-mark">${t('routes.locked')}</span>`}${noteOf(halt)
+        && html` <span class="help">${noteOf(halt)}</span>`}</th>
     <td>${clock(halt.arrival)}${halt.waiting > 0 && html` <span
       class="help">+${duration(halt.waiting)}</span>`}</td>
-    <td>${halt.kind === 'customer' ? timeWindow(halt.window) : ''}</td>
+    <td>${isVisit(halt) ? timeWindow(halt.window) : ''}</td>
     <td class="lateness">${halt.lateness > 0 ? duration(halt.lateness) : ''}</td>
     <td class="number">${amounts(halt.load)}</td></tr>`;
 }

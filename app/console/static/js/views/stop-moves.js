@@ -20,7 +20,9 @@ export function StopMoves({ id }) {
   const index = indexOf(entry);
   const halt = index?.halts.get(`c:${id}`);
   const isKnown = index && (halt || entry.plan.unassigned.some((other) => other.id === id));
-  if (!isKnown) return null;
+  // A shipment's ends belong together, and aren't moved one by one.
+  const customer = isKnown && customerOf(entry, id);
+  if (!customer) return null;
   const isLocked = locks.includes(id);
   return html`<div class="buttons" role="group" aria-label=${t('stop.move', { id })}>
     ${halt && html`<${Beside} index=${index} halt=${halt} step=${-1}
@@ -28,7 +30,7 @@ export function StopMoves({ id }) {
       <${Beside} index=${index} halt=${halt} step=${1}
         name=${t('stop.later')} />`}
     <${ToVehicle} index=${index} id=${id} halt=${halt} />
-    <button type="button" onClick=${() => askFit(customerOf(entry, id))}>
+    <button type="button" onClick=${() => askFit(customer)}>
       ${t('stop.best')}</button>
     ${halt && html`<button type="button" aria-pressed=${isLocked}
       onClick=${() => setLocked([id], !isLocked)}>${

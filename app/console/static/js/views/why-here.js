@@ -3,6 +3,7 @@
 import { shownPlan } from '../actions.js';
 import { money } from '../core/format.js';
 import { alternativeRows, bindingInWords, FIRST_SHOWN, noDroneInWords } from '../core/why.js';
+import { visitsOf } from '../core/visits.js';
 import { askWhy, toldOf } from '../explaining.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -12,7 +13,7 @@ import { t } from '../texts.js';
 export function WhyHere({ id }) {
   const entry = useStore(shownPlan);
   const answer = toldOf(useStore((state) => state.why), entry, id);
-  const customer = entry?.request.customers.find((each) => each.id === id);
+  const customer = entry && visitsOf(entry.request).find((each) => each.id === id);
   if (!customer) return null;
   const isOut = entry.plan.unassigned.some((each) => each.id === id);
   const isAsking = answer?.state === 'asking';

@@ -1,0 +1,65 @@
+"""Shipments on the map, in lists and in their form."""
+
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from playwright.sync_api import Page, expect
+
+from tests.console.steps import open_file, open_tab, place_of, planned, state
+from tests.console.test_everyone import findings
+
+pytestmark = pytest.mark.slow
+
+REQUEST: dict[str, Any] = {
+    "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+    "customers": [{"id": "A", "location": [2, 1], "demand": [1]}],
+    "shipments": [
+        {"id": "parcel", "amount": [2], "pickup": {"location": [3, 0]},
+         "delivery": {"location": [1, -1], "time_window": {"latest": 7200}}},
+        {"id": "safe", "amount": [90], "pickup": {"location": [4, 0]},
+         "delivery": {"location": [0, 2]}}],
+    "fleet": [{"id": "van", "count": 1, "capacity": [5]}],
+    "options": {"search_iterations": 200}}
+
+
+def test_shipments_are_seen_and_told_of(page: Page) -> None:
+    open_file(page, "parcel.json", json.dumps(REQUEST))
+    planned(page, "3 of 5 served")
+    open_tab(page, "routes")
+    panel = page.locator(".panel")
+    for end, window in (("pickup", "any time"), ("delivery", "until 2:00")):
+        row = panel.get_by_role("row", name=f"parcel {end}")
+        expect(row).to_be_visible()
+        expect(row.get_by_role("cell").nth(1)).to_have_text(window)
+    page.mouse.click(*place_of(page, "c:parcel/delivery"))
+    assert state(page, "state.selection") == "c:parcel/delivery"
+    about = panel.locator("section", has_text="parcel/delivery").first
+    expect(about).to_contain_text("van-1")
+    expect(about.get_by_role("button", name="Lock")).to_have_count(0)
+    about.get_by_role("button", name="Why here?").click()
+    expect(about).to_contain_text("Instead")
+    open_tab(page, "unassigned")
+    expect(panel.locator("article", has_text="safe")).to_be_visible()
+    assert findings(page, ".panel") == []
+
+
+def test_a_shipment_is_added_and_what_is_wrong_is_said_at_its_field(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("422",))
+    open_file(page, "parcel.json", json.dumps(REQUEST))
+    planned(page, "3 of 5 served")
+    open_tab(page, "customers")
+    panel = page.locator(".panel")
+    panel.locator("summary", has_text="Shipments").click()
+    panel.get_by_role("button", name="Add to shipments").click()
+    added = state(page, "state.request.shipments.2")
+    assert added == {"id": "shipment-3", "amount": [1], "pickup": {"location": [0, 0]},
+                     "delivery": {"location": [0, 0]}}
+    last = panel.locator("fieldset.list .entry").nth(2)
+    last.get_by_label("Name").fill("parcel")
+    last.get_by_label("Name").press("Tab")
+    page.get_by_role("button", name="Plan", exact=True).click()
+    expect(last).to_contain_text("Another has the same name")
+    assert findings(page, ".panel") == []
