@@ -29,6 +29,7 @@ def stated_errors(request: PlanRequest, errors: Iterable[InputError]) -> list[In
             update={"path": path, "message": message})
     return list(stated.values())
 
+
 def added_names(request: PlanRequest) -> Iterator[str]:
     """Yield the names of all who count as customers beside those stated."""
     for customer in request.customers:

@@ -1,0 +1,30 @@
+"""How plans of pickup and delivery are compared with those of other solvers."""
+
+import math
+from pathlib import Path
+
+import pytest
+
+from benchmarks.peers import shipments
+from benchmarks.peers.shipments import Run, by_peer, by_tandem, summary
+from benchmarks.quality.shipments import read
+from tests.benchmarks.quality.test_shipments import BEST, PLAIN
+
+
+def test_plans_of_others_are_judged_and_left_out_of_means_where_somebody_is(
+        tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a.txt").write_text(PLAIN)
+    (tmp_path / "best_known.csv").write_text(f"{BEST}a,10.0,1\n")
+    instance = read(tmp_path / "a.txt")
+    monkeypatch.setattr(shipments, "PEERS", {
+        "right": lambda instance, seconds: [[1, 2]], "wrong": lambda instance, seconds: [[2, 1]],
+        "none": lambda instance, seconds: []})
+    right, none = by_peer("right", instance, 0.1), by_peer("none", instance, 0.1)
+    assert (right.vehicles_above, right.gap_percent) == (0, pytest.approx(100))
+    assert math.isnan(none.vehicles_above)
+    with pytest.raises(RuntimeError, match="wrong, a: "):
+        by_peer("wrong", instance, 0.1)
+    above = Run("right", "b", 2, 0.1, 2, math.nan)
+    assert list(summary([right, above, none])) == [
+        "| right | 2 of 2 | 1.00 | 1 | 100.00 |", "| none | 0 of 1 | nan | 0 | nan |"]
+    assert by_tandem(instance, 0.05).gap_percent == right.gap_percent
