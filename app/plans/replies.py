@@ -205,7 +205,7 @@ def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
 
 def _lateness(problem: Problem, halt: Stop | Visit) -> float:
     latest = problem.customers[halt.node - len(problem.depots)].latest
-    return max(0, halt.ready - latest) / 1000
+    return max(0, halt.service_start - latest) / 1000
 
 
 def _setup(halt: Stop | Visit) -> Data:

@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from itertools import combinations
 
-from app.requests.draft import Draft, Errors, error_at
+from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.relation import RelationInput
-from model.problem import MOST_RELATIONS
+from model.problem import MOST_IN_ORDER, MOST_RELATIONS
 
 
 def relation_errors(draft: Draft) -> Errors:
@@ -28,7 +28,43 @@ def relation_errors(draft: Draft) -> Errors:
                 yield error_at("DUPLICATE_ID", path,
                                f"{name!r} is named twice: name each customer once.")
             seen.add(name)
+        yield from _lag_errors(draft, relation, ("relations", index))
     yield from _contradictions(draft)
+
+
+def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
+    """Say what isn't told of an order, or can't be planned with one yet."""
+    if relation.kind != "before":
+        for name in ("min_lag", "max_lag", "same_vehicle"):
+            if getattr(relation, name) != RelationInput.model_fields[name].default:
+                yield error_at("RELATION_WITH", (*path, name),
+                               f"{name} says something of an order: leave it out, or let kind be "
+                               "before.")
+        return
+    if relation.max_lag is not None and relation.max_lag < relation.min_lag:
+        yield error_at("OUT_OF_RANGE", (*path, "max_lag"),
+                       f"{relation.max_lag:g} is less than min_lag, {relation.min_lag:g}.")
+    if len(relation.customers) > MOST_IN_ORDER:
+        yield error_at("WRONG_LENGTH", (*path, "customers"),
+                       f"At most {MOST_IN_ORDER} customers are served in an order: name fewer.")
+    if not relation.same_vehicle:
+        yield error_at("RELATION_WITH", (*path, "same_vehicle"),
+                       "Orders across vehicles can't be planned yet, as each route is timed by "
+                       "itself: let one vehicle serve them, or bound their windows.")
+    several = {customer.id for _, customer in draft.known_customers() if customer.alternatives}
+    for place, name in enumerate(relation.customers):
+        if name in several:
+            yield error_at("RELATION_WITH", (*path, "customers", place),
+                           f"{name!r} may be served at one of several places, which can't be put "
+                           "in order yet: leave alternatives out, or name others.")
+    if draft.replan is not None:
+        yield error_at("RELATION_WITH", (*path, "kind"),
+                       "What has been served isn't put in order with what is left yet: leave "
+                       "before out, or replan.")
+    if any(kind.breaks or kind.driving_rules for _, kind in draft.vehicle_types()):
+        yield error_at("RELATION_WITH", (*path, "kind"),
+                       "Breaks can't be placed beside an order yet: leave before out, or breaks "
+                       "and driving_rules.")
 
 
 def _count_errors(draft: Draft) -> Errors:
@@ -46,12 +82,24 @@ def _count_errors(draft: Draft) -> Errors:
 
 
 def _contradictions(draft: Draft) -> Errors:
-    """Say where two customers are to be together by one relation, and apart by another."""
+    """Say where two customers are apart by one relation, and together by another, or each is before
+    the other.
+    """
     apart: dict[frozenset[str], int] = {}
     for index, relation in enumerate(draft.relations):
         if relation.kind == "apart":
             for pair in combinations(sorted(set(relation.customers)), 2):
                 apart[frozenset(pair)] = min(index, apart.get(frozenset(pair), index))
+    behind: dict[tuple[str, str], int] = {}
+    for index, relation in enumerate(draft.relations):
+        if relation.kind == "before" and len(relation.customers) <= MOST_IN_ORDER:
+            for pair in combinations(relation.customers, 2):
+                behind.setdefault(pair, index)
+                if behind.get((pair[1], pair[0]), index) != index:
+                    yield error_at("CONTRADICTION", ("relations", index),
+                                   f"{pair[1]} is to be served before {pair[0]} by "
+                                   f"relations[{behind[pair[1], pair[0]]}]: take one of both away.")
+                    break
     for index, relation in enumerate(draft.relations):
         if relation.kind != "apart" and apart:
             found = _contradicted(draft, relation, apart)

@@ -1,19 +1,23 @@
-"""Which customers of a request go together, and which don't."""
+"""Which customers of a request go together, which don't, and who is served before whom."""
 
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from app.schemas.fields import Input, Name
+from app.schemas.fields import Duration, Input, Name
 
 MAX_RELATED = 1000
 
 
 class RelationInput(Input):
-    """Customers who go together, or no two of whom do. It binds those alone who are served."""
+    """Customers who go together, in an order or none, or no two of whom do.
 
-    kind: Literal["together", "apart"] = Field(
-        description="Whether one vehicle serves them `together`, or they are kept `apart`."
+    It binds those alone who are served.
+    """
+
+    kind: Literal["together", "apart", "before"] = Field(
+        description="Whether one vehicle serves them `together`, in their order (`before`), or "
+        "they are kept `apart`."
     )
     customers: Annotated[list[Name], Field(min_length=2, max_length=MAX_RELATED)] = Field(
         description="Ids of customers; ends of shipments are none."
@@ -22,4 +26,15 @@ class RelationInput(Input):
         "vehicle",
         description="Whether it says so of one `vehicle` on all its trips, or of one `trip`. "
         "Drones' customers are on the trip that they are launched from.",
+    )
+    min_lag: Duration = Field(
+        0.0,
+        description="Of `before`: at least so many seconds lie between the start of service at a "
+        "customer and that at all who are named behind. Trucks wait for that.",
+    )
+    max_lag: Duration | None = Field(
+        None, description="Of `before`: at most so many seconds lie between one and the next named."
+    )
+    same_vehicle: bool = Field(
+        True, description="Of `before`: whether one vehicle serves them. False is refused yet."
     )

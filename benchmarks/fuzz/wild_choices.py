@@ -72,5 +72,11 @@ def relate(rng: random.Random, request: Data) -> None:
          "customers": rng.sample(names, rng.randint(2, min(4, len(names)))),
          "scope": rng.choice(("vehicle", "trip"))}
         for _ in range(rng.randint(1, 3))]
+    for relation in request["relations"]:
+        if relation["kind"] == "together" and rng.random() < 0.5:
+            least = rng.choice((0, rng.uniform(0, 3600)))
+            relation |= {"kind": "before", "min_lag": least,
+                         "max_lag": rng.choice((None, least + rng.uniform(0, 7200))),
+                         "same_vehicle": rng.random() > 0.01}
     if rng.random() < 0.02:
         request["relations"][0]["customers"][0] = "nobody"

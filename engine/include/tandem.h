@@ -80,6 +80,14 @@ typedef struct tandem_pair {
     int64_t next_place;
 } tandem_pair;
 
+/* How long after service begins at another customer it begins at one whom relations name behind;
+   `node` is -1 behind the last. Nobody has a row where no relation says so. */
+typedef struct tandem_lag {
+    int64_t node;
+    int64_t least;
+    int64_t most;
+} tandem_lag;
+
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
    beside its customers' is taken from its capacity; what it has worked when it may begin (`begun`)
    is taken from its working duration, and costs as if it were fixed. The end of the shift and the
@@ -480,7 +488,9 @@ typedef struct tandem_stop {
     int64_t dep;
     int64_t hold;
     int64_t idle;
-    int64_t rests; /* breaks before the next, as rules/breaks.h packs them */
+    int64_t rests;      /* breaks before the next, as rules/breaks.h packs them */
+    int64_t start;      /* of service, where lags count */
+    int64_t free_start; /* the latest that costs nothing, likewise */
     double window_cost;
 } tandem_stop;
 
@@ -811,6 +821,14 @@ typedef struct tandem_i64_5d {
     int64_t* data;
     int64_t shape[5];
 } tandem_i64_5d;
+typedef struct tandem_lag_2d {
+    tandem_lag* data;
+    int64_t shape[2];
+} tandem_lag_2d;
+typedef struct tandem_lag_3d {
+    tandem_lag* data;
+    int64_t shape[3];
+} tandem_lag_3d;
 typedef struct tandem_leg_law_1d {
     tandem_leg_law* data;
     int64_t shape[1];
@@ -1000,6 +1018,7 @@ typedef struct tandem_instance {
     tandem_pair_2d pair;           /* (problem, node), or (problem, 0) */
     tandem_i64_3d max_between;     /* (problem, type, node) ms from a pickup to its delivery, FAR
                                       without limit, or (problem, 0, 0) if none has one */
+    tandem_lag_3d lag;             /* (problem, node, rank), or (problem, 0, 0) if nobody has one */
     tandem_f64_3d vehicle_cost;    /* (problem, type, node) of being served by it, on top of all
                                       else, or (problem, 0, 0) if nobody states any */
     tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
@@ -1120,6 +1139,7 @@ typedef struct tandem_problem_data {
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
     tandem_pair_1d pair;           /* (node,) none where nobody belongs together */
     tandem_i64_2d max_between;  /* (type, node) ms from a pickup to its delivery, none likewise */
+    tandem_lag_2d lag;          /* (node, rank), none likewise */
     tandem_f64_2d vehicle_cost; /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
         no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */

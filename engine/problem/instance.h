@@ -13,6 +13,7 @@ using Price = tandem_price;
 using Goods = tandem_goods;
 using Hub = tandem_hub;
 using Pair = tandem_pair;
+using Lag = tandem_lag;
 using VehicleType = tandem_vehicle_type;
 using Rate = tandem_rate;
 using Cost = tandem_cost;
@@ -64,8 +65,9 @@ struct Instance {
     View<const Pair, 2> pair;                     // (problem, node), or (problem, 0)
     View<const std::int64_t, 3> max_between;      // (problem, type, node) ms from a pickup to its
                                                   // delivery, or (problem, 0, 0) if none is limited
-    View<const double, 3> vehicle_cost;           // (problem, type, node) of being served by it, or
-                                                  // (problem, 0, 0) if nobody states any
+    View<const Lag, 3> lag;  // (problem, node, rank), or (problem, 0, 0) if nobody has one
+    View<const double, 3> vehicle_cost;  // (problem, type, node) of being served by it, or
+                                         // (problem, 0, 0) if nobody states any
     View<const bool, 2> no_launch;  // (problem, node) no drone takes off or is recovered there, or
                                     // (problem, 0) where any may
     View<const Hub, 2> hub;         // (problem, depot), or (problem, 0) where all have enough
@@ -96,6 +98,7 @@ inline Instance instance_of(const tandem_instance& from) {
             from.max_time_aboard,
             from.pair,
             from.max_between,
+            from.lag,
             from.vehicle_cost,
             from.no_launch,
             from.hub,

@@ -8,11 +8,12 @@
 namespace tandem {
 namespace {
 
-// Add what lateness and earliness at a customer cost.
-void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Cost& cost) {
+// Add what lateness and earliness cost at a customer, whose service begins at `start`.
+void add_window_cost(const Instance& instance, Int b, Int node, Int arrival, Int start,
+                     Cost& cost) {
     const Windows place = instance.node[b][0][node];
     const Price& price = instance.price(b, node);
-    cost.lateness += lateness_cost(price, place, arrival, hours_and_km);
+    cost.lateness += lateness_cost(price, place, start, hours_and_km);
     cost.earliness += waiting_cost(price, place, arrival, hours_and_km);
 }
 
@@ -69,7 +70,7 @@ void add_flights(const Instance& instance, const VehicleLog& log, Int b, Int row
         flown += flights(log.stop[sortie.launch_stop].node, sortie.node);
         flown += flights(sortie.node, log.stop[sortie.recovery_stop].node);
         airborne += sortie.recovery_end - sortie.takeoff;
-        add_window_cost(instance, b, sortie.node, sortie.arrival, cost);
+        add_window_cost(instance, b, sortie.node, sortie.arrival, sortie.start, cost);
     }
     cost.distance += flown_cost(rate, flown, hours_and_km);
     cost.time += airborne_cost(rate, airborne, hours_and_km);
@@ -86,7 +87,7 @@ void add_cost(const Instance& instance, const Setting& setting, const VehicleLog
         const LoggedStop& stop = log.stop[index];
         driven += legs(log.stop[index - 1].node, stop.node);
         if (stop.node >= instance.size[b].depots) {
-            add_window_cost(instance, b, stop.node, stop.arrival, cost);
+            add_window_cost(instance, b, stop.node, stop.arrival, stop.start, cost);
         }
     }
     const Int end = log.stop[log.count.stops - 1].leave;

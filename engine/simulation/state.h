@@ -51,6 +51,7 @@ struct Setting {
     View<const Int, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
     View<const Pair, 1> pair;            // (node,) none where nobody belongs together
     View<const Int, 1> max_between;      // (node,) ms, none where no shipment is limited
+    View<const Lag, 2> lag;              // (node, rank) none where nobody is served behind others
     View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
     const VehicleType& type;
     View<const Int, 2> drive;           // (node, node) ms

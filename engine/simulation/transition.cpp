@@ -13,6 +13,7 @@
 #include "simulation/aboard.h"
 #include "simulation/cost.h"
 #include "simulation/hubs.h"
+#include "simulation/lags.h"
 #include "simulation/meeting.h"
 #include "simulation/vehicle_log.h"
 
@@ -272,13 +273,19 @@ bool drive(OpenVehicle& open, Int node) {
         // The start known so far kept the drones' return, not the last take-off before recoveries.
         vehicle.start_best = log.trip[0].start;
     }
-    const Int start = is_customer ? place.start_of_service(arrival) : arrival;
-    const Int service_end = is_customer ? place.end_of_service(arrival) : arrival;
+    Int ready = arrival;
+    if (is_customer && !setting.lag.empty()) {
+        ready = logged_starts(log).ready_at(setting, node, log.count.stops, arrival);
+        if (place.too_late(ready)) return false;
+    }
+    const Int start = is_customer ? place.start_of_service(ready) : arrival;
+    const Int service_end = is_customer ? place.end_of_service(ready) : arrival;
     log_stop(log, node, arrival, start, std::max(service_end, free));
     vehicle.node = node;
     vehicle.service_end = service_end;
     vehicle.free = vehicle.crew = free;
     if (!keep_fresh(open)) return false;
+    if (!setting.lag.empty() && !logged_starts(log).keep_lags(setting)) return false;
     note_charges(setting, log, drones);
     if (!is_customer) come_home(setting, vehicle);
     return true;

@@ -10,6 +10,7 @@
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "rules/start.h"
+#include "simulation/lags.h"
 #include "simulation/meeting.h"
 
 namespace tandem {
@@ -108,6 +109,14 @@ public:
         if (some_limited(setting.max_between)) {
             served_.resize(static_cast<std::size_t>(log.count.stops));
         }
+        if (!setting.lag.empty()) {
+            for (const LoggedStop& stop : log.stop.first(log.count.stops)) {
+                starts_.push_back(stop.start);
+            }
+            for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+                flown_.push_back(sortie.start);
+            }
+        }
         if (bounds_trips(setting.type)) {
             arrivals_.resize(static_cast<std::size_t>(log.count.stops));
         }
@@ -124,10 +133,20 @@ public:
             if (!run_trip(trip, start)) return false;
             if (bounds_trips(setting_.type) && !lasts(trip, start)) return false;
         }
-        return lasting_ && (writes || leave_ <= log_.stop[log_.count.stops - 1].leave);
+        return lasting_ && (writes || leave_ <= log_.stop[log_.count.stops - 1].leave) &&
+               (setting_.lag.empty() || starts().keep_lags(setting_));
     }
 
 private:
+    // When service begins, as tried.
+    auto starts() const {
+        const auto of_stop = [this](Int index) { return starts_[static_cast<std::size_t>(index)]; };
+        const auto of_sortie = [this](Int index) {
+            return flown_[static_cast<std::size_t>(index)];
+        };
+        return Starts<decltype(of_stop), decltype(of_sortie)>{log_, of_stop, of_sortie};
+    }
+
     // Whether a trip that was begun at `start` lasts in the air; when writing, that is noted.
     bool lasts(Int trip, Int start) {
         const VehicleType& type = setting_.type;
@@ -178,10 +197,16 @@ private:
         leave_ = index == first_ ? leaves_first(setting_.type, arrival) : arrival;
         if (stop.node >= setting_.num_depots) {
             const Windows place = setting_.node[stop.node];
-            service_start = place.start_of_service(arrival);
-            if (!is_allowed(place, arrival, stop.arrival)) return false;
+            Int ready = arrival, before = stop.arrival;
+            if (!setting_.lag.empty()) {
+                ready = starts().ready_at(setting_, stop.node, index, arrival);
+                before = stop.start;
+            }
+            service_start = place.start_of_service(ready);
+            if (!is_allowed(place, ready, before)) return false;
             if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
-            leave_ = place.end_of_service(arrival);
+            leave_ = place.end_of_service(ready);
+            if (!starts_.empty()) starts_[static_cast<std::size_t>(index)] = service_start;
             if (!served_.empty() && !note_served(index, service_start)) return false;
         }
         free_ = busy_ = arrival;
@@ -247,6 +272,7 @@ private:
         const Int served = place.end_of_service(arrival);
         sortie.trial_takeoff = takeoff;
         sortie.trial_ready = served;
+        if (!flown_.empty()) flown_[static_cast<std::size_t>(index)] = start;
         if constexpr (writes) {
             sortie.takeoff = takeoff;
             sortie.arrival = arrival;
@@ -329,6 +355,8 @@ private:
     std::vector<Int> arrivals_;
     std::vector<Int> served_;  // (stop,) where shipments may be under way for so long
     std::optional<Charge> charge_;
+    std::vector<Int> starts_;  // (stop,) where lags count
+    std::vector<Int> flown_;   // (sortie,) when service begins there, likewise
     // At the stop: when the crew is free, and when it is from what takes time.
     Int free_ = 0;
     Int busy_ = 0;
@@ -440,6 +468,10 @@ Int most_excess(const Setting& setting, const VehicleLog& log) {
     Int most = -far;
     if (some_limited(setting.max_time_aboard)) most = excess_of_parcels(setting, log);
     if (some_limited(setting.max_between)) most = std::max(most, excess_of_pairs(setting, log));
+    if (!setting.lag.empty()) {
+        const Int first = log.trip[log.count.trips - 1].first_stop;
+        most = std::max(most, logged_starts(log).most_excess(setting, first));
+    }
     if (bounds_trips(setting.type)) most = std::max(most, excess_in_air(setting, log));
     return most;
 }

@@ -32,6 +32,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .max_time_aboard = instance.max_time_aboard[b],
         .pair = instance.pair[b],
         .max_between = limits_of(instance.max_between[b], k),
+        .lag = instance.lag[b],
         .no_launch = instance.no_launch[b],
         .type = type,
         .drive = durations[type.travel],
@@ -128,7 +129,7 @@ bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int 
 // Whether trips may have to be held back.
 inline bool holds_count(const Setting& setting) {
     return some_limited(setting.max_time_aboard) || some_limited(setting.max_between) ||
-           bounds_trips(setting.type);
+           !setting.lag.empty() || bounds_trips(setting.type);
 }
 
 // By how much later the last trip has to begin, so that no parcel is too long aboard, and nobody

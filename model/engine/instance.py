@@ -19,7 +19,7 @@ from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
 from model.engine.pair_rows import (
-    empty_limits, empty_pairs, write_aboard, write_choices, write_limits, write_pairs,
+    empty_limits, empty_pairs, lag_rows, write_aboard, write_choices, write_limits, write_pairs,
 )
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
@@ -70,6 +70,7 @@ class Instance(NamedTuple):
     max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
     pair: Records  # (problem, node), or (problem, 0)
     max_between: IntArray  # (problem, type, node) ms, FAR without limit; (problem, 0, 0) where none
+    lag: Records  # (problem, node, rank), or (problem, 0, 0) where nobody is served behind others
     vehicle_cost: FloatArray  # (problem, type, node) of being served by it, or (problem, 0, 0)
     no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
     hub: Records  # (problem, depot), or (problem, 0) where all have enough
@@ -117,15 +118,14 @@ def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -
 def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
            legs: bool) -> Instance:
     """Allocate arrays for problems with so many types and tables of nodes and of `legs`, if any."""
-    rows = len(problems)
-    nodes = max(problem.num_nodes for problem in problems)
+    rows, nodes = len(problems), max(each.num_nodes for each in problems)
     depots = max(problem.num_depots for problem in problems)
     ends = nodes if legs else 0
-    changes = max(_num_changes(kind) for problem in problems for kind in problem.vehicle_types)
+    changes = _num_changes(problems)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
     apart = any(problem.limits_company for problem in problems)
-    forbidden = any(problem.forbids_launches for problem in problems)
+    forbidden = any(each.forbids_launches for each in problems)
     instance = Instance(
         size=np.zeros(rows, dtype_of("tandem_size")),
         node=np.zeros((rows, variants, nodes, 1 + gaps), dtype_of("tandem_node")),
@@ -137,6 +137,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
         max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
         pair=empty_pairs(problems, nodes),
         max_between=empty_limits(problems, types, nodes, FAR),
+        lag=lag_rows(problems, nodes),
         vehicle_cost=vehicle_costs(problems, types, nodes),
         no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
         hub=np.zeros((rows, depots if any(problem.limits_hubs for problem in problems) else 0),
@@ -159,9 +160,9 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     return instance
 
 
-def _num_changes(vehicle_type: VehicleType) -> int:
-    profile = vehicle_type.speed_profile
-    return 0 if profile is None else len(profile.times)
+def _num_changes(problems: Sequence[Problem]) -> int:
+    profiles = [kind.speed_profile for each in problems for kind in each.vehicle_types]
+    return max([len(profile.times) for profile in profiles if profile], default=0)
 
 
 def _num_tiers(problems: Sequence[Problem]) -> int:

@@ -62,3 +62,14 @@ def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray)
             limit = each.longest_between(duration.item(each.pickup, each.delivery))
             if limit is not None:
                 rows[index, each.pickup] = min(limit, rows.item(index, each.pickup))
+
+
+def lag_rows(problems: Sequence[Problem], nodes: int) -> Records:
+    """Return (problem, node, rank) how long behind others customers are served."""
+    most = max([len(lags) for problem in problems for lags in problem.lags.values()], default=0)
+    rows = np.zeros((len(problems), nodes if most else 0, most), dtype_of("tandem_lag"))
+    rows["node"] = -1
+    for row, problem in zip(rows, problems, strict=True):
+        for node, lags in problem.lags.items():
+            row[node, : len(lags)] = [tuple(lag) for lag in lags]
+    return rows

@@ -4,7 +4,7 @@ Shares nothing with simulator and search, so that it can judge both.
 """
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain, pairwise
 from operator import attrgetter
@@ -90,7 +90,7 @@ def judge_route(problem: Problem, route: Route, path: str,
     known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
     trips = [_time(problem, vehicle_type, trip, f"{path}.trips[{number}]",
                    known[number] if number < len(known) else None, past.now,
-                   route.trips[0] if number else None)
+                   route.trips[:number])
              for number, trip in enumerate(route.trips)]
     timed = Route(route.vehicle_type, route.vehicle, tuple([trip.trip for trip in trips]))
     measured, cost = measure_route(problem, timed, tuple([trip.metrics for trip in trips]))
@@ -117,13 +117,13 @@ def _total(costs: list[Cost]) -> Cost:
 
 
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
-          known: KnownTrip | None, now: int, first: Trip | None) -> TimedTrip:
+          known: KnownTrip | None, now: int, before: Sequence[Trip]) -> TimedTrip:
     """Recompute a trip from the choices it states, and what is known of it."""
     decision = read_decision(stated, vehicle_type)
     if known is not None and begins_with(stated, known):
-        trip = resume_trip(problem, vehicle_type, decision, known, now)
+        trip = resume_trip(problem, vehicle_type, decision, known, now, before)
     else:
-        trip = schedule_trip(problem, vehicle_type, decision, 0, first)
+        trip = schedule_trip(problem, vehicle_type, decision, 0, before)
     return TimedTrip(decision, trip, measure_trip(problem, vehicle_type, trip), path)
 
 

@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator, Sequence
 
+from model.judge.lags import halts_of, starts_of
 from model.judge.past import Vehicle
-from model.judge.rules import TimedTrip, Violation
-from model.problem import Problem, Relation
+from model.judge.rules import TimedTrip, Violation, seconds
+from model.problem import Lag, Problem, Relation
 from model.solution import Route, Solution
 
 
@@ -22,6 +23,7 @@ def route_company(problem: Problem, trips: Sequence[TimedTrip], path: str) -> It
             (_, one), (index, other) = broken[-1]
             where = trips[index].path if relation.scope == "trip" else path
             yield _violation(problem, relation, one, other, where)
+    yield from _lag_violations(problem, trips, path)
 
 
 def plan_company(problem: Problem, served: Sequence[Sequence[int]]) -> Iterator[Violation]:
@@ -34,6 +36,25 @@ def plan_company(problem: Problem, served: Sequence[Sequence[int]]) -> Iterator[
         number, other = there[-1] if there else (0, 0)
         if there and there[0][0] != number:
             yield _violation(problem, relation, there[0][1], other, f"routes[{number}]")
+
+
+def _lag_violations(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
+    """Orders and lags that a vehicle doesn't keep."""
+    starts = starts_of(halts_of([timed.trip for timed in trips]))
+    for node, start in starts.items():
+        for lag in problem.lags.get(node, ()):
+            after = start - starts.get(lag.node, start - lag.least)
+            if not lag.least <= after <= lag.most:
+                yield Violation("RELATION", _lag_words(problem, node, lag, after), path)
+
+
+def _lag_words(problem: Problem, node: int, lag: Lag, after: int) -> str:
+    one, other = (problem.customer_at(each).id for each in (lag.node, node))
+    if after < 0:
+        return f"customer {one} is to be served before {other}"
+    limit = (f"at least {seconds(lag.least)}" if after < lag.least
+             else f"at most {seconds(lag.most)}")
+    return f"customer {other} is served {seconds(after)} after {one}, not {limit}"
 
 
 def words_of(relation: Relation) -> str:

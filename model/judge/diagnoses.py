@@ -150,7 +150,7 @@ def _launch(attempt: Attempt) -> Diagnosis:
 
 def _time_window(attempt: Attempt) -> Diagnosis:
     customer = attempt.customer
-    late = up_to_tenth(_halt(attempt).ready - customer.latest, MS_PER_MINUTE)
+    late = up_to_tenth(_halt(attempt).service_start - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
     window = "last window" if customer.gaps else "window"

@@ -8,6 +8,7 @@ from model.judge.energy import (
     weights_aboard,
 )
 from model.judge.freshness import most_excess
+from model.judge.lags import excess_of_lags
 from model.judge.takeoff import storm_met
 from model.problem import UNLIMITED, Energy, Problem, VehicleType
 from model.solution import Trip
@@ -108,5 +109,5 @@ def wait_for_calm(kind: VehicleType, trip: Trip) -> int:
 def excess_of(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return by how much a trip lasts too long, that may do less if it begins later; 0: it doesn't.
     """
-    excess = most_excess(problem, kind, trip)
+    excess = max(most_excess(problem, kind, trip), excess_of_lags(problem, trip))
     return max(excess, excess_in_air(problem, kind, trip)) if kind.flies else excess

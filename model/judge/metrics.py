@@ -121,8 +121,8 @@ def _window_costs(problem: Problem, route: Route) -> tuple[float, float]:
             waiting = opening(customer, halt.ready) - halt.ready
             if waiting > 0:
                 earliness += waiting * customer.early_cost_per_hour / MS_PER_HOUR
-            elif halt.ready > customer.latest and customer.late_cost_per_hour is not None:
-                late = halt.ready - customer.latest
+            late = halt.service_start - customer.latest
+            if late > 0 and customer.late_cost_per_hour is not None:
                 lateness += late * customer.late_cost_per_hour / MS_PER_HOUR + customer.late_cost
     return lateness, earliness
 

@@ -4,7 +4,7 @@ A trip's start is a choice, everything else follows from it. Three are tried: as
 soon as possible, and as late as moves no end and makes no window missed.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -103,9 +103,10 @@ class _Timer:
             if known is None:
                 charged = charged_start(self._problem, self._type, timed, trip.nodes)
                 begin = max(ready, self._free_from(trip), charged, 0 if start is None else start)
-                timed.append(self._from(trip, begin, start is not None, *timed[:1]))
+                timed.append(self._from(trip, begin, start is not None, timed))
             else:
-                timed.append(resume_trip(self._problem, self._type, trip, known, self._past.now))
+                timed.append(resume_trip(self._problem, self._type, trip, known, self._past.now,
+                                         timed))
             ready = max(timed[-1].stops[-1].departure + self._type.reload_duration,
                         self._past.now)
         return timed
@@ -114,10 +115,10 @@ class _Timer:
         return self._known[number] if number < len(self._known) else None
 
     def _from(self, trip: TripDecision, begin: int, is_chosen: bool = True,
-              first: Trip | None = None) -> Trip:
+              before: Sequence[Trip] = ()) -> Trip:
         """Return a trip from an instant on, or, if not chosen, once parcels stay fresh."""
         decision = replace(trip, start=begin if is_chosen else None)
-        return schedule_trip(self._problem, self._type, decision, begin, first)
+        return schedule_trip(self._problem, self._type, decision, begin, before)
 
     def _free_from(self, trip: TripDecision) -> int:
         """Return when all parcels of a trip are at the depot."""
@@ -136,15 +137,16 @@ class _Timer:
             room = 0
             if following is not None:
                 room = following - self._type.reload_duration - trip.stops[-1].departure
-            following = trip.stops[0].arrival + self._delay(self._decision.trips[number], trip,
-                                                            room)
+            following = trip.stops[0].arrival + self._delay(
+                self._decision.trips[number], trip, room, soonest[:number])
             starts[number] = following
         return starts
 
-    def _delay(self, decision: TripDecision, trip: Trip, room: int) -> int:
+    def _delay(self, decision: TripDecision, trip: Trip, room: int,
+               before: Sequence[Trip]) -> int:
         """Return how much later a trip may begin that may end `room` later."""
         if not (trip.sorties or self._type.speed_profile or self._type.busy_until
-                or self._problem.launch_sites or trip.breaks):
+                or self._problem.launch_sites or self._problem.lags or trip.breaks):
             return _plain_delay(self._problem, trip, room)
         high = room + sum([halt.service_start - halt.ready for halt in halts(trip)])
         high += sum([taken.start - taken.arrival for taken in trip.breaks])
@@ -152,7 +154,7 @@ class _Timer:
         late = _lateness(self._problem, trip)
         for step in range(BISECTIONS if high else 0):
             middle = high if step == 0 else (low + high) // 2
-            tried = self._from(decision, trip.stops[0].arrival + middle)
+            tried = self._from(decision, trip.stops[0].arrival + middle, before=before)
             if tried.stops[-1].departure <= latest and _lateness(self._problem, tried) <= late:
                 low = middle
             else:
@@ -175,6 +177,6 @@ def _plain_delay(problem: Problem, trip: Trip, room: int) -> int:
 
 
 def _lateness(problem: Problem, trip: Trip) -> int:
-    """Return by how much all customers of a trip are reached too late, added up."""
-    return sum([max(0, halt.ready - problem.customer_at(halt.node).latest)
+    """Return by how much all customers of a trip are served too late, added up."""
+    return sum([max(0, halt.service_start - problem.customer_at(halt.node).latest)
                 for halt in halts(trip)])

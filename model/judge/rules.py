@@ -161,8 +161,8 @@ def _halt_violations(
         if not customer.skills <= vehicle_type.skills:
             missing = ", ".join(sorted(customer.skills - vehicle_type.skills))
             yield Violation("SKILLS", f"{vehicle_type.id} lacks {missing}", f"{path}[{index}]")
-        if halt.ready > customer.latest and customer.late_cost_per_hour is None:
-            message = (f"customer {customer.id} is reached at {seconds(halt.ready)}, "
+        if halt.service_start > customer.latest and customer.late_cost_per_hour is None:
+            message = (f"customer {customer.id} is reached at {seconds(halt.service_start)}, "
                        f"after {seconds(customer.latest)}")
             yield Violation("TIME_WINDOW", message, f"{path}[{index}]")
 

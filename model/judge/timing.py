@@ -6,7 +6,7 @@ windows would let its flight last longer than the endurance, or hover for more t
 holds, or its battery is being charged. Times in ms, plain Python integers.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -14,6 +14,7 @@ from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
 from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
+from model.judge.lags import awaited
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
@@ -167,9 +168,8 @@ def _flight(problem: Problem, drones: DroneType, decision: TripDecision, sortie:
     return _Flight(launch_time, visits, time + home)
 
 
-def _by_arrival(
-    sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight], most: int
-) -> Iterator[Operation]:
+def _by_arrival(sorties: tuple[SortieDecision, ...], stop: int, flights: dict[int, _Flight],
+                most: int) -> Iterator[Operation]:
     """Yield recoveries of earlier sorties, then launches, then recoveries of loops.
 
     A drone's loop ends before it is launched again, and with it those that are back sooner; loops
@@ -250,9 +250,8 @@ def _rest_before(kind: VehicleType, decision: TripDecision, flights: dict[int, _
     return rests[-1] if rests else first_rest(kind, energy, drone)
 
 
-def _timed_sorties(
-    decision: TripDecision, flights: dict[int, _Flight], kind: VehicleType
-) -> tuple[Sortie, ...]:
+def _timed_sorties(decision: TripDecision, flights: dict[int, _Flight],
+                   kind: VehicleType) -> tuple[Sortie, ...]:
     return tuple(
         Sortie(sortie.drone, sortie.launch_stop, sortie.recovery_stop, flights[index].visits,
                flights[index].launch_time, flights[index].recovery_start,
@@ -261,23 +260,22 @@ def _timed_sorties(
     )
 
 
-def schedule_trip(
-    problem: Problem, vehicle_type: VehicleType, decision: TripDecision, ready: int,
-    first: Trip | None = None
-) -> Trip:
-    """Return a trip with its times; `first` is the first of the route, if that is another.
+def schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision, ready: int,
+                  before: Sequence[Trip] = ()) -> Trip:
+    """Return a trip with its times; `before` are those of the route before it.
 
     Without a start of its own it begins once `ready`, or later if that keeps parcels from being
-    aboard too long, or who flies by itself from waiting too long in the air, or from a storm.
+    aboard too long, anybody served too late after others, or who flies from a wait or a storm.
     """
-    trip = _schedule_trip(problem, vehicle_type, decision, ready, first)
+    trip = _schedule_trip(problem, vehicle_type, decision, ready, before)
     if decision.start is not None or not (
-            problem.limits_time_aboard or problem.limits_time_between or vehicle_type.flies):
+            problem.limits_time_aboard or problem.limits_time_between or problem.lags
+            or vehicle_type.flies):
         return trip
     excess = excess_of(problem, vehicle_type, trip)
     while wait := excess or wait_for_calm(vehicle_type, trip):
         later = replace(decision, start=trip.stops[0].arrival + wait)
-        held = _schedule_trip(problem, vehicle_type, later, ready, first)
+        held = _schedule_trip(problem, vehicle_type, later, ready, before)
         left = excess_of(problem, vehicle_type, held)
         if 0 < excess <= left:
             break
@@ -286,7 +284,7 @@ def schedule_trip(
 
 
 def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
-                   ready: int, first_trip: Trip | None) -> Trip:
+                   ready: int, before: Sequence[Trip]) -> Trip:
     duration, setup = problem.travel[vehicle_type.travel].duration, 0
     profile, drones = vehicle_type.speed_profile, vehicle_type.drones
     customers, first, last = problem.customers, len(problem.depots), len(decision.nodes) - 1
@@ -295,7 +293,7 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     arrival = decision.start
     if arrival is None:
         arrival = max(ready, latest_release(problem, decision))
-    began = first_trip or Trip((Stop(decision.nodes[0], arrival, arrival, arrival),))
+    began = before[0] if before else Trip((Stop(decision.nodes[0], arrival, arrival, arrival),))
     begin, breaks, departure, node = begin_of(vehicle_type, began), [], 0, 0
     for index, following in enumerate(decision.nodes):
         if index:
@@ -316,7 +314,8 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
             start = departure = max(arrival, problem.depots[node].earliest)
         elif 0 < index < last:
             customer = customers[node - first]
-            start = service_start(customer, arrival + setup)
+            start = service_start(customer, max(
+                arrival + setup, awaited(problem, node, before, stops, flights)))
             departure = start + vehicle_type.service_at(customer)
         if drones is not None and decision.sorties:
             departure = max(departure,
@@ -329,8 +328,8 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
 
 
 def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
-                known: KnownTrip, now: int) -> Trip:
-    """Return a trip that is under way with its times.
+                known: KnownTrip, now: int, before: Sequence[Trip] = ()) -> Trip:
+    """Return a trip that is under way with its times; `before` are those of the route before it.
 
     What is known stays, its sorties being the first of the decision; all else follows as soon as
     possible from `now` on.
@@ -350,7 +349,8 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             arrival = arrival if problem.is_nowhere(node) else max(now, arrival)
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         ready = arrival + setup
-        start, departure = resumed_service(problem, vehicle_type, node, ready, fact, now)
+        start, departure = resumed_service(problem, vehicle_type, node, max(
+            ready, awaited(problem, node, before, stops, flights)), fact, now)
         if problem.is_launch_site(node):
             ready = start
         if drones is not None and decision.sorties:
@@ -382,7 +382,7 @@ def schedule(problem: Problem, decision: RouteDecision) -> Route:
     for trip in decision.trips:
         _require_known(problem, vehicle_type, trip)
         ready = max(ready, charged_start(problem, vehicle_type, trips, trip.nodes))
-        trips.append(schedule_trip(problem, vehicle_type, trip, ready, *trips[:1]))
+        trips.append(schedule_trip(problem, vehicle_type, trip, ready, trips))
         ready = trips[-1].stops[-1].departure + vehicle_type.reload_duration
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))
 

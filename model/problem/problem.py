@@ -4,6 +4,7 @@ from bisect import bisect_left
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain
 from typing import TypeVar
 
 import numpy as np
@@ -14,7 +15,7 @@ from model.problem.fleet import VehicleType
 from model.problem.quantities import (
     MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
 )
-from model.problem.relation import MOST_RELATIONS, Relation
+from model.problem.relation import MOST_RELATIONS, Lag, Relation
 from model.problem.shipment import Shipment
 from model.problem.travel import Travel
 
@@ -327,6 +328,14 @@ class Problem:
     def keeps_together(self) -> bool:
         """Tell whether some customers go with others."""
         return any(each.keeps_together for each in self.relations)
+
+    @cached_property
+    def lags(self) -> dict[int, tuple[Lag, ...]]:
+        """How much later than others each customer is served behind whom there are some."""
+        found: dict[int, tuple[Lag, ...]] = {}
+        for node, lag in chain.from_iterable([each.lags() for each in self.relations]):
+            found[node] = (*found.get(node, ()), lag)
+        return found
 
     @cached_property
     def limits_time_between(self) -> bool:

@@ -1,32 +1,65 @@
-"""Who goes with whom, and who doesn't."""
+"""Who goes with whom, who doesn't, and who is served before whom."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from itertools import combinations
+from typing import Literal, NamedTuple
 
-from model.problem.quantities import require
+from model.problem.quantities import MAX_QUANTITY, UNLIMITED, require
 
 MOST_RELATIONS = 62
 """Most relations that keep customers together; likewise apart, incompatible goods counted."""
 
-RelationKind = Literal["together", "apart"]
+MOST_IN_ORDER = 20
+"""Most customers who are served one before another by one relation."""
+
+RelationKind = Literal["together", "apart", "before"]
+
+
+class Lag(NamedTuple):
+    """How long after service begins at one customer it begins at another, in ms."""
+
+    node: int  # the one who is served before
+    least: int
+    most: int
 
 
 @dataclass(frozen=True, slots=True)
 class Relation:
-    """Customers who go together, or no two of whom do; it binds those alone who are served."""
+    """Customers who go together, or no two of whom do; it binds those alone who are served.
+
+    Those of `before` go together, too, in their order.
+    """
 
     kind: RelationKind
     nodes: tuple[int, ...]
     scope: Literal["vehicle", "trip"] = "vehicle"
+    min_lag: int = 0  # ms from the start of service at any to that at all who are named behind
+    max_lag: int | None = None  # ms to that of who is named next
 
     def __post_init__(self) -> None:
-        require(len(set(self.nodes)) == len(self.nodes) >= 2, f"relation {self.kind}", self.nodes)
+        name = f"relation {self.kind}"
+        require(len(set(self.nodes)) == len(self.nodes) >= 2, name, self.nodes)
+        require(self.kind == "before" or (self.min_lag, self.max_lag) == (0, None), name,
+                (self.min_lag, self.max_lag))
+        require(0 <= self.min_lag <= (UNLIMITED if self.max_lag is None else self.max_lag),
+                f"{name} min_lag", self.min_lag)
+        require(max(self.min_lag, self.max_lag or 0) <= MAX_QUANTITY, f"{name} max_lag",
+                self.max_lag)
+        require(self.kind != "before" or len(self.nodes) <= MOST_IN_ORDER, name, self.nodes)
 
     @property
     def keeps_together(self) -> bool:
         """Tell whether one vehicle serves all of those who are served."""
         return self.kind != "apart"
+
+    def lags(self) -> Iterator[tuple[int, Lag]]:
+        """Yield who is served behind whom, and how much later."""
+        if self.kind == "before":
+            for (place, one), (other_place, other) in combinations(enumerate(self.nodes), 2):
+                is_next = other_place == place + 1
+                most = UNLIMITED if self.max_lag is None or not is_next else self.max_lag
+                yield other, Lag(one, self.min_lag, most)
 
     def among(self, number: Mapping[int, int]) -> "Relation | None":
         """Return it for those who have a new number; None if it says nothing of them."""

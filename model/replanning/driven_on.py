@@ -121,5 +121,5 @@ def _as_stated(problem: Problem, decision: RouteDecision, past: Past) -> Route:
             ready = max(ready, trips[-1].stops[-1].departure + kind.reload_duration)
         back = max([past.returned.get(node, 0) for node in customers_of(problem, trip)], default=0)
         start = max(ready, back, latest_release(problem, trip), trip.start or 0)
-        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready, *trips[:1]))
+        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready, trips))
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))

@@ -128,7 +128,7 @@ def _timed(problem: Problem, decision: RouteDecision) -> Route:
     ready = kind.earliest
     for trip in decision.trips:
         start = max(ready, latest_release(problem, trip), trip.start or 0)
-        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready, *trips[:1]))
+        trips.append(schedule_trip(problem, kind, replace(trip, start=start), ready, trips))
         ready = trips[-1].stops[-1].departure + kind.reload_duration
     return Route(decision.vehicle_type, decision.vehicle, tuple(trips))
 

@@ -23,8 +23,9 @@ def evaluate(instance: Instance) -> Records:
     timed = costly | (types["max_working_duration"] < UNLIMITED) | rests
     retimed = (types["speed_changes"] != NO_PROFILE) | (types["breaks"] > 0)
     flies = types["flies"] > 0
+    lagging = instance.lag.shape[1] > 0
     awaited = (types["charge"] > 0) | (types["storms"] > 0)
-    retimed = retimed | any_aboard(types, awaited & ((types["drones"] > 0) | flies))
+    retimed = retimed | any_aboard(types, awaited & ((types["drones"] > 0) | flies)) | lagging
     if place.shape[2] > 1:
         # What is known of later arrivals holds within the windows that they are served in.
         retimed = retimed | timed | soft | early | (types["drones"] > 0)
@@ -33,13 +34,12 @@ def evaluate(instance: Instance) -> Records:
     waits = bool((place["window_earliest"] > 0).any())
     limited = (bool(instance.max_time_aboard.shape[1] or instance.max_between.shape[2])
                | (bound & waits))
-    held_back = early | ((retimed | limited) & timed)
+    held_back = early | ((retimed | limited) & timed) | lagging
     release = bool((place["release"] > 0).any())
     priced = soft | limited | held_back | retimed | (rates["load"] > 0)
     # So is how long it travels, though nothing is held back for that.
     timed = timed | (types["max_travel_duration"] < UNLIMITED)
-    # How long a vehicle works, at no cost, is looked at wherever a customer may come, if it makes
-    # one trip that waits for nothing.
+    # How long a vehicle works at no cost is looked at everywhere if its one trip waits for nothing.
     free = ~costly & (types["max_trips"] == 1) & (types["drones"] == 0)
     by_detour = ~(timed if release else timed & ~free) & ~priced & ~bound & ~rests
     apart = instance.goods.shape[1] > 0

@@ -12,6 +12,7 @@ from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import Rest, charges, first_rest, sortie_energy
 from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
+from model.judge.lags import halts_of, starts_of
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff, storm_met
@@ -284,11 +285,12 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
 
     def may_be(halt: Stop | Visit, later: Stop | Visit) -> bool:
         customer = problem.customer_at(halt.node)
-        if has_drones and opening(customer, halt.ready) != opening(customer, later.ready):
+        starts = halt.service_start, later.service_start
+        if has_drones and opening(customer, starts[0]) != opening(customer, starts[1]):
             return False
-        return later.ready <= max(halt.ready, customer.latest)
+        return starts[1] <= max(starts[0], customer.latest)
 
-    if _end(late) > _end(soon):
+    if _end(late) > _end(soon) or not keeps_lags(problem, late):
         return False
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.customer_stops, other.customer_stops)):
@@ -303,6 +305,13 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
             if longer or not all(map(may_be, sortie.visits, flown.visits)):
                 return False
     return True
+
+
+def keeps_lags(problem: Problem, route: Route) -> bool:
+    """Tell whether all on a route are served as long behind others as they should."""
+    starts = starts_of(halts_of(route.trips))
+    return all(lag.least <= start - starts[lag.node] <= lag.most for node, start in starts.items()
+               for lag in problem.lags.get(node, ()) if lag.node in starts)
 
 
 def _end(route: Route) -> int:

@@ -62,7 +62,7 @@ def timed_trips(problem: Problem, kind: int, trips: tuple[OpenTrip, ...],
     if start is not None and not before:
         begin = start
     decision = replace(decision, start=begin)
-    return (*before, schedule_trip(problem, vehicle_type, decision, ready))
+    return (*before, schedule_trip(problem, vehicle_type, decision, ready, before))
 
 
 def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int,

@@ -14,7 +14,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.service import with_service_durations
 from app.requests.conversion.travels import Travels
-from app.requests.conversion.units import optional_thousandths
+from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.customer import place_name
 from app.schemas.fairness import FairnessInput
@@ -138,7 +138,8 @@ def _relations(request: PlanRequest, num_depots: int) -> tuple[Relation, ...]:
     places = {chosen[0]: chosen for chosen in _choices(request, num_depots)}
     return tuple(Relation(each.kind, tuple([
         place for name in each.customers for place in places.get(node[name], (node[name],))
-    ]), each.scope) for each in request.relations)
+    ]), each.scope, thousandths(each.min_lag), optional_thousandths(each.max_lag))
+        for each in request.relations)
 
 
 def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],

@@ -8,6 +8,7 @@
 #include "rules/launch_place.h"
 #include "rules/shift.h"
 #include "search/route/batteries.h"
+#include "search/route/lags.h"
 
 namespace tandem {
 namespace {
@@ -321,7 +322,12 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         }
         sums.free_d = d;
         sums.free_c = c;
-        const auto [served_d, served_c] = truck.serve(stop, time, {d, c});
+        auto [served_d, served_c] = truck.serve(stop, time, {d, c});
+        if (lags_count(truck.data)) {
+            const Int leave = await_others(truck, stops, sorties, p, stop.arrival);
+            if (leave == far) return -1;
+            served_c = std::max(served_c, leave);
+        }
         if (!operate(truck, sorties, p, stop.node, sums)) return -1;
         d = std::max(served_d, sums.free_d);
         c = std::max(served_c, sums.free_c);

@@ -8,6 +8,7 @@
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/flown_trips.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/routes.h"
 
@@ -25,7 +26,7 @@ Int excess_of_parcels(const ProblemData& data, const Route& route, View<const St
         most = std::max(most, excess_aboard(data.max_time_aboard, node, departure, start));
     };
     for (Int p = trip.first; p <= trip.last; ++p) {
-        if (stops[p].kind == customer_stop) serve(stops[p].node, stops[p].arrival);
+        if (stops[p].kind == customer_stop) serve(stops[p].node, as_if_reached(data, stops[p]));
     }
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
@@ -64,6 +65,9 @@ Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1>
     if (!data.max_between.empty()) {
         most = std::max(most, excess_of_pairs(data, route, stops, trip));
     }
+    if (lags_count(data)) {
+        most = std::max(most, most_lag_excess(data, route, stops, trip, sorties));
+    }
     if (bounds_trips(data.type[route.type])) {
         most = std::max(most, excess_in_air(data, route, stops, trip));
     }
@@ -85,7 +89,8 @@ Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1
 }
 
 bool holds_count(const ProblemData& data, Int k) {
-    return time_aboard_counts(data) || !data.max_between.empty() || bounds_trips(data.type[k]);
+    return time_aboard_counts(data) || !data.max_between.empty() || lags_count(data) ||
+           bounds_trips(data.type[k]);
 }
 
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
@@ -94,6 +99,7 @@ bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 
     if (charges_between_trips(data.type[route.type]) && lacks_charge(data, route, stops, trips)) {
         return true;
     }
+    if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return true;
     const View<const Trip, 1> made = trips.first(route.trips);
     return std::any_of(made.begin(), made.end(), [&](const Trip& trip) {
         return most_excess(data, route, stops, trip, sorties) > 0 ||

@@ -1,5 +1,5 @@
-// Trips held back so that nobody's parcel is aboard, and nobody who flies by itself in the air, for
-// too long.
+// Trips held back so that nobody's parcel is aboard, nobody who flies by itself in the air, and
+// nobody served behind another, for too long.
 #pragma once
 
 #include "search/route/layout.h"
@@ -13,8 +13,8 @@ Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1
 // Tell whether trips of type `k` may have to be held back.
 bool holds_count(const ProblemData& data, Int k);
 
-// Tell whether somebody's parcel is too long aboard on a timed route, or a trip too long in the
-// air.
+// Tell whether somebody's parcel is too long aboard on a timed route, a trip too long in the air,
+// or somebody served too soon or too late behind another.
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties);
 

@@ -78,6 +78,7 @@ struct ProblemData {
     View<const std::int64_t, 1> max_time_aboard;  // (node,) ms, none where nothing is limited
     View<const Pair, 1> pair;                     // (node,) none where nobody belongs together
     View<const std::int64_t, 2> max_between;      // (type, node) ms from a pickup to its delivery
+    View<const Lag, 2> lag;                       // (node, rank) of who is served behind others
     View<const double, 2> vehicle_cost;           // (type, node) of being served by it
     View<const bool, 1> no_launch;                // (node,) none where drones may take off anywhere
     View<const Hub, 1> hub;                       // (depot,) none where all have enough
@@ -124,6 +125,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.max_time_aboard,
             from.pair,
             from.max_between,
+            from.lag,
             from.vehicle_cost,
             from.no_launch,
             from.hub,

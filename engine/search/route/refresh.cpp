@@ -13,6 +13,7 @@
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
@@ -26,6 +27,9 @@ constexpr Int halvings = 6;
 
 // Attempts likewise where breaks may then be due, or not any more.
 constexpr Int halvings_with_breaks = 20;
+
+// Attempts likewise, to the millisecond, where customers may then be served too soon behind others.
+constexpr Int halvings_with_lags = 40;
 
 // How often a trip with breaks is held back again since it has lost some.
 constexpr Int settled_again = 3;
@@ -41,17 +45,27 @@ bool has_sortie(View<const Sortie, 1> sorties, Int p) {
 }
 
 // Return the latest start of a trip that costs nothing, by each stop's last arrival.
-Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+//
+// Where lags count, stops note by when service may begin.
+Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                     View<const Sortie, 1> sorties, Int first) {
     const Int k = route.type, last = route.length - 1;
     const VehicleType& type = data.type[k];
     const NodeTable places = data.place.by_truck(type);
     Int leave = far;
     for (Int p = last; p >= first; --p) {
-        const Stop& stop = stops[p];
+        Stop& stop = stops[p];
         const bool plain = !has_sortie(sorties.first(route.sorties), p);
         Int arrival = stop.arrival;
         if (p == last && plain) leave = stop.leave;
+        if (lags_count(data) && stop.kind == customer_stop) {
+            stop.free_start = stop.start;
+            if (plain) {
+                const Int service = places[stop.node].service_duration();
+                leave = std::min(leave, latest_leave(data, route, stops, sorties, p, service));
+                stop.free_start = leave - service;
+            }
+        }
         if (plain) {
             arrival = has_window(stop) ? places[stop.node].latest_free_arrival(stop.arrival, leave)
                                        : leave;
@@ -79,10 +93,11 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<const Stop
 //
 // If all is retimed, either by moving the whole trip within the windows that are met, or stop by
 // stop, which may reach others but leaves blocks with sorties as they are.
-Int latest_hold(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                 View<const Sortie, 1> sorties, Int first) {
     Int hold = none;
-    if (is_steady(data.type[route.type]) && !has_breaks(data.type[route.type])) {
+    if (is_steady(data.type[route.type]) && !has_breaks(data.type[route.type]) &&
+        (!lags_count(data) || route.sorties > 0)) {
         const Int base = stops[first].before;
         hold = route.end - (route.cum - base);
         for (Int p = first; p < route.length; p = stops[p].last + 1) {
@@ -142,6 +157,7 @@ bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
         if (!settle(data, route, stops, trips, sorties)) return false;
         departure = settled_departure(data, route, stops, sorties);
     }
+    if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return false;
     route.working = route.end - departure - route.unpaid;
     if (!may_work(type, route.working)) return false;
     const auto [cost, early] = price_route(data, route, stops, trips, sorties);
@@ -238,6 +254,9 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
             View<Sortie, 1> sorties) {
     const bool resting = has_breaks(data.type[route.type]);
     Int index = 0, again = resting ? settled_again : 0;
+    const Int most = lags_count(data) ? halvings_with_lags
+                     : resting        ? halvings_with_breaks
+                                      : halvings;
     while (index < route.trips) {
         const Trip& trip = trips[index++];
         Stop& stop = stops[trip.first];
@@ -246,7 +265,6 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
         if (hold <= soonest) continue;
         const Int end = route.end, before = stop.hold;
         Int found = before, failed = hold, tried = hold;
-        const Int most = resting ? halvings_with_breaks : halvings;
         for (Int attempt = 0; attempt <= most && found != hold; ++attempt) {
             stop.hold = tried;
             if (drive_forward(data, route, stops, sorties) && route.end <= end &&

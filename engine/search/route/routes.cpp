@@ -11,6 +11,7 @@
 #include "search/route/block.h"
 #include "search/route/breaks.h"
 #include "search/route/ends.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
 
@@ -169,6 +170,11 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
             truck.time_alone(stop, time);
             stop.flying = stop.idle = 0;
             stop.block = p;
+            if (lags_count(data)) {
+                const Int leave = await_others(truck, stops, sorties, p, time);
+                if (leave == far) return false;
+                stop.c = std::max(stop.c, leave);
+            }
         }
         if (time > stop.hi || time < stop.lo) return false;
         stop.arrival = time;
@@ -240,7 +246,7 @@ WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop
     WindowCosts costs{0.0, 0.0};
     for (Stop& stop : stops.first(route.length)) {
         if (stop.kind != customer_stop) continue;
-        const double late = lateness_cost(data, stop.node, stop.arrival);
+        const double late = lateness_cost(data, stop.node, as_if_reached(data, stop));
         const double early = waiting_cost(data, stop.node, stop.arrival);
         stop.window_cost = late + early;
         costs.late += late;

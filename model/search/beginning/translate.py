@@ -176,7 +176,10 @@ def setups_of(setup: Records, origins: IntArray, nodes: IntArray) -> IntArray:
 def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip, ...]:
     """Return the trips of a timed route, whose own row is given."""
     rows, trips = fleet.stop[slot, : route.length], fleet.trip[slot, : route.trips]
-    starts = service_starts(data.place[0], rows["node"].copy(), rows["arrival"].copy())
+    served = rows["arrival"].copy()
+    if len(data.lag):
+        served = np.where(rows["kind"] == CUSTOMER, np.maximum(served, rows["start"]), served)
+    starts = service_starts(data.place[0], rows["node"].copy(), served)
     columns = (rows[name].tolist() for name in (
         "node", "kind", "arrival", "release", "hold", "leave"))
     setups = setups_of(data.setup, np.roll(rows["node"], 1), rows["node"].copy())

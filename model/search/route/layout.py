@@ -83,6 +83,7 @@ class ProblemData(NamedTuple):
     max_time_aboard: IntArray  # (node,) ms, none where nothing is limited
     pair: Records  # (node,), none where there are no shipments
     max_between: IntArray  # (type, node) ms from a pickup to its delivery, none where unlimited
+    lag: Records  # (node, rank) how long behind others each is served, none likewise
     vehicle_cost: FloatArray  # (type, node) of being served by it, none where nobody states any
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
     hub: Records  # (depot,), none where all have enough

@@ -88,12 +88,24 @@ def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(service: httpx.Cli
      [("CONTRADICTION", "$.relations[0]")]),
     ([{"kind": "together", "customers": ["A", "s/pickup"]}],
      [("UNKNOWN_CUSTOMER", "$.relations[0].customers[1]")]),
+    ([{"kind": "before", "customers": ["A", "B"]}, {"kind": "before", "customers": ["B", "A"]}],
+     [("CONTRADICTION", "$.relations[1]")]),
+    ([{"kind": "before", "customers": ["A", "B"], "min_lag": 9, "max_lag": 8}],
+     [("OUT_OF_RANGE", "$.relations[0].max_lag")]),
+    ([{"kind": "before", "customers": ["A", "B"], "same_vehicle": False}],
+     [("RELATION_WITH", "$.relations[0].same_vehicle")]),
+    ([{"kind": "before", "customers": ["A", "E"]}],
+     [("RELATION_WITH", "$.relations[0].customers[1]")]),
+    ([{"kind": "apart", "customers": ["A", "B"], "min_lag": 5}],
+     [("RELATION_WITH", "$.relations[0].min_lag")]),
     ([{"kind": "apart", "customers": ["A", "B"]}] * 63, [("WRONG_LENGTH", "$.relations")]),
 ])
 def test_relations_that_make_no_sense_are_refused(client: httpx.Client, related: Request,
                                                   relations: list[Any],
                                                   errors: list[tuple[str, str]]) -> None:
     related["relations"] = relations
+    related["customers"].append({"id": "E", "location": [0, 1], "demand": [1], "alternatives": [
+        {"id": "locker", "location": [0, 2]}]})
     related["shipments"] = [{"id": "s", "amount": [1], "pickup": {"location": [3, 0]},
                              "delivery": {"location": [1, 0]}}]
     told = client.post("/plan", json=related).json()["errors"]
@@ -110,3 +122,39 @@ def test_one_vehicle_may_serve_apart_on_two_trips(service: httpx.Client,
     assert plan["unassigned"] == []
     trips = [{stop["id"] for stop in trip["stops"]} for trip in plan["routes"][0]["trips"]]
     assert not any({"A", "B"} <= each for each in trips)
+
+
+@pytest.mark.parametrize(("lags", "waits"), [
+    ({}, 0), ({"min_lag": 7200, "max_lag": 7200}, 7200), ({"min_lag": 10, "scope": "trip"}, 0)])
+def test_customers_are_served_in_the_order_that_is_stated(
+        service: httpx.Client, related: Request, lags: dict[str, Any], waits: int) -> None:
+    related["relations"] = [{"kind": "before", "customers": ["D", "A"], **lags}]
+    related["fleet"][0] |= {"count": 1, "capacity": [4], "costs": {"per_km": 1, "per_hour": 1}}
+    plan = service.post("/plan", json=related).json()
+    assert plan["unassigned"] == []
+    trip, = plan["routes"][0]["trips"]
+    start = {stop["id"]: stop["service_start"] for stop in trip["stops"][1:-1]}
+    # Whoever has to wait does so at A: B lies on the way there or back.
+    assert (start["A"] - start["D"] == waits) if waits else (start["A"] > start["D"])
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+    assert checked["feasible"], checked
+    related["relations"] = [{"kind": "before", "customers": ["A", "D"]}]
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+    assert {each["code"] for each in checked["violations"]} >= {"RELATION"}
+
+
+@pytest.mark.parametrize("change", [
+    {"replan": {"freeze_before": 0}},
+    {"fleet": [{"breaks": [{"id": "rest", "duration": 60, "start": {"latest": 600}}]}]},
+    {"fleet": [{"driving_rules": {"preset": "eu-561"}}]}])
+def test_what_is_not_planned_with_an_order_yet_is_refused(
+        client: httpx.Client, related: Request, change: dict[str, Any]) -> None:
+    for part in change.pop("fleet", ()):
+        related["fleet"][0] |= part
+    related |= change
+    related["relations"] = [{"kind": "before", "customers": ["A", "B"]}]
+    if "replan" in change:
+        related["replan"]["plan"] = {"routes": [], "unassigned": []}
+    told = client.post("/plan", json=related).json()["errors"]
+    assert ("RELATION_WITH", "$.relations[0].kind") in {
+        (each["code"], each["path"]) for each in told}

@@ -42,3 +42,26 @@ def test_two_vehicles_part_who_goes_together(kind, broken, tiny_problem, custome
     violations = check(problem, Solution(routes, (C, D))).violations
     assert [each.code for each in violations] == broken
     assert [each.path for each in violations] == ["routes[1]"] * len(broken)
+
+
+@pytest.mark.parametrize(("nodes", "lags", "trips", "broken", "waits"), [
+    ((A, B), (), (A_THEN_B,), [], 0),
+    ((B, A), (), (A_THEN_B,), ["RELATION"], 0),
+    ((C, D), (), (A_THEN_B,), [], 0),
+    ((A, B), (3600_000,), (A_THEN_B,), [], 3600_000),
+    ((A, B), (3600_000, 3600_000), EACH_ALONE, [], 3600_000),
+    ((A, B), (0, 1), (A_THEN_B,), ["RELATION"], 0),
+    ((A, D, B), (0, 1), (A_THEN_B,), [], 0),
+    ((A, D, B), (3600_000, 3600_000), (A_THEN_B,), [], 3600_000),
+])
+def test_trucks_wait_for_who_is_served_before(
+    nodes, lags, trips, broken, waits, tiny_problem, customers, truck
+):
+    free = [replace(customer, latest=10**9) for customer in customers]
+    problem = replace(tiny_problem(*free, truck=replace(truck, max_trips=2)),
+                      relations=(Relation("before", nodes, "vehicle", *lags),))
+    made = plan(problem, *trips)
+    assert codes(problem, made) == broken
+    start = {stop.node: stop.service_start for trip in made.routes[0].trips for stop in trip.stops}
+    assert start[B] - start[A] >= waits
+    assert not waits or start[B] - start[A] == waits

@@ -56,13 +56,13 @@ def cheapest_cost(problem: Problem) -> float:
                 for size in range(len(left)):
                     for others in combinations(left[1:], size):
                         alone = companions(problem, (left[0], *others))
-                    rest = tuple(node for node in left[1:]
-                                 if node not in others and node not in alone)
-                    parted = sum(without[node] for node in left if node in alone)
-                    for own, cost in routes[kind, (left[0], *others)].items():
-                        total = tuple(map(add, taken, own))
-                        if all(map(le, total, stock)):
-                            best = min(best, cost + parted + cheapest(rest, more, total))
+                        rest = tuple(node for node in left[1:]
+                                     if node not in others and node not in alone)
+                        parted = sum(without[node] for node in left if node in alone)
+                        for own, cost in routes[kind, (left[0], *others)].items():
+                            total = tuple(map(add, taken, own))
+                            if all(map(le, total, stock)):
+                                best = min(best, cost + parted + cheapest(rest, more, total))
         return best
 
     return cheapest(everyone, (0,) * len(kinds), (0,) * len(stock))

@@ -11,7 +11,7 @@ from tests.model.tiny import (
     with_own_durations, with_pickups, with_places, with_reloads, with_setups, with_turnaround,
 )
 from tests.model.tiny_choices import with_choices
-from tests.model.tiny_company import with_relations
+from tests.model.tiny_company import with_order, with_relations
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
 )
@@ -165,6 +165,10 @@ def all_rules_several_places(rng: np.random.Generator) -> Problem:
         if problem.num_customers > 1:
             change = (with_relations, with_gaps, with_places)[int(rng.integers(3))]
             return with_choices(rng, change(rng, problem) if rng.random() < 0.4 else problem)
+
+
+def all_rules_in_order(rng: np.random.Generator) -> Problem:
+    return with_order(rng, all_rules(rng))
 
 
 def all_rules_setups(rng: np.random.Generator) -> Problem:

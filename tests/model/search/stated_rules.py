@@ -7,7 +7,7 @@ import numpy as np
 
 from model.problem import (
     FULL_SPEED, MS_PER_HOUR, UNLIMITED, Break, DroneType, Energy, IncompatibleGoods, Overtime,
-    Problem, SpeedProfile, VehicleType,
+    Problem, Relation, SpeedProfile, VehicleType,
 )
 from training.instances import generate
 
@@ -55,6 +55,8 @@ RULES = {
     "batteries are charged between trips": with_vehicles(flies=True, energy=BATTERY),
     "windows are several": with_customers(gaps=((HOUR, 2 * HOUR),)),
     "time aboard is limited": with_customers(max_time_aboard=HOUR),
+    "customers are in an order": lambda problem: replace(problem, relations=(
+        Relation("before", (problem.num_depots, problem.num_depots + 1)),)),
     "what is aboard costs": with_vehicles(cost_per_load_km=1.0),
     "one vehicle": with_vehicles(count=1),
     "no windows": lambda problem: replace(problem, customers=tuple(

@@ -18,7 +18,7 @@ from tests.model.tiny import (
     with_dimensions, with_goods, with_own_costs, with_pickups, with_reloads, with_setups,
     with_table,
 )
-from tests.model.tiny_company import with_relations
+from tests.model.tiny_company import with_order, with_relations
 from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import (
     with_few_launch_places, with_launch_sites, with_some_revisits,
@@ -31,7 +31,7 @@ PLANNER = Planner(NO_POLICY)
 SEEDS = range(14)
 MORE_RULES = (with_own_costs, with_pickups, with_dimensions, with_goods,
               with_table, with_reloads, with_setups, with_hours, with_few_launch_places,
-              with_launch_sites, with_some_revisits, with_vehicle_costs, with_relations)
+              with_launch_sites, with_some_revisits, with_vehicle_costs, with_relations, with_order)
 
 
 def drawn(seed: int, customers: int = 24) -> Problem:

@@ -28,7 +28,7 @@ from tests.model.tiny import (
     with_table, with_turnaround,
 )
 from tests.model.tiny_choices import with_choices
-from tests.model.tiny_company import companions, with_relations
+from tests.model.tiny_company import companions, with_order, with_relations
 from tests.model.tiny_hours import with_hours
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
 from tests.model.tiny_prices import with_vehicle_costs
@@ -184,7 +184,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
     few_at_hubs_among_all, with_storms,
     storms_among_all, fliers_in_range, fliers_in_storms, with_launch_sites, few_airborne_in_no_time,
-    with_vehicle_costs, with_relations])
+    with_vehicle_costs, with_relations, with_order])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):
@@ -205,7 +205,7 @@ def with_pickups_and_all_else(rng: np.random.Generator, problem: Problem) -> Pro
 
 def with_some(rng: np.random.Generator, problem: Problem, *changes: Change) -> Problem:
     for change in (*changes, with_own_durations, with_goods, with_setups, with_limits_aboard,
-                   with_relations):
+                   with_relations, with_order):
         if rng.random() < 0.6:
             problem = change(rng, problem)
     return problem

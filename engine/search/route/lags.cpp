@@ -1,0 +1,103 @@
+#include "search/route/lags.h"
+
+#include <algorithm>
+
+namespace tandem {
+namespace {
+
+// A part of a route: its stops from one up to another.
+struct Part {
+    Int first;
+    Int behind;
+};
+
+// Call `visit` with the customers of sorties launched in a part, and when service begins there.
+template <class Visit>
+void for_each_flown(const ProblemData& data, View<const Sortie, 1> sorties, Part part,
+                    const Visit& visit) {
+    const NodeTable places = data.place[0];
+    for (const Sortie& sortie : sorties) {
+        if (sortie.launch < part.first || sortie.launch >= part.behind) continue;
+        for (Int index = 0; index < sortie.count; ++index) {
+            const Int node = sortie.nodes[index];
+            visit(node, places[node].start_of_service(sortie.arrivals[index]));
+        }
+    }
+}
+
+// Call `visit` with all customers of a part, likewise.
+template <class Visit>
+void for_each_served(const ProblemData& data, View<const Stop, 1> stops,
+                     View<const Sortie, 1> sorties, Part part, const Visit& visit) {
+    for (Int p = part.first; p < part.behind; ++p) {
+        if (stops[p].kind == customer_stop) visit(stops[p].node, stops[p].start);
+    }
+    for_each_flown(data, sorties, part, visit);
+}
+
+// Tell when service begins at customers of a part; `none` of others.
+auto starts_on(const ProblemData& data, View<const Stop, 1> stops, View<const Sortie, 1> sorties,
+               Part part) {
+    return [=, &data](Int wanted) {
+        Int found = none;
+        for_each_served(data, stops, sorties, part, [&](Int node, Int start) {
+            if (node == wanted) found = start;
+        });
+        return found;
+    };
+}
+
+}  // namespace
+
+Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int p,
+                 Int arrival) {
+    Stop& stop = stops[p];
+    if (stop.kind != customer_stop) return none;
+    const Windows place = truck.places[stop.node];
+    const View<const Lag, 1> lags = lags_of(truck.data.lag, stop.node);
+    const Int ready =
+        std::max(arrival, soonest_behind(lags, starts_on(truck.data, stops, sorties, {0, p})));
+    if (place.too_late(ready)) return far;
+    stop.start = place.start_of_service(ready);
+    return stop.start + place.service_duration();
+}
+
+bool keeps_all_lags(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                    View<const Sortie, 1> sorties) {
+    const Part all{0, route.length};
+    const View<const Sortie, 1> flown = sorties.first(route.sorties);
+    const auto starts = starts_on(data, stops, flown, all);
+    bool kept = true;
+    for_each_served(data, stops, flown, all, [&](Int node, Int start) {
+        kept = kept && keeps_lags(lags_of(data.lag, node), start, starts);
+    });
+    return kept;
+}
+
+Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                    const Trip& trip, View<const Sortie, 1> sorties) {
+    const Part part{trip.first, trip.last + 1};
+    const View<const Sortie, 1> flown = sorties.first(route.sorties);
+    const auto starts = starts_on(data, stops, flown, part);
+    Int most = none;
+    for_each_served(data, stops, flown, part, [&](Int node, Int start) {
+        most = std::max(most, excess_of_lags(lags_of(data.lag, node), start, starts));
+    });
+    return most;
+}
+
+Int latest_leave(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                 View<const Sortie, 1> sorties, Int p, Int service_duration) {
+    const Int node = stops[p].node;
+    Int latest = far;
+    const auto look_at = [&](Int behind, Int start) {
+        latest = std::min(latest, latest_before(lags_of(data.lag, behind), node, start));
+    };
+    for (Int q = p + 1; q < route.length; ++q) {
+        if (stops[q].kind == customer_stop) look_at(stops[q].node, stops[q].free_start);
+    }
+    for_each_flown(data, sorties.first(route.sorties), {0, route.length}, look_at);
+    return latest == far ? far : latest + service_duration;
+}
+
+}  // namespace tandem
