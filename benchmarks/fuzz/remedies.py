@@ -111,7 +111,7 @@ def alone(request: Data, customer: str, reason: Data) -> Data:
                       if each["id"] == customer],
         "fleet": [kind],
         # Who is alone goes with nobody.
-        "unassigned_cost": price, "replan": None, "relations": [],
+        "unassigned_cost": price, "replan": None, "relations": [], "shipments": [],
         # Sites may name other types.
         "launch_sites": [{name: value for name, value in site.items() if name != "vehicles"}
                          for site in request.get("launch_sites", [])],
@@ -161,6 +161,7 @@ class Remedies:
         plan = self.study.planned(request)
         false = []
         offered = [(left["id"], remedy) for left in (plan or {"unassigned": []})["unassigned"]
+                   if left.get("kind") != "shipment"
                    for reason in left["reasons"] for remedy in _remedies(reason)]
         for customer, reason in offered[:MOST_OF_A_PLAN]:
             fault = self._fault(request, customer, reason)
