@@ -167,35 +167,35 @@ def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | 
     """Say what a trip that breaks one rule lacks; None if it breaks another one."""
     codes = {each.code for each in timed.judged.violations}
     if codes == {"SHIFT"} and end.latest <= vehicles.latest + allowed_overtime(vehicles):
-        late = _up_to_tenth(timed.judged.end - end.latest, MS_PER_MINUTE)
-        return Lacking("SHIFT", f"would be back {_minutes(late)} after {end.id} closes",
+        late = up_to_tenth(timed.judged.end - end.latest, MS_PER_MINUTE)
+        return Lacking("SHIFT", f"would be back {in_minutes(late)} after {end.id} closes",
                        replace(vehicles, latest=min(end.latest + late, UNLIMITED)))
     if codes == {"SHIFT"} and vehicles.overtime is not None:
         over = vehicles.overtime.max_duration
-        late = _up_to_tenth(timed.judged.end - vehicles.latest - over, MS_PER_MINUTE)
+        late = up_to_tenth(timed.judged.end - vehicles.latest - over, MS_PER_MINUTE)
         longer = replace(vehicles.overtime, max_duration=min(over + late, UNLIMITED))
-        return Lacking("SHIFT", f"would be back {_minutes(late)} after its shift and all the "
+        return Lacking("SHIFT", f"would be back {in_minutes(late)} after its shift and all the "
                        "overtime allowed", replace(vehicles, overtime=longer))
     if codes == {"SHIFT"}:
-        late = _up_to_tenth(timed.judged.end - vehicles.latest, MS_PER_MINUTE)
+        late = up_to_tenth(timed.judged.end - vehicles.latest, MS_PER_MINUTE)
         enough = min(vehicles.latest + late, UNLIMITED)
-        return Lacking("SHIFT", f"would be back {_minutes(late)} after its shift ends",
+        return Lacking("SHIFT", f"would be back {in_minutes(late)} after its shift ends",
                        replace(vehicles, latest=enough))
     if codes == {"WORKING_DURATION"} and vehicles.overtime is None:
         limit = vehicles.max_working_duration or 0
-        more = _up_to_tenth(timed.judged.metrics.working_duration - limit, MS_PER_MINUTE)
-        return Lacking("WORKING_HOURS", f"would work {_minutes(more)} more than it may",
+        more = up_to_tenth(timed.judged.metrics.working_duration - limit, MS_PER_MINUTE)
+        return Lacking("WORKING_HOURS", f"would work {in_minutes(more)} more than it may",
                        replace(vehicles, max_working_duration=min(limit + more, MAX_QUANTITY)))
     if codes == {"TRIP_DISTANCE"}:
         limit = vehicles.max_trip_distance or 0
-        more = _up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
+        more = up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
         km = f"{decimal(more * 1000 // MM_PER_KM)} km"
         return Lacking("RANGE", f"would drive {km} more than a trip may be long",
                        replace(vehicles, max_trip_distance=min(limit + more, MAX_QUANTITY)))
     if codes == {"TRAVEL_DURATION"}:
         limit = vehicles.max_travel_duration or 0
-        more = _up_to_tenth(travel_duration(timed.route.trips) - limit, MS_PER_MINUTE)
-        return Lacking("TRAVEL_DURATION", f"would travel {_minutes(more)} more than it may",
+        more = up_to_tenth(travel_duration(timed.route.trips) - limit, MS_PER_MINUTE)
+        return Lacking("TRAVEL_DURATION", f"would travel {in_minutes(more)} more than it may",
                        replace(vehicles, max_travel_duration=min(limit + more, MAX_QUANTITY)))
     return None
 
@@ -204,15 +204,6 @@ def _rank(passage: Passage) -> tuple[int, float]:
     """Return what is smaller for a better trip: the route takes less time, or costs less."""
     judged = passage.timed.judged
     return judged.metrics.working_duration, judged.cost.total
-
-
-def _up_to_tenth(quantity: int, unit: int) -> int:
-    return -(-quantity * 10 // unit) * unit // 10
-
-
-def _minutes(duration: int) -> str:
-    number = decimal(duration * 1000 // MS_PER_MINUTE)
-    return "1 minute" if number == "1" else f"{number} minutes"
 
 
 def names_of(problem: Problem, nodes: Sequence[int]) -> str:
