@@ -130,6 +130,7 @@ def test_all_patterns_have_names_by_which_they_are_found_here() -> None:
     assert len(patterns()) > 30
 
 
+@pytest.mark.by_clock
 def test_a_pattern_that_tries_all_splits_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     for name, few in (("STARTS", ("8",)), ("PIECES", (" ", "1")), ("ENDS", ("x",))):
         monkeypatch.setitem(globals(), name, few)
