@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 
 from model.judge.clock import MS_PER_MINUTE
+from model.judge.diagnosis import in_km, in_minutes, up_to_tenth
 from model.judge.driving import travel_duration
 from model.judge.metrics import allowed_overtime
 from model.judge.network import NEVER, Network, network_of
 from model.judge.past import EVERYTHING_OPEN
 from model.judge.retiming import TimedRoute, time_route
-from model.judge.rules import decimal
 from model.judge.timing import RouteDecision, TripDecision
 from model.problem import (
     MAX_QUANTITY, MM_PER_KM, UNLIMITED, BoolArray, Depot, Problem, VehicleType,
@@ -189,8 +189,7 @@ def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | 
     if codes == {"TRIP_DISTANCE"}:
         limit = vehicles.max_trip_distance or 0
         more = up_to_tenth(timed.judged.metrics.trips[0].distance - limit, MM_PER_KM)
-        km = f"{decimal(more * 1000 // MM_PER_KM)} km"
-        return Lacking("RANGE", f"would drive {km} more than a trip may be long",
+        return Lacking("RANGE", f"would drive {in_km(more)} more than a trip may be long",
                        replace(vehicles, max_trip_distance=min(limit + more, MAX_QUANTITY)))
     if codes == {"TRAVEL_DURATION"}:
         limit = vehicles.max_travel_duration or 0
