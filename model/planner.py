@@ -25,6 +25,7 @@ from model.simulation.extract import extract
 from model.solution import Solution
 from model.together.improving import Part, Terms, improve_together
 from model.together.joint import find_joint
+from model.together.pulling import nobody_served
 
 Start = Literal["policy", "insertion", "given"]
 
@@ -250,11 +251,6 @@ def _judged(judge: Memory, solution: Solution) -> _Judged:
     return _Judged(solution, evaluation)
 
 
-def _nobody(problem: Problem) -> Solution:
-    """Return the plan that serves no customer."""
-    return Solution((), problem.left_out(()))
-
-
 def _pause(listener: Listener, deadline: float | None, start: Solution | None) -> Pause:
     """Return what ends the work before a search; if no route is given, a late one beats none."""
     latest = math.inf if deadline is None or start is None or not start.routes else deadline
@@ -265,7 +261,7 @@ def _unimproved(problem: Problem, start: Solution | None, options: PlanOptions,
                 began: float) -> PlanResult:
     """Return the plan given, or one that serves nobody, where nothing else was done."""
     packed = time.perf_counter()
-    last = _judged(Memory(problem), _nobody(problem) if start is None else start)
+    last = _judged(Memory(problem), nobody_served(problem) if start is None else start)
     elapsed = Elapsed(packed - began, 0.0, time.perf_counter() - packed)
     return _result(last, "insertion" if start is None else "given", last.cost, options, None,
                    False, elapsed)
@@ -302,7 +298,8 @@ def _search(problem: Problem, instance: Instance, begun: Solution | None, option
     config = SearchConfig(options.seed, options.threads, options.search_iterations,
                           cooled=options.cooled)
     until = None if deadline is None else deadline - usual_reserve(problem)
-    return improve(problem, instance, _nobody(problem) if begun is None else begun, config, until,
+    begun = nobody_served(problem) if begun is None else begun
+    return improve(problem, instance, begun, config, until,
                    listener.should_stop, listener.on_progress, more_by_plan(problem))
 
 

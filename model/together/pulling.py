@@ -37,7 +37,7 @@ COOLED = 0.5
 
 def nobody_served(problem: Problem) -> Solution:
     """Return the plan that serves no customer."""
-    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    return Solution((), problem.left_out(()))
 
 
 class Pulling:

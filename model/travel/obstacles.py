@@ -52,7 +52,7 @@ def obstacles_of(rings: Sequence[Sequence[tuple[float, float]]],
         parts = _shrunk(areas, TOUCH_M)
     corners = _corners(areas)
     free = ~_inside(parts, corners.place)
-    return Obstacles(parts, edges_of(_polygons(parts)),
+    return Obstacles(parts, edges_of(polygons_of(parts)),
                      Corners(*(places[free] for places in corners)), shapely.union_all(list(low)))
 
 
@@ -78,12 +78,13 @@ def _shrunk(areas: BaseGeometry, by: float) -> BaseGeometry:
     rounding of coordinates decides whether they touch or cut.
     """
     apart = shapely.buffer(shapely.get_parts(areas), -by, join_style="mitre")
-    shrunk = MultiPolygon([polygon for part in apart for polygon in _polygons(part)])
+    shrunk = MultiPolygon([polygon for part in apart for polygon in polygons_of(part)])
     shapely.prepare(shrunk)
     return shrunk
 
 
-def _polygons(geometry: BaseGeometry) -> list[Polygon]:
+def polygons_of(geometry: BaseGeometry) -> list[Polygon]:
+    """Return the polygons of a geometry that aren't empty."""
     parts = geometry.geoms if isinstance(geometry, MultiPolygon) else (geometry,)
     return [part for part in parts if isinstance(part, Polygon) and not part.is_empty]
 

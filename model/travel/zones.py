@@ -6,10 +6,10 @@ from functools import lru_cache
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely import GeometryCollection, MultiPolygon, Polygon
-from shapely.geometry.base import BaseGeometry
+from shapely import GeometryCollection, Polygon
 
 from model.problem import FloatArray, IntArray
+from model.travel.obstacles import polygons_of
 
 EDGE_M = 0.5
 """How far the edge of an area may lie beside what was published, as that is straight in degrees."""
@@ -84,7 +84,7 @@ def _dissolved(areas: tuple[bytes, ...]) -> tuple[Polygon, ...]:
     # What is simplified may lose what is thin.
     thin = ~shapely.covers(simpler, merged)
     simpler[thin] = _wider(merged[thin], EDGE_M)
-    return tuple(_polygons(shapely.disjoint_subset_union_all(simpler)))
+    return tuple(polygons_of(shapely.disjoint_subset_union_all(simpler)))
 
 
 def without_holes(area: Polygon) -> list[Polygon]:
@@ -101,8 +101,3 @@ def without_holes(area: Polygon) -> list[Polygon]:
 
 def _wider(areas: NDArray[np.object_], by: float) -> NDArray[np.object_]:
     return shapely.buffer(areas, by, join_style="mitre", mitre_limit=LONGEST_MITRE)
-
-
-def _polygons(geometry: BaseGeometry) -> list[Polygon]:
-    parts = geometry.geoms if isinstance(geometry, MultiPolygon) else (geometry,)
-    return [part for part in parts if isinstance(part, Polygon) and not part.is_empty]
