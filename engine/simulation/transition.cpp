@@ -285,7 +285,11 @@ bool drive(OpenVehicle& open, Int node) {
     vehicle.service_end = service_end;
     vehicle.free = vehicle.crew = free;
     if (!keep_fresh(open)) return false;
-    if (!setting.lag.empty() && !logged_starts(log).keep_lags(setting)) return false;
+    if (!setting.lag.empty()) {
+        if (!logged_starts(log).keep_lags(setting)) return false;
+        // Who is served some time behind another may come later than the start known so far allows.
+        if (is_customer && is_behind(setting.lag, node)) vehicle.start_best = log.trip[0].start;
+    }
     note_charges(setting, log, drones);
     if (!is_customer) come_home(setting, vehicle);
     return true;

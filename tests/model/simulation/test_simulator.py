@@ -199,6 +199,11 @@ def test_a_trip_is_held_until_its_drones_last_again() -> None:
     assert_exact(problem, rng, 924)
 
 
+def test_an_order_bounds_how_late_a_vehicle_may_leave() -> None:
+    rng = np.random.default_rng(143)
+    assert_exact(with_order(rng, draw_tiny(rng)), rng, 143)
+
+
 def with_pickups_and_all_else(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_pickups(rng, with_duty(rng, with_open_reloads(rng, with_gaps(rng, problem))))
 
