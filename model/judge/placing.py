@@ -65,20 +65,25 @@ MOST_RESTS = 64
 def with_due_rests(problem: Problem, decision: RouteDecision) -> RouteDecision:
     """Return a route whose driver rests, each time as late as allowed.
 
-    Where all places are passed at which that would help, those behind are left out.
+    Where a rest would help nothing, it and those behind are left out.
     """
     kind = problem.vehicle_types[decision.vehicle_type]
     rules = kind.driving
     if rules is None:
         return decision
+    before, reached = decision, (-1, 0, 0)
     for _ in range(MOST_RESTS):
         trips = schedule(problem, decision).trips
-        first = next((each for each in excesses(kind, trips) if each.what != "day"), None)
-        if first is None:
+        found = [each for each in excesses(kind, trips) if each.what != "day"]
+        if not found:
             break
+        first = found[0]
+        there = sum(each.excess for each in found
+                    if (each.trip, each.stop) == (first.trip, first.stop))
+        if (first.trip, first.stop, -there) <= reached:
+            return before
+        before, reached = decision, (first.trip, first.stop, -there)
         rested = _with(decision.trips[first.trip], _rest(rules, trips[first.trip], first))
-        if rested == decision.trips[first.trip]:
-            break
         decision = replace(decision, trips=(*decision.trips[:first.trip], rested,
                                             *decision.trips[first.trip + 1:]))
     return decision
