@@ -30,7 +30,10 @@ MOST_OF_A_PLAN = 6
 """Remedies of one plan that are applied."""
 
 SECONDS = 0.1
-"""Time limit of the plan that must serve the customer."""
+"""Time limit of plans that leave customers out."""
+
+TURNS, PATIENCE = 100, 60.0
+"""Turns of the plan that must serve one, and seconds that it may take at most."""
 
 APPLY = """
 import { createInterface } from 'node:readline';
@@ -115,9 +118,9 @@ def alone(request: Data, customer: str, reason: Data) -> Data:
         # Sites may name other types.
         "launch_sites": [{name: value for name, value in site.items() if name != "vehicles"}
                          for site in request.get("launch_sites", [])],
-        # Numbers in JavaScript hold no larger seeds exactly.
+        # Turns, as a busy machine makes none in time; JavaScript holds no larger seeds exactly.
         "options": request.get("options", {}) | {
-            "time_limit": SECONDS, "search_iterations": None, "seed": 0}}
+            "time_limit": PATIENCE, "search_iterations": TURNS, "seed": 0}}
 
 
 def _of_one_type(customer: Data, kind: Data) -> Data:

@@ -187,7 +187,6 @@ export default {
     dayFirst: 'Tag zuerst',
     monthFirst: 'Monat zuerst',
     together: 'sind ein Stopp',
-    before: 'in dieser Reihenfolge',
     apart: 'sind eigene Stopps',
   },
   solve: {
@@ -1168,6 +1167,7 @@ export default {
     load: 'Ladung',
     distance: 'Kilometer',
     together: 'zusammen',
+    before: 'in dieser Reihenfolge',
     apart: 'getrennt',
     vehicle: 'von einem Fahrzeug',
     trip: 'auf einer Fahrt',

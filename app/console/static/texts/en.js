@@ -174,7 +174,6 @@ export default {
     dayFirst: 'day first',
     monthFirst: 'month first',
     together: 'are one stop',
-    before: 'in this order',
     apart: 'are stops of their own',
   },
   solve: {
@@ -1154,6 +1153,7 @@ export default {
     load: 'load',
     distance: 'kilometres',
     together: 'together',
+    before: 'in this order',
     apart: 'apart',
     vehicle: 'by one vehicle',
     trip: 'on one trip',
