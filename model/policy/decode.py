@@ -159,7 +159,9 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
                          f"{config.temperature!r} are not allowed")
     rounds = _rounds(policy, view, config)
     blocks = sum(map(len, rounds))
-    seeds = iter(np.random.SeedSequence(config.seed).spawn(blocks + len(rounds)))
+    sequence = np.random.SeedSequence(config.seed)
+    # One by one, as an alarm may leave most of them unused.
+    seeds = (sequence.spawn(1)[0] for _ in range(blocks + len(rounds)))
     routes, found = RoutePool(view.scene.instance), NOTHING
     planning = _Planning(policy, view, deadline, Alarm().setting if alarm is None else alarm)
     cores = num_cores()
@@ -170,6 +172,8 @@ def decode(policy: Policy, view: View, config: DecodeConfig,
             found = min(found, rollout, key=cost_of)
         if blocks > 1:
             found = routes.improved(found, np.random.default_rng(next(seeds)), planning.alarm)
+        if has_rung(planning.alarm):
+            break
     return found
 
 
