@@ -1,6 +1,6 @@
 """Tiny problems some of whose customers go together, or apart."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 
 import numpy as np
@@ -12,18 +12,11 @@ MINUTE = 60_000
 
 def with_relations(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem with one relation between customers, or two."""
-    ends = problem.shipment_at
-    free = [node for node in range(problem.num_depots, problem.num_nodes) if node not in ends]
-    if len(free) < 2:
-        return problem
-
-    def draw() -> Relation:
-        number = int(rng.integers(2, min(4, len(free) + 1)))
-        return Relation("together" if rng.random() < 0.6 else "apart",
-                        tuple(rng.choice(free, number, replace=False).tolist()),
+    def draw(some: Callable[[], tuple[int, ...]]) -> Relation:
+        return Relation("together" if rng.random() < 0.6 else "apart", some(),
                         "trip" if rng.random() < 0.4 else "vehicle")
 
-    return replace(problem, relations=tuple(draw() for _ in range(int(rng.integers(1, 3)))))
+    return _with_drawn(rng, replace(problem, relations=()), draw)
 
 
 def companions(problem: Problem, nodes: Iterable[int]) -> set[int]:
@@ -35,17 +28,25 @@ def companions(problem: Problem, nodes: Iterable[int]) -> set[int]:
 
 def with_order(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem some of whose customers are served before others."""
+    def draw(some: Callable[[], tuple[int, ...]]) -> Relation:
+        least = int(rng.integers(0, 20)) * MINUTE if rng.random() < 0.6 else 0
+        most = least + int(rng.integers(0, 20)) * MINUTE if rng.random() < 0.5 else None
+        return Relation("before", some(), "trip" if rng.random() < 0.3 else "vehicle", least, most)
+
+    return _with_drawn(rng, problem, draw)
+
+
+def _with_drawn(rng: np.random.Generator, problem: Problem,
+                draw: Callable[[Callable[[], tuple[int, ...]]], Relation]) -> Problem:
+    """Return a problem with one relation more, or two, between two or three of its customers."""
     ends = problem.shipment_at
     free = [node for node in range(problem.num_depots, problem.num_nodes) if node not in ends]
     if len(free) < 2:
         return problem
 
-    def draw() -> Relation:
+    def drawn() -> Relation:
         number = int(rng.integers(2, min(4, len(free) + 1)))
-        least = int(rng.integers(0, 20)) * MINUTE if rng.random() < 0.6 else 0
-        most = least + int(rng.integers(0, 20)) * MINUTE if rng.random() < 0.5 else None
-        return Relation("before", tuple(rng.choice(free, number, replace=False).tolist()),
-                        "trip" if rng.random() < 0.3 else "vehicle", least, most)
+        return draw(lambda: tuple(rng.choice(free, number, replace=False).tolist()))
 
-    return replace(problem, relations=(*problem.relations, *(
-        draw() for _ in range(int(rng.integers(1, 3))))))
+    more = [drawn() for _ in range(int(rng.integers(1, 3)))]
+    return replace(problem, relations=(*problem.relations, *more))
