@@ -51,15 +51,11 @@ def search_fewer(data: ProblemData, whole: Searcher, search: Callable[[], None],
                 return
             count[0] = used - 1
             call("tandem_give_up_route", data, whole)
-            while _routes_of_best(whole) >= used and not is_over():
+            while whole.best.used.sum() >= used and not is_over():
                 search()
         go_on_from_best(data, whole)
     finally:
         count[0] = most
-
-
-def _routes_of_best(whole: Searcher) -> int:
-    return int(np.count_nonzero(whole.best.route["length"][:len(whole.active)]))
 
 
 def _fewest(data: ProblemData) -> int:
