@@ -60,8 +60,12 @@ def service(folder: Path) -> Iterator[Target]:
 
 
 def environment_of(folder: Path) -> dict[str, str]:
-    """Return the service's environment: of whoever starts it, all but settings."""
-    others = {name: value for name, value in os.environ.items() if not name.startswith("TANDEM_")}
+    """Return the service's environment: of whoever starts it, all but settings.
+
+    The engine that they named is no setting: a sanitized build is to be what is served.
+    """
+    others = {name: value for name, value in os.environ.items()
+              if name == "TANDEM_ENGINE_LIBRARY" or not name.startswith("TANDEM_")}
     return others | {
         "PYTHONPATH": str(ROOT), "TANDEM_ACCESS": "keys", "TANDEM_DATA_DIR": str(folder),
         "TANDEM_LOG_LEVEL": "error", "TANDEM_WRONG_KEYS_PER_MINUTE": "0"}
