@@ -163,6 +163,7 @@ class Cost:
     earliness: float = 0.0
     makespan: float = 0.0  # of the plan as a whole
     balance: float = 0.0  # likewise
+    too_few_vehicles: float = 0.0  # likewise
     unassigned: float = 0.0
 
     @property

@@ -113,5 +113,5 @@ def _print_evaluation(evaluation: Evaluation) -> None:
         typer.echo(f"{violation.code} {violation.path}: {violation.message}")
     cost = evaluation.cost
     for term in (*COST_TERMS, "total"):
-        typer.echo(f"{term:10} {getattr(cost, term):.6f}")
+        typer.echo(f"{term:16} {getattr(cost, term):.6f}")
     typer.echo("feasible" if evaluation.is_feasible else "infeasible")

@@ -13,6 +13,7 @@ from app.schemas.driving import REST_ID
 from model.judge.check import Evaluation
 from model.judge.hubs import taken_at_hubs
 from model.judge.explain import Reason, explain
+from model.judge.fairness import vehicles_lacking
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
 from model.problem import MM_PER_KM, REST, Problem
@@ -304,6 +305,7 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
         "must_unserved": sum([problem.must_be_served(problem.customer_at(node))
                               for node in left_out]),
         "vehicles": len(solution.routes),
+        "vehicles_lacking": vehicles_lacking(problem, len(solution.routes)),
         "trips": len(trips),
         "sorties": len(sorties),
         "distance": whole(sum(trip.distance for trip in trips) - flown),

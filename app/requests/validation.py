@@ -109,6 +109,11 @@ def _fairness_errors(draft: Draft) -> Errors:
             and draft.replan.freeze_before is not None):
         yield error_at("FAIRNESS_REPLANNED", ("fairness",), "What vehicles have done before isn't "
                        "compared yet: leave fairness out, or freeze_before.")
+    if draft.fairness is not None and draft.fleet is not None and None not in draft.fleet:
+        count = sum([kind.count for _, kind in draft.vehicle_types()])
+        if 0 < count < draft.fairness.min_vehicles:
+            yield error_at("TOO_FEW_VEHICLES", ("fairness", "min_vehicles"), f"The fleet has "
+                           f"{count} vehicles: state no more, or add some.")
 
 
 def _dimension_errors(draft: Draft) -> Errors:

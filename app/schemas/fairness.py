@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from app.schemas.fields import Input, Money
+from app.schemas.limits import MAX_VEHICLES
 
 
 class BalanceInput(Input):
@@ -25,3 +26,7 @@ class FairnessInput(Input):
         0.0, description="Cost per hour from plan start to the latest end of any vehicle.")
     balance: BalanceInput | None = Field(
         None, description="What unequal work costs. Null: nothing.")
+    min_vehicles: int = Field(
+        0, ge=0, le=MAX_VEHICLES,
+        description="Least number of vehicles to use, whatever that costs; as many as there are "
+        "customers, if they are fewer. Where no plan does, `summary.vehicles_lacking` says so.")

@@ -38,6 +38,8 @@ class CostReply(_Reply):
     earliness: float = Field(description="Waiting for windows to open.")
     makespan: float = Field(description="The latest end, where that costs.")
     balance: float = Field(description="Unequal work of vehicles, where that costs.")
+    too_few_vehicles: float = Field(
+        description="Vehicles that lack, at a price that means nothing by itself.")
     unassigned: float = Field(description="Customers left out.")
 
 
@@ -208,6 +210,8 @@ class SummaryReply(_Reply):
         description="Customers left out who must be served, as no `unassigned_cost` holds for them."
     )
     vehicles: int = Field(description="Vehicles used.")
+    vehicles_lacking: int = Field(
+        description="How many fewer that is than `fairness.min_vehicles` asks for.")
     trips: int = Field(description="Trips of all vehicles.")
     sorties: int = Field(description="Drone flights.")
     distance: float = Field(description="Distance driven in metres.")

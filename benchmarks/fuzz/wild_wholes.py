@@ -11,6 +11,8 @@ def wild_fairness(rng: random.Random) -> dict[str, Any]:
     stated: dict[str, Any] = {"makespan_cost_per_hour": rng.choice((0, 30, 1e12))}
     if rng.random() < 0.7:
         stated["balance"] = {"measure": rng.choice(MEASURES), "cost": rng.choice((0, 5, 1e12))}
+    if rng.random() < 0.3:
+        stated["min_vehicles"] = 1
     return stated
 
 

@@ -339,6 +339,7 @@ typedef struct tandem_cost {
     double earliness;
     double makespan;
     double balance;
+    double too_few_vehicles;
     double unassigned;
 } tandem_cost;
 
@@ -1111,12 +1112,14 @@ typedef struct tandem_strategy {
     double blink;         /* how often a better place for a customer is overlooked */
 } tandem_strategy;
 
-/* What a plan costs as a whole: each ms until its last end, and of how unequal what `measure` tells
-   of its vehicles is. */
+/* What a plan costs as a whole: each ms until its last end, of how unequal what `measure` tells of
+   its vehicles is, and each vehicle fewer than are to be used. */
 typedef struct tandem_fairness {
     double makespan;
     double balance;
     int64_t measure;
+    int64_t min_vehicles;
+    double too_few;
 } tandem_fairness;
 
 typedef struct tandem_problem_data {

@@ -1,4 +1,5 @@
-// What a plan costs as a whole: its last end, and how unequally its vehicles share the work.
+// What a plan costs as a whole: its last end, how unequally its vehicles share the work, and how
+// many are too few.
 #pragma once
 
 #include <algorithm>
@@ -16,7 +17,7 @@ inline Measure measure_of(const Fairness& fairness) { return Measure{fairness.me
 
 // Whether anything of the plan as a whole costs.
 inline bool is_fairness_priced(const Fairness& fairness) {
-    return fairness.makespan > 0.0 || fairness.balance > 0.0;
+    return fairness.makespan > 0.0 || fairness.balance > 0.0 || fairness.min_vehicles > 0;
 }
 
 // What is known of all vehicles used together: how many, the sum of their shares and that of the
@@ -44,10 +45,15 @@ inline double imbalance(const Shares& shares) {
     return std::max(0.0, shares.count * shares.squares / shares.sum - shares.sum);
 }
 
+// How many vehicles fewer are used than have to be.
+inline double too_few(const Fairness& fairness, const Shares& shares) {
+    return std::max(0.0, static_cast<double>(fairness.min_vehicles) - shares.count);
+}
+
 // What a plan costs as a whole.
 inline double fairness_cost(const Fairness& fairness, const Shares& shares) {
     return fairness.makespan * static_cast<double>(shares.latest) +
-           fairness.balance * imbalance(shares);
+           fairness.balance * imbalance(shares) + fairness.too_few * too_few(fairness, shares);
 }
 
 }  // namespace tandem

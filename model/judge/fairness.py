@@ -1,4 +1,4 @@
-"""What a plan costs as a whole: its end, and how unequal its vehicles' work is."""
+"""What a plan costs as a whole: its end, how unequal its vehicles' work is, and too few of them."""
 
 from collections.abc import Sequence
 
@@ -12,7 +12,13 @@ def fairness_cost(problem: Problem, routes: Sequence[tuple[Route, RouteMetrics]]
     """Return what a plan costs as a whole, by its routes and its last return."""
     fairness = problem.fairness
     return Cost(makespan=makespan / MS_PER_HOUR * fairness.makespan_cost_per_hour,
-                balance=_balance_cost(problem, fairness, routes))
+                balance=_balance_cost(problem, fairness, routes),
+                too_few_vehicles=fairness.too_few_cost * vehicles_lacking(problem, len(routes)))
+
+
+def vehicles_lacking(problem: Problem, used: int) -> int:
+    """Return how many vehicles fewer are used than are to be."""
+    return max(0, problem.fairness.min_vehicles - used)
 
 
 def _balance_cost(problem: Problem, fairness: Fairness,

@@ -81,7 +81,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
         amount_decimals=problem.amount_decimals,
         incompatible_goods=problem.incompatible_goods,
         shipments=problem.shipments_among([*depots, *nodes]),
-        fairness=problem.fairness,
+        fairness=replace(problem.fairness, min_vehicles=0),
         may_serve=None if table is None else table[[kind]][:, np.array(nodes) - problem.num_depots],
         vehicle_costs=problem.vehicle_costs_of([kind], nodes),
     )

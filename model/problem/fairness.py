@@ -1,4 +1,4 @@
-"""What a plan costs as a whole: its end, and how unequal its vehicles' work is."""
+"""What a plan costs as a whole: its end, how unequal its vehicles' work is, and too few of them."""
 
 from dataclasses import dataclass
 from typing import Literal
@@ -25,15 +25,21 @@ class Fairness:
 
     makespan_cost_per_hour: float = 0.0  # of the latest end of all vehicles, since plan start
     balance: Balance | None = None
+    min_vehicles: int = 0  # how many are to be used
+    too_few_cost: float = 0.0  # of each vehicle fewer, more than using one costs
 
     def __post_init__(self) -> None:
         require_rate("makespan_cost_per_hour", self.makespan_cost_per_hour)
+        require_rate("too_few_cost", self.too_few_cost)
+        if self.min_vehicles < 0:
+            raise ValueError(f"min_vehicles: {self.min_vehicles} is negative")
 
     @property
     def is_stated(self) -> bool:
         """Tell whether anything of the plan as a whole costs."""
         balance = self.balance
-        return self.makespan_cost_per_hour > 0 or (balance is not None and balance.cost > 0)
+        return (self.makespan_cost_per_hour > 0 or self.min_vehicles > 0
+                or (balance is not None and balance.cost > 0))
 
 
 UNPRICED = Fairness()

@@ -60,9 +60,10 @@ def search_fewer(data: ProblemData, whole: Searcher, search: Callable[[], None],
 
 def _fewest(data: ProblemData) -> int:
     """Return how many routes there are at least, where what each customer is brought tells."""
+    least = data.fairness.min_vehicles
     if len(data.pair) or data.type["max_trips"][0] > 1:
-        return 1
+        return max(1, least)
     demand = data.place["demand"][0, data.num_depots:, 0].sum(axis=0)
     capacity = data.type["capacity"][0][:len(demand)]
     some = capacity > 0
-    return max(1, int(np.ceil(demand[some] / capacity[some]).max(initial=1)))
+    return max(1, least, int(np.ceil(demand[some] / capacity[some]).max(initial=1)))

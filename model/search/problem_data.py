@@ -70,13 +70,14 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
 
 def _plan_prices(problem: Problem) -> PlanPrices:
     """Return what the plan as a whole costs, per ms, stop, part or mm."""
-    per_ms = problem.fairness.makespan_cost_per_hour / MS_PER_HOUR
-    balance = problem.fairness.balance
+    fairness = problem.fairness
+    per_ms, balance = fairness.makespan_cost_per_hour / MS_PER_HOUR, fairness.balance
+    least = fairness.min_vehicles, fairness.too_few_cost
     if balance is None:
-        return PlanPrices(per_ms, 0.0, 0)
+        return PlanPrices(per_ms, 0.0, 0, *least)
     unit = {"duration": MS_PER_HOUR, "stops": 1, "load": 10**problem.amount_decimals[0],
             "distance": MM_PER_KM}[balance.measure]
-    return PlanPrices(per_ms, balance.cost / unit, MEASURES.index(balance.measure))
+    return PlanPrices(per_ms, balance.cost / unit, MEASURES.index(balance.measure), *least)
 
 
 def _can(instance: Instance, halts: Halts) -> BoolArray:

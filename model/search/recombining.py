@@ -32,7 +32,8 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
 
     Who is to go with others stays in one part with them, so that no other part serves them too.
     """
-    if data.fairness.makespan > 0 or data.fairness.balance > 0:
+    fairness = data.fairness
+    if fairness.makespan > 0 or fairness.balance > 0 or fairness.min_vehicles > 0:
         return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
     nodes, unit = np.arange(data.num_depots, data.num_nodes), np.arange(data.num_nodes)

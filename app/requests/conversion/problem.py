@@ -1,6 +1,6 @@
 """`PlanRequest` -> `Problem` and planning options; quantities are rounded here, once."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +17,6 @@ from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.customer import place_name
-from app.schemas.fairness import FairnessInput
 from app.schemas.request import PlanRequest
 from app.schemas.shipment import ENDS, end_name
 from model.problem import (
@@ -51,11 +50,9 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     costs = _serving_costs(request, groups, len(kinds))
     if groups:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
-    unassigned_cost = request.unassigned_cost
-    if unassigned_cost is None:
-        unassigned_cost = default_unassigned_cost(customers, vehicle_types, travels.built(),
-                                                  decimals, _fairness(request.fairness))
-        unassigned_cost += _dearest(costs) + _dearest_stops(request)
+    fairness = _fairness(request)
+    unassigned_cost, fairness = _large_prices(request, fairness, lambda: default_unassigned_cost(
+        customers, vehicle_types, travels.built(), decimals, fairness) + _dearest(costs))
     return Problem(
         depots=_depots(placed),
         customers=customers,
@@ -71,7 +68,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         incompatible_goods=_apart(request),
         relations=_relations(request, len(depots)),
         shipments=shipments, choices=_choices(request, len(depots)),
-        fairness=_fairness(request.fairness),
+        fairness=fairness,
     )
 
 
@@ -95,6 +92,21 @@ def _serving_costs(request: PlanRequest, groups: Sequence[Group],
     return costs + [group.costs[:number] for group in groups] if differ else costs
 
 
+def _large_prices(request: PlanRequest, fairness: Fairness,
+                  dearest: Callable[[], float]) -> tuple[float, Fairness]:
+    """Return what leaving somebody out costs, and prices with that of each vehicle that lacks.
+
+    Where nothing is stated, both cost more than all else, and customers more than vehicles.
+    """
+    stated = request.unassigned_cost
+    if stated is not None and not fairness.min_vehicles:
+        return stated, fairness
+    price = dearest() + _dearest_stops(request)
+    if fairness.min_vehicles:
+        fairness = replace(fairness, too_few_cost=price)
+    return price * (1 + fairness.min_vehicles) if stated is None else stated, fairness
+
+
 def _dearest(costs: FloatArray | None) -> float:
     """Return what vehicles cost most to serve everybody, on top: others may have to change theirs.
     """
@@ -107,10 +119,13 @@ def _dearest_stops(request: PlanRequest) -> float:
                                             default=0.0)
 
 
-def _fairness(stated: FairnessInput) -> Fairness:
-    balance = stated.balance
+def _fairness(request: PlanRequest) -> Fairness:
+    """Return what the plan costs as a whole, but for what vehicles cost that lack."""
+    stated = request.fairness
+    balance, served = stated.balance, len(request.customers) + len(request.shipments)
     return Fairness(stated.makespan_cost_per_hour,
-                    None if balance is None else Balance(balance.measure, balance.cost))
+                    None if balance is None else Balance(balance.measure, balance.cost),
+                    min(stated.min_vehicles, served, sum([kind.count for kind in request.fleet])))
 
 
 def _apart(request: PlanRequest) -> tuple[IncompatibleGoods, ...]:

@@ -4,6 +4,7 @@
 
 #include "guard.h"
 #include "rules/pair.h"
+#include "search/route/fairness.h"
 #include "search/route/state.h"
 
 namespace tandem {
@@ -52,7 +53,7 @@ void give_up_route(const ProblemData& data, Searcher& searcher) {
         if (absences_of(data, searcher, other) < absences_of(data, searcher, slot)) slot = other;
     }
     Route& route = now.route[slot];
-    double cost = searcher.value->cost - now.cost[slot];
+    double cost = searcher.value->cost - now.cost[slot] - plan_cost(data, searcher);
     for (const Stop& stop : now.stop[slot].first(route.length)) {
         if (stop.kind != customer_stop) continue;
         now.where[stop.node].slot = nowhere;
@@ -66,7 +67,7 @@ void give_up_route(const ProblemData& data, Searcher& searcher) {
     --now.used[route.type];
     list_anew(searcher, slot, false);
     note_changed(searcher, slot);
-    searcher.value->cost = cost;
+    searcher.value->cost = cost + plan_cost(data, searcher);
 }
 
 }  // namespace tandem

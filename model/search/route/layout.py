@@ -56,6 +56,8 @@ class PlanPrices(NamedTuple):
     makespan: float  # per ms of its last end
     balance: float  # per part of the measure
     measure: int  # index into MEASURES
+    min_vehicles: int
+    too_few: float  # of each vehicle fewer
 
 
 MEASURES = "duration", "stops", "load", "distance"

@@ -33,7 +33,7 @@ def test_plan_is_written_and_passes_the_check(tmp_path: Path, with_drones: Reque
     checked = CliRunner().invoke(commands.cli, ["check", problem, plan])
     assert checked.exit_code == 0, checked.output
     total = json.loads(Path(plan).read_text("utf-8"))["cost"]["total"]
-    assert f"total      {total:.6f}\nfeasible\n" in checked.output
+    assert f"total            {total:.6f}\nfeasible\n" in checked.output
 
 
 def test_a_request_is_read_once(

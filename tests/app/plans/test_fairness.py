@@ -43,6 +43,32 @@ def test_the_latest_end_has_a_price(client: httpx.Client) -> None:
     assert free["cost"]["makespan"] == free["cost"]["balance"] == 0
 
 
+@pytest.mark.parametrize(("least", "customers", "used", "lacking"), [
+    (0, 6, 1, 0), (3, 6, 3, 0), (3, 2, 2, 0), (3, 1, 1, 0)])
+def test_at_least_so_many_vehicles_are_used(client: httpx.Client, searching: httpx.Client,
+                                            least: int, customers: int, used: int,
+                                            lacking: int) -> None:
+    request = street({"min_vehicles": least}) | {"fleet": [
+        {"id": "van", "count": 3, "capacity": [9], "costs": {"fixed": 40, "per_km": 1}}]}
+    request["customers"] = request["customers"][:customers]
+    plan = searched(client, searching, request)
+    assert (plan["summary"]["vehicles"], plan["summary"]["vehicles_lacking"]) == (used, lacking)
+    assert plan["cost"]["too_few_vehicles"] == 0
+
+
+def test_vehicles_that_lack_are_told_where_no_plan_uses_as_many(client: httpx.Client) -> None:
+    request = street({"min_vehicles": 2})
+    request["fleet"].append({"id": "truck", "count": 1, "capacity": [5]})
+    for customer in request["customers"]:
+        customer["vehicles"] = {"allowed": ["truck"]}
+    plan = planned(client, request)
+    assert (plan["summary"]["served"], plan["summary"]["vehicles"]) == (5, 1)
+    assert plan["summary"]["vehicles_lacking"] == 1
+    assert 0 < plan["cost"]["too_few_vehicles"] < plan["cost"]["unassigned"]
+    request["fairness"]["min_vehicles"] = 4
+    assert errors_of(client, request) == {("TOO_FEW_VEHICLES", "$.fairness.min_vehicles")}
+
+
 def test_a_day_under_way_is_not_shared_fairly_yet(client: httpx.Client) -> None:
     plan = planned(client, street(None))
     request = street({"makespan_cost_per_hour": 1}) | {"replan": {"plan": plan, "freeze_before": 5}}

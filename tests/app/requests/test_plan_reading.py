@@ -51,7 +51,7 @@ def test_loads_leave_the_truck_where_they_are_served_or_launched(
     assert reply["summary"] == {
         "customers": 3, "served": 3, "vehicles": 1, "trips": 1, "sorties": 1,
         "distance": 16_000, "drone_distance": 2 * 1414.214, "energy_wh": None,
-        "must_unserved": 0, "co2_kg": None,
+        "must_unserved": 0, "vehicles_lacking": 0, "co2_kg": None,
         "load_rate": {"min": 0.875, "mean": 0.875, "max": 0.875},
         "makespan": trip["stops"][-1]["departure"]}
     assert reply["cost"]["total"] == pytest.approx(16 + 0.25 * 2.828428)

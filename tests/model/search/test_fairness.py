@@ -83,12 +83,14 @@ def searched(problem: Problem, turns: int = 600) -> Solution:
 @pytest.mark.parametrize(("seed", "fairness"), [
     (1, ONLY_END), (2, ONLY_END), (3, Fairness(0.0, Balance("duration", 40.0))),
     (4, Fairness(0.0, Balance("stops", 6.0))), (5, Fairness(0.0, Balance("load", 4.0))),
-    (6, Fairness(0.0, Balance("distance", 3.0))), (7, Fairness(30.0, Balance("stops", 2.0)))])
+    (6, Fairness(0.0, Balance("distance", 3.0))), (7, Fairness(30.0, Balance("stops", 2.0))),
+    (8, Fairness(min_vehicles=3, too_few_cost=1000.0)),
+    (9, Fairness(0.0, Balance("stops", 2.0), 2, 1000.0))])
 def test_search_finds_the_cheapest_plan_as_a_whole(seed: int, fairness: Fairness) -> None:
     problem = street_problem(seed, fairness)
     found = check(problem, searched(problem)).cost
     assert found.total == pytest.approx(cheapest(problem), rel=1e-9)
-    assert found.makespan > 0 or fairness.balance is not None
+    assert found.makespan > 0 or fairness.makespan_cost_per_hour == found.too_few_vehicles == 0
 
 
 @pytest.mark.parametrize("draw", [draw_tiny, with_pickups, with_reloads, with_duty, with_shipments])
@@ -97,5 +99,5 @@ def test_search_counts_as_the_judge_does_whatever_else_is_stated(
     for seed, measure in enumerate(get_args(Measure)):
         rng = np.random.default_rng(seed)
         problem = draw_tiny(rng) if draw is draw_tiny else draw(rng, draw_tiny(rng))
-        fairness = Fairness(30.0 * (seed % 2), Balance(measure, 1.0 + seed))
+        fairness = Fairness(30.0 * (seed % 2), Balance(measure, 1.0 + seed), 2, 50.0)
         searched(replace(problem, fairness=fairness), turns=60)

@@ -304,6 +304,7 @@ export default {
     lateness: 'Verspätung',
     makespan: 'Spätestes Ende',
     balance: 'Ungleiche Arbeit',
+    too_few_vehicles: 'Zu wenige Fahrzeuge',
     unassigned: 'Nicht eingeplant',
   },
   servedBy: {
@@ -1102,6 +1103,7 @@ export default {
     fairness: 'Ausgleich',
     makespan_cost_per_hour: 'Kosten des spätesten Endes',
     balance: 'Ungleiche Arbeit',
+    min_vehicles: 'Fahrzeuge mindestens',
     measure: 'Maß',
     zones: 'Veröffentlichte Zonen',
     no_fly: 'Flugverbotszonen',
@@ -1457,6 +1459,7 @@ export default {
     FairnessInput: {
       makespan_cost_per_hour: 'Was jede Stunde kostet, bis das letzte Fahrzeug fertig ist.',
       balance: 'Was ungleiche Arbeit der Fahrzeuge kostet. Leer: nichts.',
+      min_vehicles: 'Wie viele Fahrzeuge mindestens fahren, was auch immer das kostet; so viele, wie es Kunden gibt, wenn das weniger sind.',
     },
     BalanceInput: {
       measure: 'Was verglichen wird.',
@@ -1576,6 +1579,7 @@ export default {
     DEPOT_CLOSED: 'Das Depot ist die ganze Schicht geschlossen.',
     HOURS_DIFFER: 'Depots eines Typs öffnen oder schließen zu verschiedenen Zeiten.',
     FAIRNESS_REPLANNED: 'Ein Tag lässt sich unterwegs noch nicht ausgewogen weiterplanen.',
+    TOO_FEW_VEHICLES: 'Es sollen mehr Fahrzeuge fahren, als es gibt.',
     RELATION_WITH: 'Das geht nicht mit einer Reihenfolge, oder sagt ohne eine nichts.',
     HOURS_AND_OVERTIME: 'Das Depot schließt vor allen Überstunden.',
     BREAKS_REPLANNED: 'Ein Tag mit Pausen lässt sich unterwegs noch nicht weiterplanen.',

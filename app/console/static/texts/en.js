@@ -291,6 +291,7 @@ export default {
     lateness: 'Lateness',
     makespan: 'Latest end',
     balance: 'Unequal work',
+    too_few_vehicles: 'Vehicles that lack',
     unassigned: 'Left out',
   },
   servedBy: {
@@ -1088,6 +1089,7 @@ export default {
     fairness: 'Fairness',
     makespan_cost_per_hour: 'Cost of the latest end',
     balance: 'Unequal work',
+    min_vehicles: 'Least number of vehicles',
     measure: 'Measure',
     zones: 'Zones as published',
     no_fly: 'No-fly areas',
@@ -1434,6 +1436,7 @@ export default {
     FairnessInput: {
       makespan_cost_per_hour: 'What each hour until the last vehicle is done costs.',
       balance: 'What it costs that vehicles work unequally. Empty: nothing.',
+      min_vehicles: 'How many vehicles are used at least, whatever that costs; as many as there are customers, if they are fewer.',
     },
     BalanceInput: {
       measure: 'What of each vehicle is compared.',
@@ -1551,6 +1554,7 @@ export default {
     DEPOT_CLOSED: 'The depot is closed all shift.',
     HOURS_DIFFER: 'Depots of one type open or close at different times.',
     FAIRNESS_REPLANNED: 'A day under way can’t be planned on with fairness yet.',
+    TOO_FEW_VEHICLES: 'More vehicles are to be used than there are.',
     RELATION_WITH: 'This can’t be combined with an order of customers, or says nothing without one.',
     HOURS_AND_OVERTIME: 'The depot closes before all overtime.',
     BREAKS_REPLANNED: 'A day under way can’t be planned on with breaks yet.',

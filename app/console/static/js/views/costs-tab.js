@@ -72,6 +72,9 @@ function Summary({ summary, flights }) {
       ? []
       : [[t('costs.energy'), `${number(summary.energy_wh, 1)} Wh`]]),
     [t('about.trips'), number(summary.trips, 0)],
+    ...(summary.vehicles_lacking > 0
+      ? [[t('term.too_few_vehicles'), number(summary.vehicles_lacking, 0)]]
+      : []),
     [t('about.flights'), number(flights, 0)],
     ...(summary.co2_kg == null ? [] : [['CO\u2082', `${number(summary.co2_kg, 1)} kg`]]),
     [t('costs.loadRate'), t('costs.rates', {
