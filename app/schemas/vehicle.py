@@ -184,6 +184,10 @@ class VehicleTypeInput(Input):
         description="When a trip picks up: at any time, or only `last`, after all its deliveries, "
         "of which it has at least one.",
     )
+    lifo: bool = Field(
+        False,
+        description="Whether only what was loaded last can be unloaded: the load is one stack.",
+    )
     costs: CostsInput = Field(CostsInput(), description="What the vehicles cost.")
     speed_kmh: Speed | None = Field(
         None,

@@ -170,6 +170,7 @@ def _truck(rng: random.Random, dimensions: int) -> Data:
                                   "per_hour": rng.choice((0, 0, 30, RICHEST)),
                                   "per_stop": rng.choice((0, 0, 2, RICHEST))}),
         **_maybe(rng, 0.3, pickups=rng.choice(("any", "last"))),
+        **_maybe(rng, 0.2, lifo=True),
         **_maybe(rng, 0.5, speed_kmh=rng.choice((1, 30, 50.123, 1000))),
         **_maybe(rng, 0.3, speed_profile=_speed_profile(rng)),
         **_maybe(rng, 0.5, shift=_shift(rng)),

@@ -149,6 +149,7 @@ typedef struct tandem_vehicle_type {
     int64_t takes_batteries;
     int64_t trips_uncharged;
     int64_t pickup_order;
+    int64_t lifo; /* whether only what was loaded last can be unloaded */
     int64_t carried;
     int64_t capacity[9];
     int64_t payload[9];
@@ -225,8 +226,9 @@ typedef struct tandem_point {
 typedef struct tandem_stop_load {
     int64_t leaves; /* sum of the parcels that leave the truck there */
     int64_t comes;  /* sum of what comes aboard there */
-    int64_t picked; /* sum of what was picked up before */
-    int64_t due;    /* sum of what is delivered behind */
+    int64_t stacks; /* shipments that come aboard, less those that leave */
+    int64_t picked; /* sum of what was picked up before, and of a stack the shipments on it */
+    int64_t due;    /* sum of what is delivered behind, and likewise */
     int64_t given;  /* sum of what is delivered on the whole trip */
     int64_t load;   /* on leaving, in the first dimension */
     int64_t driven; /* how far the trip has come */
@@ -302,8 +304,9 @@ typedef struct tandem_vehicle {
     int64_t launched;          /* on the trip before this stop */
     int64_t flying;            /* drones */
     int64_t given;             /* on the trip, over all dimensions */
-    int64_t picked;            /* likewise, before the stop here */
+    int64_t picked;            /* likewise, before the stop here, and shipments on arrival if lifo */
     int64_t taken;             /* likewise, by now */
+    int64_t stacked;           /* shipments aboard, if lifo */
     int64_t barred_on_trip;    /* goods that may not be added */
     int64_t barred_on_vehicle; /* likewise */
     int64_t kept_on_trip;      /* relations of who is on this trip */

@@ -35,7 +35,8 @@ constexpr Int full_speed = 1'000'000;  // factor at which a leg takes the durati
 constexpr Int no_profile = -1;  // `speed_changes` of who drives as fast all day
 constexpr Int no_row = -1;      // `drone_row` behind the last
 
-// `pickup_order`: in any order, after all deliveries, and so where some came before the trip began.
+// `pickup_order`: in any order, after all deliveries of which there is one, and so where there may
+// be none, as some came before the trip began or all is one stack.
 constexpr Int pickups_any = 0;
 constexpr Int pickups_last = 1;
 constexpr Int pickups_begun = 2;

@@ -208,9 +208,13 @@ inline void add_come(StopLoad& stop_load, const Amount& amount, Int sum_of_all) 
     stop_load.comes += sum_of_all;
 }
 
+// Whether only what was loaded last can be unloaded. Then what comes from the depot lies under all
+// shipments, and what is brought there must not lie on any, nor on what leaves later.
+inline bool is_stack(const VehicleType& type) { return type.lifo != 0; }
+
 // Writes what is aboard at the stops of a trip, `behind` not among them, by what leaves and comes
 // aboard at each; both are pointers, or go from stop to stop as those do. False if it is too much,
-// or picked up too early.
+// picked up too early, or below what a stack has on it.
 template <class Stops>
 bool weigh_trip(const VehicleType& type, Stops first, Stops behind, Int tier) {
     Amount load = nothing;
@@ -220,15 +224,17 @@ bool weigh_trip(const VehicleType& type, Stops first, Stops behind, Int tier) {
         given += at->leaves;
     }
     Amount most = load;
-    Int due = given, picked = 0;
+    Int due = given, picked = 0, stacked = 0;
     bool in_order = true;
     for (Stops at = first; at != behind; ++at) {
         StopLoad& stop_load = *at;
         write_amount(most, stop_load.before);
-        in_order = in_order && !out_of_order(type, picked, stop_load.leaves);
         due -= stop_load.leaves;
-        stop_load.picked = picked;
-        stop_load.due = due;
+        stop_load.picked = picked + stacked;
+        if (is_stack(type)) stacked += stop_load.stacks;
+        stop_load.due = due + stacked;
+        in_order = in_order && !out_of_order(type, stop_load.picked, stop_load.leaves) &&
+                   !out_of_order(type, stop_load.comes, stacked);
         stop_load.given = given;
         picked += stop_load.comes;
         load = plus(minus(load, amount_of(stop_load.leaving)), amount_of(stop_load.coming));

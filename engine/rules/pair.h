@@ -81,4 +81,26 @@ bool keeps_pairs(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt&
     return aboard == 0;
 }
 
+// Whether each shipment is delivered before all that are picked up before it and not yet delivered:
+// those from `first` on, `behind` not among them, of which `keeps_pairs` holds.
+template <class NodeAt>
+bool keeps_stack(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt& node_at) {
+    for (Int p = first; p < behind; ++p) {
+        if (node_at(p) < 0 || !is_delivery(pairs, node_at(p))) continue;
+        Int beneath = 0;
+        for (Int q = p - 1; node_at(q) != pairs[node_at(p)].partner; --q) {
+            if (node_at(q) < 0 || !is_paired(pairs, node_at(q))) continue;
+            beneath += pairs[node_at(q)].is_delivery != 0 ? 1 : -1;
+            if (beneath < 0) return false;
+        }
+    }
+    return true;
+}
+
+// By how many shipments more are aboard behind a node.
+inline Int stacked_at(View<const Pair, 1> pairs, Int node) {
+    if (!is_paired(pairs, node)) return 0;
+    return pairs[node].is_delivery != 0 ? -1 : 1;
+}
+
 }  // namespace tandem

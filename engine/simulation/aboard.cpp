@@ -1,6 +1,7 @@
 #include "simulation/aboard.h"
 
 #include "rules/company.h"
+#include "rules/pair.h"
 #include "simulation/meeting.h"
 
 namespace tandem {
@@ -55,17 +56,28 @@ Burden burden_of(const Setting& setting, const Vehicle& vehicle, View<const Dron
     return burden;
 }
 
-// The sums over all dimensions of what was picked up before and at the next stop.
+// The sums over all dimensions of what was picked up before and at the next stop, and what of it
+// comes aboard at both.
 struct Taken {
     Int before;
     Int there;
+    Int comes_here;
+    Int comes_there;
 };
 
 Taken total_there(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
                   Int node, bool is_customer) {
-    const Int before = vehicle.taken + total_brought(setting, vehicle, drones, Recovery::loop);
-    const Int there = before + total_brought(setting, vehicle, drones, Recovery::meet);
-    return {before, there + (is_customer ? total_picked(setting.amount, node) : 0)};
+    const Int here = total_brought(setting, vehicle, drones, Recovery::loop);
+    const Int there = total_brought(setting, vehicle, drones, Recovery::meet) +
+                      (is_customer ? total_picked(setting.amount, node) : 0);
+    const Int before = vehicle.taken + here;
+    return {before, before + there, here, there};
+}
+
+// How many shipments lie on a stack once a node is served.
+Int stacked_behind(const Setting& setting, const Vehicle& vehicle, Int node, bool is_customer) {
+    const bool counts = is_customer && is_stack(setting.type);
+    return vehicle.stacked + (counts ? stacked_at(setting.pair, node) : 0);
 }
 
 // Bar what a customer's goods must not go with, and keep together who goes with him.
@@ -95,7 +107,7 @@ void take_demand(const Setting& setting, Vehicle& vehicle, Int node) {
 }  // namespace
 
 void empty(const VehicleType& type, Vehicle& vehicle) {
-    vehicle.given = vehicle.picked = vehicle.taken = 0;
+    vehicle.given = vehicle.picked = vehicle.taken = vehicle.stacked = 0;
     for (Int number = 0; number < max_tiers; ++number) {
         write_part(capacity_in(type, number), vehicle.load, number);
         write_part(nothing, vehicle.aboard, number);
@@ -114,8 +126,12 @@ bool holds_all(const Setting& setting, const Vehicle& vehicle, View<const Drone,
         }
     }
     const Int delivered = is_customer ? total_delivered(setting.amount, node) : 0;
-    const auto [before, taken] = total_there(setting, vehicle, drones, node, is_customer);
-    return !out_of_order(setting.type, before, delivered) &&
+    const auto [before, taken, here, there] =
+        total_there(setting, vehicle, drones, node, is_customer);
+    return !out_of_order(setting.type, before + vehicle.stacked, delivered) &&
+           !out_of_order(setting.type, here, vehicle.stacked) &&
+           !out_of_order(setting.type, there,
+                         stacked_behind(setting, vehicle, node, is_customer)) &&
            !comes_first(setting.type, taken, vehicle.given + delivered);
 }
 
@@ -126,7 +142,7 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
         if (is_customer) take_demand(setting, vehicle, node);
         return;
     }
-    const auto [before, taken] = total_there(setting, vehicle, drones, node, is_customer);
+    const Taken sums = total_there(setting, vehicle, drones, node, is_customer);
     for (Int number = 0; number < num_tiers(setting.amount); ++number) {
         const auto [demand, here, there] =
             burden_of(setting, vehicle, drones, node, is_customer, number);
@@ -135,8 +151,9 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
         write_part(minus(left, demand), vehicle.load, number);
         write_part(there, vehicle.aboard, number);
     }
-    vehicle.picked = before;
-    vehicle.taken = taken;
+    vehicle.picked = sums.before + vehicle.stacked;
+    vehicle.taken = sums.there;
+    vehicle.stacked = stacked_behind(setting, vehicle, node, is_customer);
     if (is_customer) vehicle.given += total_delivered(setting.amount, node);
 }
 

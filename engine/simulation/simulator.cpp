@@ -144,7 +144,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     if (is_idle && !may_travel_home(setting, vehicle.travel, here)) room.sortie = false;
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);
-    const bool laden = carries_parcels(open);
+    const Int last = last_aboard(open);
+    const bool laden = last != no_delivery;
     const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
                         has_breaks(setting.type) || has_driving_rules(setting.type);
     const Size& size = instance.size[b];
@@ -159,8 +160,10 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
         if (is_delivery(setting.pair, node) &&
-            !(laden && state.served(r, setting.pair[node].partner)))
+            !(laden && state.served(r, setting.pair[node].partner) &&
+              (node == last || !is_stack(setting.type)))) {
             continue;
+        }
         const bool is_held = trying || is_pickup(setting.pair, node) ||
                              (!is_idle && began < release_of(setting.node[node]));
         if (room.stop && instance.can_drive(b, k, node) &&

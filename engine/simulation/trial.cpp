@@ -74,9 +74,15 @@ void sort_by_nearness(View<const Int, 2> legs, Int from, Order& order) {
 // parcels; of more, the nearest first, the one due soonest, and the last that came aboard. What is
 // left of an order once its first is delivered is tried then as well, so that who has a way on
 // always keeps one.
+//
+// From a stack all leave in one order.
 template <class Visit>
 bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Order aboard,
                const Visit& visit) {
+    if (is_stack(setting.type)) {
+        std::reverse(aboard.begin(), aboard.end());
+        return visit(aboard);
+    }
     if (aboard.size() <= most_permuted) {
         std::sort(aboard.begin(), aboard.end());
         do {
@@ -148,10 +154,13 @@ bool may_follow(const Goods& company, const Vehicle& vehicle) {
 
 }  // namespace
 
-bool carries_parcels(const OpenVehicle& open) {
+bool carries_parcels(const OpenVehicle& open) { return last_aboard(open) != no_delivery; }
+
+Int last_aboard(const OpenVehicle& open) {
     const auto& [setting, vehicle, log, drones] = open;
-    return some_paired(setting.pair) && vehicle.idle == 0 && log.count.trips > 0 &&
-           !parcels_aboard(setting, log).empty();
+    if (!some_paired(setting.pair) || vehicle.idle != 0 || log.count.trips == 0) return no_delivery;
+    const Order aboard = parcels_aboard(setting, log);
+    return aboard.empty() ? no_delivery : aboard.back();
 }
 
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook) {

@@ -31,6 +31,11 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
 // Tell whether shipments are aboard that have to be delivered before the trip ends.
 bool carries_parcels(const OpenVehicle& open);
 
+constexpr Int no_delivery = -1;
+
+// Where the shipment is delivered that came aboard last, `no_delivery` if none is aboard.
+Int last_aboard(const OpenVehicle& open);
+
 // Tell whether the trip may end at a place that is not where the route may: if another follows.
 //
 // Somebody can be served from there before the vehicle goes where its route ends.

@@ -289,7 +289,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
         drone_variant, *battery_row(energy), int(kind.flies), int(kind.takes_batteries),
-        kind.trips_uncharged, _pickup_order(kind), load[0],
+        kind.trips_uncharged, _pickup_order(kind), int(kind.lifo), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
         *_storm_rows(kind if kind.flies else drones), *break_row(kind), *driving_row(kind.driving))
@@ -302,9 +302,9 @@ def _overtime_rate(kind: VehicleType) -> float:
 
 
 def _pickup_order(kind: VehicleType) -> int:
-    if kind.pickups == "any":
-        return ANY
-    return BEGUN if kind.has_delivered else LAST
+    if kind.pickups == "last" and not kind.has_delivered:
+        return LAST
+    return BEGUN if kind.pickups == "last" or kind.lifo else ANY
 
 
 def _changes_ends(kind: VehicleType) -> int:

@@ -271,10 +271,8 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
         longer = kind.max_working_duration + MS_PER_MINUTE
         yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
     if kind.max_travel_duration is not None:
-        slack = None
-        if found is not None:
-            trips = bench.plan.solution.routes[found.route].trips
-            slack = _in_minutes(kind.max_travel_duration - travel_duration(trips))
+        slack = None if found is None else _in_minutes(kind.max_travel_duration - travel_duration(
+            bench.plan.solution.routes[found.route].trips))
         longer = kind.max_travel_duration + MS_PER_MINUTE
         yield ("max_travel_duration", "minute", slack, replace(kind, max_travel_duration=longer))
     yield from _duty_limits(kind, measured, trip)
@@ -303,6 +301,8 @@ def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
         yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
     if kind.most_airborne < kind.num_drones:
         yield "max_airborne", "unit", None, replace(kind, max_airborne=kind.most_airborne + 1)
+    if kind.lifo:
+        yield "lifo", "rule", None, replace(kind, lifo=False)
     if kind.truck_waits:
         yield "truck_waits", "rule", None, replace(kind, truck_waits=False)
 

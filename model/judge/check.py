@@ -21,6 +21,7 @@ from model.judge.metrics import (
 from model.judge.past import EVERYTHING_OPEN, KnownTrip, Past, Vehicle
 from model.judge.past_rules import begins_with, past_violations
 from model.judge.rules import TimedTrip, Violation, route_violations, seconds, trip_violations
+from model.judge.shipping import shipment_violations
 from model.judge.timing import read_decision, resume_trip, schedule_trip
 from model.problem import MAX_QUANTITY, REST, UNREACHABLE, DroneType, Problem, VehicleType
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Trip
@@ -97,6 +98,7 @@ def judge_route(problem: Problem, route: Route, path: str,
     for stated, trip in zip(route.trips, trips, strict=True):
         violations += _mismatches(stated, trip.trip, trip.path)
         violations += trip_violations(problem, route.vehicle_type, trip)
+        violations += shipment_violations(problem, vehicle_type, trip)
     violations += site_violations(problem, route.vehicle_type, trips)
     violations += hours_violations(problem, trips)
     violations += route_violations(problem, vehicle_type, trips, measured, path,

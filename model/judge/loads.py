@@ -95,12 +95,22 @@ def picks_up_early(problem: Problem, kind: VehicleType, trip: Trip) -> Iterator[
 
     As part of a path: of a stop, or a sortie; of the trip itself where nothing is delivered.
     """
-    delivers = [any(any(customer.demand) for customer in group)
-                for group in _leaving(problem, trip)]
-    picks_up = [any(any(customer.pickup) for customer in group)
-                for group in _coming(problem, trip)]
+    delivers, picks_up = zip(*moved_at(problem, trip), strict=True)
     if any(picks_up) and not (kind.has_delivered or any(delivers)):
         yield ""
+    yield from comes_early(problem, trip)
+
+
+def moved_at(problem: Problem, trip: Trip) -> Iterator[tuple[bool, bool]]:
+    """Yield whether customers' parcels leave the truck at each stop, and pickups come aboard."""
+    for leaving, coming in zip(_leaving(problem, trip), _coming(problem, trip), strict=True):
+        yield (any(any(customer.demand) for customer in leaving),
+               any(any(customer.pickup) for customer in coming))
+
+
+def comes_early(problem: Problem, trip: Trip) -> Iterator[str]:
+    """Yield, as parts of a path, where a trip picks up before a parcel leaves it."""
+    delivers, picks_up = zip(*moved_at(problem, trip), strict=True)
     for index, picks in enumerate(picks_up):
         if picks and any(delivers[index + 1:]):
             yield f".stops[{index}]"

@@ -11,7 +11,6 @@ from model.judge.flown_trips import airborne, storm_of, trip_charges
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
-from model.judge.pairs import parted, times_between
 from model.judge.takeoff import storm_met
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
@@ -97,7 +96,6 @@ def trip_violations(problem: Problem, kind: int, timed: TimedTrip) -> Iterator[V
         yield Violation("RELEASE", message, path)
     yield from _halt_violations(problem, kind, trip.numbered_stops, f"{path}.stops")
     yield from _aboard_violations(problem, vehicle_type, timed)
-    yield from _pair_violations(problem, vehicle_type, timed)
     if vehicle_type.flies:
         yield from _flown_violations(problem, vehicle_type, trip, path)
     if vehicle_type.drones is not None and trip.sorties:
@@ -197,26 +195,6 @@ def _aboard_violations(problem: Problem, kind: VehicleType,
             customer = problem.customer_at(halt.node)
             yield Violation("TIME_ABOARD", f"the parcel of {customer.id} is {seconds(excess)} too "
                             "long aboard before service", place)
-
-
-def _pair_violations(problem: Problem, kind: VehicleType, timed: TimedTrip) -> Iterator[Violation]:
-    """Shipments that aren't brought from one end to the other, by a truck, or not in time."""
-    trip, path = timed.trip, timed.path
-    if not problem.shipments:
-        return
-    for index, message in parted(problem, trip):
-        yield Violation("PAIR", message, f"{path}.stops[{index}]")
-    for index, excess in times_between(problem, kind, trip):
-        if excess > 0:
-            shipment = problem.shipment_at[trip.stops[index].node]
-            yield Violation("TIME_BETWEEN", f"shipment {shipment.id} is {seconds(excess)} too long "
-                            "under way", f"{path}.stops[{index}]")
-    for index, sortie in enumerate(trip.sorties):
-        for number, visit in enumerate(sortie.visits):
-            if visit.node in problem.shipment_at:
-                shipment = problem.shipment_at[visit.node]
-                yield Violation("PAIR", f"shipment {shipment.id} is served by drone",
-                                f"{path}.sorties[{index}].visits[{number}]")
 
 
 def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:

@@ -113,6 +113,7 @@ class VehicleType:
     service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
     pickups: Pickups = "any"  # "last": on each trip after all deliveries, of which there is one
     has_delivered: bool = False  # on its trip, before it begins
+    lifo: bool = False  # only what was loaded last can be unloaded
     drones: DroneType | None = None  # on each truck, numbered from 0
     more_drones: tuple[DroneType, ...] = ()  # of other types, numbered on behind those before
     start: int | None = None  # where its first trip begins, a node; None: at the depot

@@ -203,7 +203,8 @@ def _can_go_on(problem: Problem, route: Kept, aboard: Sequence[int], home_by: in
     if kind.flies:
         return False
     limit, served = kind.max_trip_distance, customers_of(problem, route.decision.trips[-1])
-    is_blocked = (kind.pickups == "last" and _has(problem, served, "pickup")
+    in_order = kind.lifo or kind.pickups == "last"
+    is_blocked = (in_order and _has(problem, served, "pickup")
                   and _has(problem, aboard, "demand"))
     return (route.end <= home_by and not is_blocked
             and all(count is None or count >= 0

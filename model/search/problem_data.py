@@ -111,7 +111,7 @@ def are_alike(data: ProblemData) -> bool:
     kinds, rates = data.type[:data.num_types], data.rate[:data.num_types]
     return bool((rates == rates[:1]).all()) and all(
         bool((kinds[field] == kinds[:1][field]).all())
-        for field in ("travel", "capacity", "pickup_order"))
+        for field in ("travel", "capacity", "pickup_order", "lifo"))
 
 
 def from_one_place(data: ProblemData) -> bool:
@@ -172,7 +172,7 @@ def _swaps(problem: Problem, types: Records, evaluation: Records) -> BoolArray:
     table = problem.may_serve
     group = _numbered([(kind.travel, kind.begins_at, kind.ends_at, kind.earliest,
                         int(types["shift_latest"][index]), kind.skills, kind.pickups,
-                        kind.has_delivered, int(types["variant"][index]),
+                        kind.has_delivered, kind.lifo, int(types["variant"][index]),
                         None if table is None else table[index].tobytes())
                        for index, kind in enumerate(problem.vehicle_types)])
     alone = evaluation["by_distance"][:len(group)]
@@ -195,7 +195,7 @@ def _splices(problem: Problem, rates: Records, swap: BoolArray) -> BoolArray:
     kinds, priced = problem.vehicle_types, problem.vehicle_costs
     # What a vehicle has worked before it may begin costs as if it were fixed.
     names = [name for name in rates.dtype.names or () if name != "fixed"]
-    group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.pickups,
+    group = _numbered([(kind.travel, kind.capacity, kind.fixed_cost, kind.pickups, kind.lifo,
                         tuple(rates[names][index].tolist()),
                         None if priced is None else priced[index].tobytes())
                        for index, kind in enumerate(kinds)])

@@ -14,6 +14,8 @@ def _limit(rng: np.random.Generator, least: int, most: int, unit: int) -> int | 
 
 def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) -> Problem:
     """Return a problem some of whose customers are ends of shipments, up to so many; to come last.
+
+    What some vehicles load is a stack.
     """
     chosen = rng.permutation(problem.num_customers).tolist()
     number = int(rng.integers(1, min(most, problem.num_customers // 2) + 1))
@@ -32,6 +34,8 @@ def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) ->
         shipments.append(Shipment(
             str(index), pickup, delivery, amount,
             _limit(rng, 3, 25, MINUTE), _limit(rng, 1, 4, 1000)))
+    kinds = tuple(replace(kind, lifo=bool(rng.random() < 0.3)) for kind in problem.vehicle_types)
     taken = {node for each in shipments for node in (each.pickup, each.delivery)}
-    return replace(problem, customers=tuple(customers), shipments=tuple(shipments), relations=tuple(
-        each for each in problem.relations if taken.isdisjoint(each.nodes)))
+    return replace(
+        problem, customers=tuple(customers), shipments=tuple(shipments), vehicle_types=kinds,
+        relations=tuple(each for each in problem.relations if taken.isdisjoint(each.nodes)))

@@ -51,7 +51,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         truck_waits=stated.truck_waits,
         reload_duration=thousandths(stated.reload_duration),
         skills=frozenset(stated.skills),
-        pickups=stated.pickups,
+        pickups=stated.pickups, lifo=stated.lifo,
         drones=drones[0] if drones else None,
         more_drones=tuple(drones[1:]),
         co2_kg_per_km=stated.co2_kg_per_km,

@@ -40,6 +40,13 @@ void mark_fits(const ProblemData& data, const Fleet& fleet, Int slot, const Trip
     }
 }
 
+// Whether a shipment that is aboard on arrival at a stop, or leaving it, is in the way of what the
+// stop unloads from a stack, or lies under what comes aboard.
+bool disturbs_stack(const Fleet& fleet, Int slot, Int p) {
+    const StopLoad& stop_load = fleet.stop_load(slot, 0, p);
+    return stop_load.leaves > 0 || stop_load.comes > 0;
+}
+
 // A shipment on its way along a trip.
 class PairScan {
 public:
@@ -73,9 +80,13 @@ public:
     // Tries all places, timing the route anew for each that may be the best.
     void time_all() {
         for (Int p = trip_.first; p < trip_.last; ++p) {
-            Int further = distance_from(pickup_.inward, stops_[p].node);
+            Int further = distance_from(pickup_.inward, stops_[p].node), above = 0;
             for (Int q = p; q < trip_.last && fits_[q] && !data_.deadline.passed(); ++q) {
-                if (q > p) further = driven_on(further, p, q);
+                if (q > p) {
+                    further = driven_on(further, p, q);
+                    if (!goes_past(q, above)) break;
+                }
+                if (above > 0) continue;
                 const Int detour = further + delivered_behind(p, q);
                 if (data_.strategy.give_up_early && cost_of(detour) >= best_.cost) continue;
                 const Move move = move_to(p, q);
@@ -117,6 +128,13 @@ private:
         return distance_from(delivery_.inward, stops_[q].node) + on;
     }
 
+    // Whether the shipment may be aboard at stop `q`; of a stack, below `above` others behind it.
+    bool goes_past(Int q, Int& above) const {
+        if (!is_stack(type_)) return true;
+        above += fleet_.stop_load(slot_, 0, q).stacks;
+        return above >= 0 && !disturbs_stack(fleet_, slot_, q);
+    }
+
     static void serve(Way& way, Windows place, Int duration) {
         way.cum += duration;
         const Int arrival = way.leave + duration;
@@ -130,12 +148,13 @@ private:
         const Leg out = leg_from(pickup_.inward, here.node);
         if (pickup_.place.too_late(here.leave + out.duration)) return;
         Way way{here.leave, here.cum, here.depart, out.distance};
+        Int above = 0;
         serve(way, pickup_.place, out.duration);
         const NodeTable places = data_.place.by_truck(type_);
         for (Int q = p;; ++q) {
             if (delivery_.place.too_late(way.leave)) return;
-            try_delivery(way, p, q);
-            if (q + 1 == trip_.last || !fits_[q + 1]) return;
+            if (above == 0) try_delivery(way, p, q);
+            if (q + 1 == trip_.last || !fits_[q + 1] || !goes_past(q + 1, above)) return;
             const Stop& next = stops_[q + 1];
             const Int gap = q == p ? leg_to(pickup_.onward, next.node).duration : stops_[q].gap;
             if (way.leave + gap > next.latest) return;

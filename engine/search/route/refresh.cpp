@@ -5,6 +5,7 @@
 #include "randomness.h"
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
@@ -126,14 +127,18 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
     return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
 }
 
-// Tell whether each trip serves whole shipments, each picked up first.
+// Tell whether each trip serves whole shipments, each picked up first, and unloads from a stack
+// what lies on it.
 bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 View<const Trip, 1> trips) {
     const View<const Trip, 1> made = trips.first(route.trips);
+    const auto node_at = [&](Int p) {
+        return stops[p].kind == customer_stop ? stops[p].node : nowhere;
+    };
     return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
-        return keeps_pairs(data.pair, trip.first + 1, trip.last, [&](Int p) {
-            return stops[p].kind == customer_stop ? stops[p].node : nowhere;
-        });
+        return keeps_pairs(data.pair, trip.first + 1, trip.last, node_at) &&
+               (!is_stack(data.type[route.type]) ||
+                keeps_stack(data.pair, trip.first + 1, trip.last, node_at));
     });
 }
 

@@ -1,6 +1,7 @@
 #include "search/route/stop_loads.h"
 
 #include "rules/drone_types.h"
+#include "rules/pair.h"
 #include "rules/rates.h"
 #include "search/route/vehicles.h"
 
@@ -40,11 +41,12 @@ bool note_amounts(const ProblemData& data, const Fleet& fleet, Int slot, Int tie
     const View<StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
     for (Int p = 0; p < route.length; ++p) {
         StopLoad& stop_load = stop_loads[p];
-        stop_load.leaves = stop_load.comes = 0;
+        stop_load.leaves = stop_load.comes = stop_load.stacks = 0;
         write_amount(nothing, stop_load.leaving);
         write_amount(nothing, stop_load.coming);
         if (stops[p].kind != customer_stop) continue;
         const Int node = stops[p].node;
+        stop_load.stacks = stacked_at(data.pair, node);
         add_left(stop_load, delivered_of(data.amount, node, tier),
                  total_delivered(data.amount, node));
         add_come(stop_load, picked_of(data.amount, node, tier), total_picked(data.amount, node));

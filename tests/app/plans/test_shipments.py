@@ -87,6 +87,24 @@ def test_how_long_a_shipment_is_under_way_is_limited(searching: httpx.Client,
     assert stops[stops.index(("pickup", "s1")) + 1] == ("delivery", "s1")
 
 
+def test_a_stack_is_unloaded_from_its_top(searching: httpx.Client, paired: Request) -> None:
+    paired["customers"] = []
+    paired["shipments"] = [{"id": name, "amount": [1], "pickup": {"location": [place, 1]},
+                            "delivery": {"location": [3 - place, -1]}}
+                           for name, place in (("s1", 1), ("s2", 2))]
+    van = paired["fleet"][0]
+    van |= {"capacity": [9], "max_trips": 1, "count": 1}
+    crossed = searching.post("/plan", json=paired).json()
+    van["lifo"] = True
+    checked = searching.post("/check", json={"problem": paired, "plan": crossed}).json()
+    assert [violation["code"] for violation in checked["violations"]] == ["LIFO"]
+    nested = searching.post("/plan", json=paired).json()
+    assert nested["unassigned"] == []
+    checked = searching.post("/check", json={"problem": paired, "plan": nested}).json()
+    assert checked["feasible"]
+    assert nested["cost"]["total"] > crossed["cost"]["total"]
+
+
 def test_errors_of_ends_are_told_where_the_request_states_them(searching: httpx.Client,
                                                                paired: Request) -> None:
     paired["shipments"][0]["delivery"]["time_window"] = {"earliest": 20, "latest": 10}

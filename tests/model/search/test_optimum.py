@@ -320,10 +320,10 @@ def shipments(rng: np.random.Generator) -> Problem:
         replace(each, amount=(int(rng.integers(1, 5)) * 1000,)) for each in problem.shipments))
 
 
-def timed_shipments(rng: np.random.Generator) -> Problem:
+def timed_stacks(rng: np.random.Generator) -> Problem:
     problem = shipments(rng)
     return replace(problem, customers=with_windows(rng, problem.customers, 15, None),
-                   vehicle_types=tuple(replace(kind, cost_per_hour=30.0, max_trips=2)
+                   vehicle_types=tuple(replace(kind, cost_per_hour=30.0, max_trips=2, lifo=True)
                                        for kind in problem.vehicle_types))
 
 
@@ -333,7 +333,7 @@ KINDS: tuple[Callable[[np.random.Generator], Problem], ...] = (
     unequal_customers, two_types_by_table, overtime, dear_stops, few_sorties, both_ways, backhauls,
     timed_both_ways, priced_loads, many_dimensions, drones_both_ways, swapped_batteries,
     small_and_large_drones, near_sorties, one_of_two_airborne, few_launch_places, shipments,
-    timed_shipments, priced_types, priced_trips, priced_trucks)
+    timed_stacks, priced_types, priced_trips, priced_trucks)
 
 
 def searched_cost(problem: Problem, turns: int) -> float:

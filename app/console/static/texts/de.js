@@ -559,6 +559,7 @@ export default {
     goods: 'Seine Güter, getrennt von anderen',
     relations: 'Mit wem er fährt',
     pickups: 'Die Reihenfolge der Abholungen',
+    lifo: 'Die Reihenfolge des Ausladens',
   },
   wind: {
     kind: 'Es weht',
@@ -1013,6 +1014,7 @@ export default {
     launch: 'Drohnenstarts',
     launch_duration: 'Startdauer',
     launch_sites: 'Startplätze',
+    lifo: 'Zuletzt ein, zuerst aus',
     load_dimensions: 'Lademaße',
     location: 'Ort',
     location_index: 'Zeile in der Matrix',
@@ -1279,6 +1281,7 @@ export default {
         'Was höchstens zugleich an Bord ist, je Maß eine Menge, Pakete der Drohnen ' +
         'eingeschlossen.',
       pickups: 'Ob eine Fahrt jederzeit abholt oder erst nach allen Zustellungen.',
+      lifo: 'Ob nur ausgeladen werden kann, was zuletzt eingeladen wurde.',
       costs: 'Was die Fahrzeuge kosten.',
       speed_kmh:
         'Übliche Geschwindigkeit, 40 km/h, wenn leer; Straßen und Wegetabellen bringen ' +
@@ -1715,6 +1718,7 @@ export default {
     SERVED_BY: 'Er muss anders bedient werden: mit Fahrzeug oder Drohne.',
     PAIR: 'Beide Enden einer Sendung gehören auf eine Fahrt, die Abholung zuerst.',
     TIME_BETWEEN: 'Das Paket wäre zu lange unterwegs.',
+    LIFO: 'Nur was zuletzt eingeladen wurde, kann ausgeladen werden.',
     TIME_ABOARD: 'Er wäre zu lange an Bord.',
     PICKUP_ORDER: 'Abholungen kommen nach allen Zustellungen.',
     SEARCH: 'In der verfügbaren Zeit wurde kein Platz gefunden.',

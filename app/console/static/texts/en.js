@@ -545,6 +545,7 @@ export default {
     goods: 'Its goods, kept apart from others',
     relations: 'With whom it goes',
     pickups: 'The order of pickups',
+    lifo: 'The order of unloading',
   },
   wind: {
     kind: 'It blows',
@@ -999,6 +1000,7 @@ export default {
     launch: 'Launches',
     launch_duration: 'Launch duration',
     launch_sites: 'Launch sites',
+    lifo: 'Last in, first out',
     load_dimensions: 'Load dimensions',
     location: 'Location',
     location_index: 'Location index',
@@ -1268,6 +1270,7 @@ export default {
         'The most that is aboard at once, an amount for each measure, parcels of ' +
         'drones included.',
       pickups: 'Whether a trip picks up at any time, or only after all its deliveries.',
+      lifo: 'Whether only what was loaded last can be unloaded.',
       costs: 'What the vehicles cost.',
       speed_kmh: 'Usual speed, 40 km/h if empty; roads and tables of legs bring their own.',
       profile: 'By which kind of vehicle legs are measured, such as car or truck.',
@@ -1671,6 +1674,7 @@ export default {
     SERVED_BY: 'It must be served otherwise: by truck or by drone.',
     PAIR: 'Both ends of a shipment belong on one trip, its pickup first.',
     TIME_BETWEEN: 'The parcel would be under way for too long.',
+    LIFO: 'Only what was loaded last can be unloaded.',
     TIME_ABOARD: 'It would be aboard for too long.',
     PICKUP_ORDER: 'Pickups come after all deliveries.',
     SEARCH: 'No place was found in the time there was.',

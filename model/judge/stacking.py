@@ -1,0 +1,30 @@
+"""Vehicles whose load is one stack: only what was loaded last can be unloaded."""
+
+from collections.abc import Iterator
+
+from model.judge.loads import comes_early, moved_at
+from model.problem import Problem
+from model.solution import Trip
+
+
+def unstacked(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
+    """Yield what lies below something when it is unloaded, as part of a path, and why.
+
+    Parcels from the depot lie at the bottom. What is brought there stays, so it lies on no
+    shipment, and nothing that leaves later lies beneath it.
+    """
+    stack: list[int] = []  # nodes of deliveries
+    for index, (leaves, comes) in enumerate(moved_at(problem, trip)):
+        where, each = f".stops[{index}]", problem.shipment_at.get(trip.stops[index].node)
+        if leaves and stack:
+            yield where, "a shipment lies on a parcel that leaves here"
+        if each is not None and each.delivery == trip.stops[index].node:
+            if each.delivery in stack and stack[-1] != each.delivery:
+                yield where, f"another shipment lies on {each.id}"
+            stack = [node for node in stack if node != each.delivery]
+        elif each is not None:
+            stack.append(each.delivery)
+        if comes and stack:
+            yield where, "what is picked up here stays on a shipment"
+    for where in comes_early(problem, trip):
+        yield where, "what was picked up stays on a parcel that leaves later"

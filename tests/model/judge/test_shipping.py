@@ -1,0 +1,61 @@
+"""Shipments and stacks, by hand-computed cases: a at km 1, b at km 2, c to fly to, d at km 4."""
+
+from dataclasses import replace
+
+import pytest
+
+from model.judge.timing import SortieDecision, TripDecision
+from model.problem import Shipment
+from tests.model.judge.test_loads import codes, judged
+
+DIRECT = (Shipment("x", 1, 2, (1000,)), Shipment("y", 3, 4, (1000,)))
+C_FROM_A = SortieDecision((3,), 1, 2)
+
+
+@pytest.mark.parametrize(("nodes", "broken"), [
+    ((0, 1, 3, 4, 2, 0), []), ((0, 1, 2, 3, 4, 0), []), ((0, 1, 3, 2, 4, 0), ["LIFO"])])
+def test_what_was_loaded_last_is_unloaded_first(tiny_problem, customers, truck, nodes, broken):
+    ends = [replace(each, demand=(0,), served_by="either") for each in customers]
+    stack = tiny_problem(*ends, truck=replace(truck, lifo=True))
+    assert codes(judged(replace(stack, shipments=DIRECT), TripDecision(nodes, start=0))) == broken
+    free = replace(tiny_problem(*ends, truck=truck), shipments=DIRECT)
+    assert codes(judged(free, TripDecision(nodes, start=0))) == []
+
+
+@pytest.mark.parametrize(("demand", "pickup", "nodes", "broken"), [
+    (1, 0, (0, 1, 2, 3, 0), ["LIFO"]),  # below the shipment
+    (1, 0, (0, 2, 1, 3, 0), []),
+    (0, 1, (0, 1, 2, 3, 0), ["LIFO"]),  # on it
+    (0, 1, (0, 2, 1, 3, 0), []), (0, 1, (0, 1, 3, 2, 0), []),
+    (0, 0, (0, 1, 2, 3, 0), [])])  # nothing is moved
+def test_customers_parcels_and_pickups_are_on_the_stack(
+        tiny_problem, customers, truck, demand, pickup, nodes, broken):
+    a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
+    b = replace(b, demand=(demand,), pickup=(pickup,))
+    problem = replace(tiny_problem(a, b, c, truck=replace(truck, lifo=True)),
+                      shipments=(Shipment("x", 1, 3, (1000,)),))
+    assert codes(judged(problem, TripDecision(nodes, start=0))) == broken
+
+
+def test_a_stack_has_pickups_on_what_leaves_later(tiny_problem, customers, truck):
+    a, b = (replace(each, pickup=(1000,)) for each in customers[:2])
+    problem = tiny_problem(a, b, truck=replace(truck, lifo=True))
+    assert codes(judged(problem, TripDecision((0, 1, 2, 0), start=0))) == ["LIFO"]
+    behind = replace(b, demand=(0,))
+    assert codes(judged(tiny_problem(a, behind, truck=replace(truck, lifo=True)),
+                        TripDecision((0, 1, 2, 0), start=0))) == []
+
+
+def test_drones_parcels_are_on_their_trucks_stack(tiny_problem, customers, truck, drones):
+    a, b, c, d = (replace(each, demand=(0,)) for each in customers)
+    carrier = replace(truck, lifo=True, drones=drones)
+    shipped = (Shipment("x", 1, 2, (1000,)),)
+    for parcel in {"demand": (1000,)}, {"pickup": (1000,)}:
+        problem = replace(tiny_problem(a, b, replace(c, **parcel), d, truck=carrier),
+                          shipments=shipped)
+        assert codes(judged(problem, TripDecision((0, 1, 2, 0), (C_FROM_A,), start=0))) == []
+    for parcel in {"demand": (1000,)}, {"pickup": (1000,)}:
+        problem = replace(tiny_problem(a, b, replace(c, **parcel), d, truck=carrier),
+                          shipments=(Shipment("x", 1, 4, (1000,)),))
+        flown = SortieDecision((3,), 2, 2)
+        assert codes(judged(problem, TripDecision((0, 1, 2, 4, 0), (flown,), start=0))) == ["LIFO"]
