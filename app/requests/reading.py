@@ -170,7 +170,7 @@ def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails], day: Day
         coordinate_system=raw.get("coordinate_system", "planar") if scale_known else None,
         planar_unit=raw.get("planar_unit", 1.0) if scale_known else 1.0,
         depots=_entries(raw, broken, "depots", DepotInput, day),
-        customers=_entries(raw, broken, "customers", CustomerInput, day),
+        customers=_customers(raw, broken, day),
         fleet=_entries(raw, broken, "fleet", VehicleTypeInput, day),
         matrices=_matrices(raw, broken),
         matrices_known=("matrices",) not in broken,
@@ -183,6 +183,16 @@ def partial_draft(raw: dict[str, Any], details: Sequence[ErrorDetails], day: Day
         launch_sites=(() if "launch_sites" not in raw else
                       _entries(raw, broken, "launch_sites", LaunchSiteInput, day)),
     )
+
+
+def _customers(raw: dict[str, Any], broken: Parts,
+               day: DayOfBody) -> list[CustomerInput | None] | None:
+    """Return the entries of customers, and a None where others count as customers too."""
+    entries = _entries(raw, broken, "customers", CustomerInput, day)
+    if entries is not None and (raw.get("shipments") or any(
+            each is not None and each.alternatives for each in entries)):
+        entries.append(None)
+    return entries
 
 
 def _entries(raw: dict[str, Any], broken: Parts, name: str,

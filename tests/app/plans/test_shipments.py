@@ -148,6 +148,12 @@ def test_a_trip_with_shipments_is_made_to_its_end(searching: httpx.Client,
     # A shipment that is on its way can't be cancelled.
     cancelled = searching.post("/plan", json=paired | {"replan": terms, "customers": []})
     assert {error["code"] for error in cancelled.json()["errors"]} == {"UNKNOWN_CUSTOMER"}
+    # What is wrong elsewhere doesn't make it one that was.
+    fetched = max(stop["departure"] for trip in route["trips"] for stop in trip["stops"]
+                  if stop["kind"] == "pickup")
+    broken = searching.post("/plan", json=paired | {
+        "replan": terms | {"freeze_before": fetched}, "options": {"time_limit": "soon"}})
+    assert [error["path"] for error in broken.json()["errors"]] == ["$.options.time_limit"]
 
 
 def test_two_shipments_of_one_name_are_told_once(searching: httpx.Client,
