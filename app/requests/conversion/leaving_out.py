@@ -42,8 +42,9 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     detour = max(_vehicle_cost(kind, longest, service + horizon)
                  + 2 * longest[kind.travel][0] * _cost_when_full(kind, decimals)
                  for kind in vehicle_types)
-    late = max([customer.late_cost_per_hour or 0.0 for customer in customers], default=0.0)
-    early = max([customer.early_cost_per_hour for customer in customers], default=0.0)
+    # Whoever is served may make all others late.
+    late = sum([customer.late_cost_per_hour or 0.0 for customer in customers])
+    early = sum([customer.early_cost_per_hour for customer in customers])
     once = sum([customer.late_cost for customer in customers])
     stated_costs = sum([customer.unassigned_cost or 0.0 for customer in customers])
     return max(1.0, fair + DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + once

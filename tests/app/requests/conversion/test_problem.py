@@ -340,6 +340,14 @@ def test_whoever_must_be_served_costs_more_than_that_all_others_change(smallest:
     for customer in smallest["customers"]:
         customer["time_window"] = {"latest": 0, "late_cost_per_hour": 0, "late_cost": 7}
     assert problem_of(smallest).unassigned_cost == alone + 201 + 200 + 2 * 7
+    # Each may be late for an hour because of whoever is served before it.
+    hour = 3600
+    for customer in smallest["customers"]:
+        customer["time_window"] = {"latest": hour, "late_cost_per_hour": 0}
+    in_time = problem_of(smallest).unassigned_cost
+    for customer in smallest["customers"]:
+        customer["time_window"]["late_cost_per_hour"] = 30
+    assert problem_of(smallest).unassigned_cost == pytest.approx(in_time + 2 * 30)
 
 
 def test_leaving_a_customer_out_costs_something_where_nothing_else_does(
