@@ -123,6 +123,8 @@ def _dimension_errors(draft: Draft) -> Errors:
         amounts.append(((*path, "capacity"), len(vehicle_type.capacity)))
         amounts += [((*path, *inner, "capacity"), len(drones.capacity))
                     for inner, drones in vehicle_type.drones_by_path]
+        amounts += [((*path, "breaks", number, "max_load"), len(each.max_load))
+                    for number, each in enumerate(vehicle_type.breaks) if each.max_load is not None]
     if not amounts:
         return
     reference, dimensions = amounts[0]

@@ -142,6 +142,8 @@ class BreakInput(Input):
         "`anywhere`, on the way too."
     )
     paid: bool = Field(True, description="Whether it counts in the working duration.")
+    max_load: Demand | None = Field(
+        None, description="What may be aboard the truck at most while it is taken. Null: anything.")
 
 
 class VehicleTypeInput(Input):

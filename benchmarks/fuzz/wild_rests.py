@@ -14,21 +14,24 @@ def let_rest(rng: random.Random, request: Data) -> None:
         if kind.get("flies"):
             continue
         if rng.random() < 0.5:
-            kind["breaks"] = [_break(rng, number) for number in range(rng.randint(1, 3))]
+            kind["breaks"] = [_break(rng, number, len(kind["capacity"]))
+                              for number in range(rng.randint(1, 3))]
             continue
         kind["driving_rules"] = _rules(rng)
         if rng.random() < 0.98:
             kind.pop("speed_profile", None)
 
 
-def _break(rng: random.Random, number: int) -> Data:
+def _break(rng: random.Random, number: int, dimensions: int) -> Data:
     earliest = rng.choice((0, 600, 7200, 14400, LONGEST)) + 3600 * number
     width = rng.choice((None, 0, 600, 3600, LONGEST))
     return {"id": f"b{number}", "duration": rng.choice((0, 1e-3, 600, 1800, 2700, LONGEST)),
             "start": {"earliest": min(earliest, LONGEST),
                       "latest": None if width is None else min(earliest + width, LONGEST)},
             "after_departure": rng.random() < 0.3, "at": rng.choice(("stop", "anywhere")),
-            "paid": rng.random() < 0.7}
+            "paid": rng.random() < 0.7,
+            "max_load": (None if rng.random() < 0.7 else
+                         [rng.choice((0, 1, 5, 100)) for _ in range(dimensions)])}
 
 
 def _rules(rng: random.Random) -> Data:

@@ -170,6 +170,7 @@ typedef struct tandem_vehicle_type {
     int64_t break_after_departure[8]; /* whether both count from when the route begins */
     int64_t break_anywhere[8];
     int64_t break_unpaid[8];
+    int64_t break_max_load[72]; /* (break, dimension) the most that may be aboard */
     int64_t must_rest;
     int64_t rest_durations[3]; /* of a whole rest, and of the first and the second part of one */
     int64_t max_driving;
@@ -493,6 +494,7 @@ typedef struct tandem_stop {
     int64_t hold;
     int64_t idle;
     int64_t rests;      /* breaks before the next, as rules/breaks.h packs them */
+    int64_t heavy;      /* bits of breaks for which too much is aboard before the next */
     int64_t start;      /* of service, where lags count */
     int64_t free_start; /* the latest that costs nothing, likewise */
     double window_cost;

@@ -9,6 +9,7 @@
 
 #include "problem/instance.h"
 #include "rules/clock.h"
+#include "rules/load.h"
 
 namespace tandem {
 
@@ -57,6 +58,24 @@ inline Int num_breaks(const VehicleType& type) { return type.breaks; }
 
 // Whether a driver has breaks, so that times hang on where they are taken.
 inline bool has_breaks(const VehicleType& type) { return type.breaks > 0; }
+
+// What may be aboard at most while a break is taken.
+inline Amount most_during(const VehicleType& type, Int number, Int tier) {
+    const Int row = number * max_tiers + tier;
+    return amount_of(type.break_max_load + row * dimensions_per_tier);
+}
+
+// The breaks, as bits, that can't be taken with so much aboard.
+inline Int too_heavy_for(const VehicleType& type, const Amount& load, Int tier) {
+    Int heavy = 0;
+    for (Int number = 0; number < type.breaks; ++number) {
+        if (!within(load, most_during(type, number, tier))) heavy |= Int{1} << number;
+    }
+    return heavy;
+}
+
+// Whether a break is among some, as bits.
+inline bool is_among(Int breaks, Int number) { return (breaks >> number & 1) != 0; }
 
 // When a route began, as far as breaks hang on it, that begins here at `begin`.
 inline Int counted_begin(const VehicleType& type, Int begin) {
@@ -199,10 +218,11 @@ Int departure_before(const VehicleType& type, Rests rests, Int begin, Int arriva
 //
 // From `next` on, each is put off if it may begin when the truck, not delayed, `leaves` there
 // again; it is taken at once where it ends before the service there `opens`. Nothing if none of
-// that can be.
+// that can be. Those that are too `heavy` for what is aboard, as bits, are put off alone.
 template <class Travel, class Leaves, class Opens>
-std::optional<Rests> rests_on_leg(const VehicleType& type, Int next, Int begin, Int leave,
-                                  const Travel& travel, const Leaves& leaves, const Opens& opens) {
+std::optional<Rests> rests_on_leg(const VehicleType& type, Int next, Int heavy, Int begin,
+                                  Int leave, const Travel& travel, const Leaves& leaves,
+                                  const Opens& opens) {
     Rests rests;
     BrokenLeg leg(type, begin, leave, travel);
     bool there = false;
@@ -211,8 +231,10 @@ std::optional<Rests> rests_on_leg(const VehicleType& type, Int next, Int begin, 
         const Break pause = break_of(type, next, begin);
         BrokenLeg onward = leg;
         const Int arrival = onward.arrive();
-        const bool waits = pause.may_begin(arrival) && pause.end(arrival) <= opens(arrival);
+        const bool may = !is_among(heavy, next);
+        const bool waits = may && pause.may_begin(arrival) && pause.end(arrival) <= opens(arrival);
         if (!waits && leaves(arrival) <= pause.latest) break;
+        if (!may) return std::nullopt;
         RestPlace place = RestPlace::arrival;
         if (!there && !pause.may_begin(arrival)) {
             place = may_rest_on_way(type, next) ? RestPlace::way : RestPlace::departure;

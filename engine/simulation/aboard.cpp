@@ -136,7 +136,7 @@ bool holds_all(const Setting& setting, const Vehicle& vehicle, View<const Drone,
 }
 
 void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> drones, Int node,
-               bool is_customer) {
+               bool is_customer, Rests rests) {
     if (is_customer) take_company(setting, vehicle, node);
     if (num_tiers(setting.amount) == 0) {
         if (is_customer) take_demand(setting, vehicle, node);
@@ -146,8 +146,13 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
     for (Int number = 0; number < num_tiers(setting.amount); ++number) {
         const auto [demand, here, there] =
             burden_of(setting, vehicle, drones, node, is_customer, number);
-        const Amount left =
-            smaller(part_of(vehicle.load, number), minus(capacity_in(setting.type, number), here));
+        Amount most = capacity_in(setting.type, number);
+        if (has_breaks(setting.type)) {
+            for (Int index = 0; index < rests.count(); ++index) {
+                most = smaller(most, most_during(setting.type, rests.number(index), number));
+            }
+        }
+        const Amount left = smaller(part_of(vehicle.load, number), minus(most, here));
         write_part(minus(left, demand), vehicle.load, number);
         write_part(there, vehicle.aboard, number);
     }
@@ -155,6 +160,16 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
     vehicle.taken = sums.there;
     vehicle.stacked = stacked_behind(setting, vehicle, node, is_customer);
     if (is_customer) vehicle.given += total_delivered(setting.amount, node);
+}
+
+Int too_heavy(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones, Int node,
+              bool is_customer) {
+    Int heavy = 0;
+    for (Int number = 0; number < num_tiers(setting.amount); ++number) {
+        const Burden burden = burden_of(setting, vehicle, drones, node, is_customer, number);
+        heavy |= too_heavy_for(setting.type, plus(burden.here, burden.demand), number);
+    }
+    return heavy;
 }
 
 bool may_carry(const Setting& setting, const Vehicle& vehicle, Int node) {

@@ -5,6 +5,7 @@
 // to this stop or to the next, as `leave_for` has decided.
 #pragma once
 
+#include "rules/breaks.h"
 #include "rules/load.h"
 #include "simulation/state.h"
 
@@ -23,8 +24,14 @@ bool holds_all(const Setting& setting, const Vehicle& vehicle, View<const Drone,
                Int node, bool is_customer);
 
 // Take aboard what a drive to a node asks for.
+//
+// From then on no more is asked for than may be aboard during the breaks on the way.
 void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> drones, Int node,
-               bool is_customer);
+               bool is_customer, Rests rests);
+
+// The breaks, as bits, that the truck can't take on its way to a node with all that it has.
+Int too_heavy(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones, Int node,
+              bool is_customer);
 
 // Tell whether a customer's parcel may go with all that the vehicle's trip carries.
 bool may_carry(const Setting& setting, const Vehicle& vehicle, Int node);

@@ -10,6 +10,7 @@
 #include "rules/flight.h"
 #include "rules/launch_place.h"
 #include "rules/shift.h"
+#include "simulation/aboard.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
@@ -198,8 +199,8 @@ struct Ride {
 };
 
 // It may be that drones are `out` meanwhile.
-Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle, Int to, Int leave,
-          bool out) {
+Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
+          View<const Drone, 1> drones, Int to, Int leave, bool out) {
     const Int here = vehicle.node;
     const bool asks = has_driving_rules(setting.type);
     if (!has_breaks(setting.type) && !asks) return {travel_arrival(setting, here, to, leave), {}};
@@ -224,8 +225,9 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         if (!rests || (attends && rests->count() > 0)) return {-1, {}};
         return {come(setting, *rests, begin, here, to, leave), *rests};
     }
+    const Int heavy = too_heavy(setting, vehicle, drones, to, is_customer);
     const std::optional<Rests> rests =
-        rests_on_leg(setting.type, vehicle.rested, begin, leave, travel, leaves, opens);
+        rests_on_leg(setting.type, vehicle.rested, heavy, begin, leave, travel, leaves, opens);
     if (!rests) return {-1, {}};
     return {come(setting, *rests, begin, here, to, leave), *rests};
 }
@@ -303,7 +305,7 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
     mark_places(setting, drones, here, to);
     if (vehicle.flying == 0) {
         const Int leave = std::max(vehicle.service_end, vehicle.free);
-        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave, false);
+        const auto [arrival, rests] = ride(setting, log, vehicle, drones, to, leave, false);
         return {vehicle.free, arrival, arrival, rests};
     }
     // Who can't be met loops, of which the others may be launched later, and so on.
@@ -314,7 +316,7 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
         const bool out = std::any_of(drones.begin(), drones.end(), [](const Drone& drone) {
             return is_recovered(drone, Recovery::meet);
         });
-        const auto [arrival, rests] = ride(setting, log, vehicle, to, leave, out);
+        const auto [arrival, rests] = ride(setting, log, vehicle, drones, to, leave, out);
         if (arrival < 0) return impossible;
         const Int free = meet(setting, drones, here, arrival);
         if (free < 0) continue;

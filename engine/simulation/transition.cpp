@@ -265,7 +265,9 @@ bool drive(OpenVehicle& open, Int node) {
     if (!holds_all(setting, vehicle, drones, node, is_customer)) return false;
     log.stop[log.count.stops - 1].rests = rests.packed();
     vehicle.rested = rests.next(vehicle.rested);
-    load_stop(setting, vehicle, drones, node, is_customer);
+    load_stop(setting, vehicle, drones, node, is_customer, rests);
+    // A break that is counted from when the route begins may then end later than known so far.
+    if (rests.count() > 0) vehicle.start_best = log.trip[0].start;
     if (vehicle.flying > 0) {
         log.stop[log.count.stops - 1].leave = std::max(vehicle.service_end, left);
         log_sorties(setting, log, vehicle, drones);

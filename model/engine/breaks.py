@@ -33,7 +33,28 @@ class RestTimes(NamedTuple):
     end: int
 
 
-def break_row(kind: VehicleType) -> tuple[int | tuple[int, ...], ...]:
+def limits_loads(kind: VehicleType) -> bool:
+    """Tell whether breaks limit what is aboard."""
+    return any(each.max_load is not None for each in kind.breaks)
+
+
+def _most_aboard(kind: VehicleType, room: int) -> tuple[int, ...]:
+    """Return what may be aboard at most during each break, beside what is at the beginning."""
+    taken, loads = kind.initial_load or (0,) * len(kind.capacity), list[int]()
+    for each in kind.breaks:
+        most = [UNLIMITED * 2] * room
+        if each.max_load is not None:
+            most[:len(taken)] = [a - b for a, b in zip(each.max_load, taken, strict=True)]
+        loads += most
+    return (*loads, *(0,) * (MAX_BREAKS * room - len(loads)))
+
+
+def driver_row(kind: VehicleType, room: int) -> tuple[int | tuple[int, ...], ...]:
+    """Return what `tandem_vehicle_type` says of its driver, loads in so many dimensions."""
+    return *_break_row(kind, room), *_driving_row(kind.driving)
+
+
+def _break_row(kind: VehicleType, room: int) -> tuple[int | tuple[int, ...], ...]:
     """Return how many breaks a driver has, since when, and what `tandem_vehicle_type` says of them.
     """
     breaks = kind.breaks
@@ -43,10 +64,11 @@ def break_row(kind: VehicleType) -> tuple[int | tuple[int, ...], ...]:
         [each.anywhere for each in breaks], [not each.paid for each in breaks])
     rest = (0,) * (MAX_BREAKS - len(breaks))
     since = NONE if kind.works_since is None else kind.works_since
-    return len(breaks), since, *((*map(int, column), *rest) for column in columns)
+    return (len(breaks), since, *((*map(int, column), *rest) for column in columns),
+            _most_aboard(kind, room))
 
 
-def driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
+def _driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
     """Return whether a driver has to rest, and what `tandem_vehicle_type` says of that."""
     if rules is None:
         return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0, 1

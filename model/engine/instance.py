@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.amount_rows import padded, write_amounts
+from model.engine.amount_rows import num_tiers, padded, write_amounts
 from model.engine.asked import (
     clash_by_themselves, company_rows, has_setups, most_asked_for, setup_rows, weight_rows,
 )
 from model.engine.battery_rows import battery_row, full_row, powers_row
-from model.engine.breaks import break_row, driving_row, longest_travel
+from model.engine.breaks import driver_row, longest_travel
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
@@ -129,7 +129,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     instance = Instance(
         size=np.zeros(rows, dtype_of("tandem_size")),
         node=np.zeros((rows, variants, nodes, 1 + gaps), dtype_of("tandem_node")),
-        amount=np.zeros((rows, nodes, _num_tiers(problems), AMOUNTS), np.int64),
+        amount=np.zeros((rows, nodes, num_tiers(problems, DIMENSIONS_PER_TIER), AMOUNTS), np.int64),
         price=np.zeros((rows, nodes), dtype_of("tandem_price")),
         goods=np.zeros((rows, nodes if apart else 0), dtype_of("tandem_goods")),
         setup=np.zeros((rows, nodes if any(map(has_setups, problems)) else 0),
@@ -163,15 +163,6 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
 def _num_changes(problems: Sequence[Problem]) -> int:
     profiles = [kind.speed_profile for each in problems for kind in each.vehicle_types]
     return max([len(profile.times) for profile in profiles if profile], default=0)
-
-
-def _num_tiers(problems: Sequence[Problem]) -> int:
-    """Return how many tiers loads have to be looked at in from stop to stop."""
-    tiers = max(-(-problem.num_dimensions // DIMENSIONS_PER_TIER) for problem in problems)
-    changes = any(problem.shipments or any(any(customer.pickup) for customer in problem.customers)
-                  for problem in problems)
-    costs = any(kind.cost_per_load_km for problem in problems for kind in problem.vehicle_types)
-    return tiers if tiers > 1 or changes or costs else 0
 
 
 def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind],
@@ -292,7 +283,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         kind.trips_uncharged, _pickup_order(kind), int(kind.lifo), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
-        *_storm_rows(kind if kind.flies else drones), *break_row(kind), *driving_row(kind.driving))
+        *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room))
 
 
 def _overtime_rate(kind: VehicleType) -> float:

@@ -9,7 +9,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
 from model.judge.clock import work_between, work_end
-from model.problem import FULL_SPEED, REST, Break, VehicleType
+from model.judge.loads import trip_loads
+from model.problem import FULL_SPEED, REST, Break, Problem, VehicleType
 from model.solution import BreakPlace, TakenBreak, Trip
 
 
@@ -70,7 +71,8 @@ def drive(kind: VehicleType, begin: int, departure: int, duration: int,
     return work_end(time, work, profile), taken
 
 
-def broken_breaks(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[tuple[int | None, str]]:
+def broken_breaks(problem: Problem, kind: VehicleType,
+                  trips: Sequence[Trip]) -> Iterator[tuple[int | None, str]]:
     """Yield what is wrong with the breaks of a route, each with the trip that it is on, if any."""
     begin, end = begin_of(kind, trips[0]), trips[-1].stops[-1].departure
     last = -1
@@ -87,10 +89,17 @@ def broken_breaks(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[tuple[in
                 yield index, f"break {each.id} doesn't begin in its window"
             if taken.place == "way" and not each.anywhere:
                 yield index, f"break {each.id} isn't at a stop"
+            if each.max_load is not None and _is_heavier(
+                    trip_loads(problem, kind, trip)[taken.stop + 1], each.max_load):
+                yield index, f"too much is aboard during break {each.id}"
     numbers = {taken.number for trip in trips for taken in trip.breaks}
     for number, each in enumerate(kind.breaks):
         if number not in numbers and is_due(each, begin, end):
             yield None, f"break {each.id} is not taken"
+
+
+def _is_heavier(load: Sequence[int], limit: Sequence[int]) -> bool:
+    return any(amount > most for amount, most in zip(load, limit, strict=True))
 
 
 def is_due(each: Break, begin: int, end: int) -> bool:

@@ -28,7 +28,8 @@ def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
         ways = [(wrong, _end(tried), way)
                 for way in _ways(decision, number)
                 for tried in [schedule(problem, way)]
-                for wrong in [any(of is not None for of, _ in broken_breaks(kind, tried.trips))]]
+                for wrong in [any(of is not None for of, _ in
+                                  broken_breaks(problem, kind, tried.trips))]]
         wrong, _, decision = min(ways, key=lambda way: way[:2])
         if wrong:
             break

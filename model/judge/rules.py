@@ -363,7 +363,7 @@ def route_violations(
             message = f"ends at {seconds(end)}, shift ends at {seconds(vehicle_type.latest)}{more}"
             yield Violation("SHIFT", message, timed.path)
         ready = end + vehicle_type.reload_duration
-    for number, message in broken_breaks(vehicle_type, [timed.trip for timed in trips]):
+    for number, message in broken_breaks(problem, vehicle_type, [timed.trip for timed in trips]):
         yield Violation("BREAK", message, path if number is None else trips[number].path)
     for number, message in broken_driving(vehicle_type, [timed.trip for timed in trips]):
         yield Violation("DRIVING", message, trips[number].path)

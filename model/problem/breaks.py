@@ -19,8 +19,11 @@ class Break:
     after_departure: bool = False  # the window is since the vehicle's begin
     anywhere: bool = False  # on the way, too, else at stops alone
     paid: bool = True  # counts in the working duration
+    max_load: tuple[int, ...] | None = None  # parts of each dimension aboard; None: any
 
     def __post_init__(self) -> None:
         require_quantity(f"break {self.id} duration", self.duration)
         require_quantity(f"break {self.id} earliest", self.earliest, UNLIMITED)
+        for amount in self.max_load or ():
+            require_quantity(f"break {self.id} max_load", amount)
         require(self.earliest <= self.latest <= UNLIMITED, f"break {self.id} latest", self.latest)

@@ -162,6 +162,9 @@ class VehicleType:
                 f"vehicle type {self.id} more_drones", self.more_drones)
         require(len(self.breaks) <= (0 if self.flies else MAX_BREAKS),
                 f"vehicle type {self.id} breaks", len(self.breaks))
+        for each in self.breaks:
+            require(each.max_load is None or len(each.max_load) == len(self.capacity),
+                    f"vehicle type {self.id} break {each.id} max_load", each.max_load)
         self._require_flight()
         self._require_beginning()
         self._require_driving()

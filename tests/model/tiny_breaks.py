@@ -40,7 +40,9 @@ def with_breaks(rng: np.random.Generator, problem: Problem) -> Problem:
             breaks.append(Break(
                 str(number), _minutes(rng, 1, 6), opens, opens + width,
                 after_departure=bool(rng.random() < 0.3), anywhere=bool(rng.random() < 0.3),
-                paid=bool(rng.random() < 0.7)))
+                paid=bool(rng.random() < 0.7),
+                max_load=None if rng.random() < 0.6 else tuple(
+                    [int(rng.integers(0, most + 1)) for most in kind.capacity])))
             opens += width + _minutes(rng, 0, 6)
         return replace(kind, breaks=tuple(breaks))
 

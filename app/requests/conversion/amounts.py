@@ -61,6 +61,9 @@ def _stated(customers: Customers, fleet: Fleet) -> Iterator[tuple[Path, Sequence
             yield ("fleet", index, "capacity"), vehicle_type.capacity
             for path, drones in vehicle_type.drones_by_path:
                 yield ("fleet", index, *path, "capacity"), drones.capacity
+            for number, each in enumerate(vehicle_type.breaks):
+                if each.max_load is not None:
+                    yield ("fleet", index, "breaks", number, "max_load"), each.max_load
     for index, customer in enumerate(customers):
         if customer is not None:
             yield ("customers", index, "demand"), customer.demand

@@ -56,7 +56,7 @@ def to_vehicle_type(stated: VehicleTypeInput, depots: Sequence[Depot], travels: 
         more_drones=tuple(drones[1:]),
         co2_kg_per_km=stated.co2_kg_per_km,
         co2_kg_per_kwh=stated.co2_kg_per_kwh,
-        breaks=tuple([_break(each) for each in stated.breaks]),
+        breaks=tuple([_break(each, decimals) for each in stated.breaks]),
         driving=driving_rules(stated.driving_rules),
     ))
     kind = _in_time(kind, travels)
@@ -92,12 +92,13 @@ def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decim
                 else to_energy(stated, stated.energy, decimals, amounts)))
 
 
-def _break(stated: BreakInput) -> Break:
+def _break(stated: BreakInput, decimals: Sequence[int]) -> Break:
     latest = stated.start.latest
     return Break(
         stated.id, thousandths(stated.duration), thousandths(stated.start.earliest),
         UNLIMITED if latest is None else thousandths(latest),
-        after_departure=stated.after_departure, anywhere=stated.at == "anywhere", paid=stated.paid)
+        after_departure=stated.after_departure, anywhere=stated.at == "anywhere", paid=stated.paid,
+        max_load=None if stated.max_load is None else counted(stated.max_load, decimals))
 
 
 def driving_rules(stated: DrivingRulesInput | None) -> DrivingRules | None:

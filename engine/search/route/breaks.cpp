@@ -119,6 +119,7 @@ private:
         for (; number < count_; ++number) {
             Label best;
             for (Int q = from; q < last; ++q) {
+                if (is_among(stops_[q].heavy, due(number))) continue;
                 for (const RestPlace place : {RestPlace::arrival, other_place(number)}) {
                     const Int before = stops_[q].rests;
                     stops_[q].rests = Rests(before).with(due(number), place).packed();
@@ -179,7 +180,8 @@ private:
     // Take a break where the truck is.
     void rest(const Label& label, Int number, Int p, RestPlace place) {
         const Break pause = break_of(type_, due(number), truck_.begin);
-        if (label.time < far && pause.may_begin(label.time)) {
+        if (label.time < far && pause.may_begin(label.time) &&
+            !is_among(stops_[p].heavy, due(number))) {
             take_sooner(at(number + 1), label.with(number, p, place, pause.end(label.time)));
         }
     }
@@ -195,7 +197,7 @@ private:
             label.time = rest_of_leg.arrive();
             take_sooner(there[static_cast<std::size_t>(number)], label);
             if (number == count_ || !may_rest_on_way(type_, due(number)) ||
-                !leg.rest(due(number), RestPlace::way)) {
+                is_among(stops_[p].heavy, due(number)) || !leg.rest(due(number), RestPlace::way)) {
                 return;
             }
             label = label.with(number, p, RestPlace::way, leg.time());

@@ -1,5 +1,6 @@
 #include "search/route/stop_loads.h"
 
+#include "rules/breaks.h"
 #include "rules/drone_types.h"
 #include "rules/pair.h"
 #include "rules/rates.h"
@@ -62,6 +63,18 @@ bool note_amounts(const ProblemData& data, const Fleet& fleet, Int slot, Int tie
     return allowed;
 }
 
+// Note the breaks that can't be taken behind stops of a trip, `behind` not among them. In place.
+void note_heavy(const VehicleType& type, View<Stop, 1> stops, View<const StopLoad, 1> stop_loads,
+                Int first, Int behind, Int tier) {
+    Amount load = nothing;
+    for (Int p = first; p < behind; ++p) load = plus(load, amount_of(stop_loads[p].leaving));
+    for (Int p = first; p < behind; ++p) {
+        load = plus(minus(load, amount_of(stop_loads[p].leaving)), amount_of(stop_loads[p].coming));
+        if (tier == 0) stops[p].heavy = 0;
+        stops[p].heavy |= too_heavy_for(type, load, tier);
+    }
+}
+
 }  // namespace
 
 bool can_carry(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node) {
@@ -80,7 +93,7 @@ bool can_carry(const ProblemData& data, Int k, const Sortie& sortie, Int place, 
 
 bool weigh(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
-    const View<const Stop, 1> stops = fleet.stop[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
     const VehicleType& type = data.type[route.type];
     bool allowed = true;
     for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
@@ -96,6 +109,7 @@ bool weigh(const ProblemData& data, const Fleet& fleet, Int slot) {
             driven += stops[p].leg;
             if (p + 1 == route.length || stops[p + 1].kind == start_stop) {
                 allowed = weigh_trip(type, &stop_loads[first], &stop_loads[p] + 1, tier) && allowed;
+                if (has_breaks(type)) note_heavy(type, stops, stop_loads, first, p + 1, tier);
             }
         }
     }

@@ -46,6 +46,20 @@ def test_a_break_is_a_stop_and_passes_the_check(service: httpx.Client, resting: 
     assert not is_feasible(service, resting, plan)
 
 
+def test_a_break_is_taken_once_little_is_aboard(service: httpx.Client, resting: Request) -> None:
+    most = min(customer["demand"][0] for customer in resting["customers"])
+    start = {"earliest": 0, "latest": 1800}
+    resting["fleet"][0]["breaks"] = [NOON | {"start": start, "max_load": [most]}]
+    light = planned(service, resting)
+    assert light["status"] == "complete"
+    stops = [stop for route in light["routes"] for trip in route["trips"] for stop in trip["stops"]]
+    place = [stop["kind"] for stop in stops].index("break")
+    assert stops[place - 1]["load"] == [most]
+    assert is_feasible(service, resting, light)
+    resting["fleet"][0]["breaks"][0]["max_load"] = [most - 1]
+    assert not is_feasible(service, resting, light)
+
+
 def test_a_break_counts_in_working_duration_if_it_is_paid(service: httpx.Client,
                                                           resting: Request) -> None:
     paid = planned(service, resting)
@@ -76,6 +90,7 @@ def test_pictures_and_lines_show_plans_with_breaks(service: httpx.Client, restin
     ({"start": {"earliest": 9, "latest": 8}}, "WINDOW_ENDS_BEFORE_START",
      "$.fleet[0].breaks[0].start.latest"),
     ({"duration": -1}, "OUT_OF_RANGE", "$.fleet[0].breaks[0].duration"),
+    ({"max_load": [1, 2]}, "DIMENSION_MISMATCH", "$.fleet[0].breaks[0].max_load"),
     ({"at": "home"}, "UNKNOWN_VALUE", "$.fleet[0].breaks[0].at")])
 def test_wrong_breaks_are_told(service: httpx.Client, resting: Request, changes: Request, code: str,
                                path: str) -> None:

@@ -35,7 +35,8 @@ def drawn(rng: np.random.Generator) -> Problem:
             breaks.append(Break(
                 str(number), int(rng.integers(1, 6)) * MINUTE, opens * MINUTE,
                 (opens + width) * MINUTE, anywhere=bool(rng.random() < 0.4),
-                paid=bool(rng.random() < 0.6)))
+                paid=bool(rng.random() < 0.6),
+                max_load=None if rng.random() < 0.5 else (int(rng.integers(0, 3)),)))
             opens += width + int(rng.integers(0, 8))
         return replace(truck, breaks=tuple(breaks))
 

@@ -953,6 +953,7 @@ export default {
     alternatives: 'Andere Orte',
     altitude: 'Höhe',
     after_departure: 'Nach Abfahrt',
+    max_load: 'Größte Ladung',
     at: 'Wo',
     batteries: 'Akkus',
     chargers: 'Ladeplätze',
@@ -1354,6 +1355,7 @@ export default {
       after_departure: 'Ob das ab dem Beginn der ersten Fahrt zählt.',
       at: 'An einem Halt oder auch unterwegs.',
       paid: 'Ob sie zur Arbeitszeit zählt.',
+      max_load: 'Was dabei höchstens geladen sein darf. Leer: alles.',
     },
     DrivingRulesInput: {
       preset: 'Eine veröffentlichte Vorschrift, deren Zahlen gelten, wenn keine anderen dastehen.',

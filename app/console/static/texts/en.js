@@ -939,6 +939,7 @@ export default {
     alternatives: 'Other places',
     altitude: 'Altitude',
     after_departure: 'After departure',
+    max_load: 'Largest load',
     at: 'Where',
     batteries: 'Batteries',
     chargers: 'Chargers',
@@ -1333,6 +1334,7 @@ export default {
       after_departure: 'Whether that counts from the beginning of the first trip.',
       at: 'At a stop, or on the way, too.',
       paid: 'Whether it counts as working time.',
+      max_load: 'What may be aboard at most meanwhile. Empty: anything.',
     },
     DrivingRulesInput: {
       preset: 'A published rule whose numbers count, unless others are stated.',
