@@ -21,7 +21,6 @@ from app.requests.wind_validation import wind_errors
 from app.schemas.customer import CustomerInput
 from app.schemas.drones import DronesInput
 from app.schemas.errors import InputError, json_path
-from app.schemas.fairness import FairnessInput
 from app.schemas.fields import point_of
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import DepotInput
@@ -105,10 +104,6 @@ def _goods_errors(draft: Draft) -> Errors:
 
 
 def _fairness_errors(draft: Draft) -> Errors:
-    if (draft.fairness not in (None, FairnessInput()) and draft.replan is not None
-            and draft.replan.freeze_before is not None):
-        yield error_at("FAIRNESS_REPLANNED", ("fairness",), "What vehicles have done before isn't "
-                       "compared yet: leave fairness out, or freeze_before.")
     if draft.fairness is not None and draft.fleet is not None and None not in draft.fleet:
         count = sum([kind.count for _, kind in draft.vehicle_types()])
         if 0 < count < draft.fairness.min_vehicles:

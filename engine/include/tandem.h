@@ -178,6 +178,7 @@ typedef struct tandem_vehicle_type {
     int64_t driven_before;
     int64_t worked_before;
     int64_t rests_in_flights; /* whether the driver may rest while drones are out */
+    int64_t share_before;     /* what a vehicle has done of the work, -1: it isn't used yet */
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
@@ -1125,6 +1126,10 @@ typedef struct tandem_fairness {
     int64_t measure;
     int64_t min_vehicles;
     double too_few;
+    double used; /* how many vehicles, the sum of their shares and of the squares, their last end */
+    double sum;
+    double squares;
+    int64_t latest;
 } tandem_fairness;
 
 typedef struct tandem_problem_data {

@@ -27,6 +27,16 @@ struct Shares {
     Int latest;
 };
 
+// What vehicles share that are used in any case.
+inline Shares shares_before(const Fairness& fairness) {
+    return {fairness.used, fairness.sum, fairness.squares, fairness.latest};
+}
+
+// What a vehicle of a type has done before of the work.
+inline double share_before(const VehicleType& type) {
+    return static_cast<double>(std::max(Int{0}, type.share_before));
+}
+
 // All with one vehicle more.
 inline Shares with(const Shares& shares, double share, Int end) {
     return {shares.count + 1.0, shares.sum + share, shares.squares + share * share,
@@ -37,6 +47,12 @@ inline Shares with(const Shares& shares, double share, Int end) {
 inline Shares with_more(const Shares& shares, double share, double more, Int end) {
     return {shares.count, shares.sum + more, shares.squares + more * (2.0 * share + more),
             std::max(shares.latest, end)};
+}
+
+// All with a route of a type, whose vehicle may be used in any case.
+inline Shares with_route(const Shares& shares, const VehicleType& type, double share, Int end) {
+    return type.share_before < 0 ? with(shares, share, end)
+                                 : with_more(shares, share_before(type), share, end);
 }
 
 // The sum of the squares of all differences from the mean, by the mean.

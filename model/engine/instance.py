@@ -24,6 +24,7 @@ from model.engine.pair_rows import (
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
 from model.engine.serving import in_range, vehicle_costs
+from model.engine.share_rows import UNUSED, write_shares
 from model.engine.variants import (
     Variant, Way, durations_of, index_of, variant_of, way_of, ways_of, weighed_variant_of,
     write_legs,
@@ -207,6 +208,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
     if problem.shipments:
         _pack_pairs(instance, row, problem, kinds)
     write_choices(problem, instance.pair[row])
+    write_shares(problem, instance.type[row])
 
 
 def _pack_customers(instance: Instance, row: int, problem: Problem,
@@ -283,7 +285,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         kind.trips_uncharged, _pickup_order(kind), int(kind.lifo), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
-        *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room))
+        *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room), UNUSED)
 
 
 def _overtime_rate(kind: VehicleType) -> float:

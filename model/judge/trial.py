@@ -81,7 +81,7 @@ def small_problem(problem: Problem, kind: int, nodes: list[int],
         amount_decimals=problem.amount_decimals,
         incompatible_goods=problem.incompatible_goods,
         shipments=problem.shipments_among([*depots, *nodes]),
-        fairness=replace(problem.fairness, min_vehicles=0),
+        fairness=replace(problem.fairness, min_vehicles=0, before=(), last_end=0),
         may_serve=None if table is None else table[[kind]][:, np.array(nodes) - problem.num_depots],
         vehicle_costs=problem.vehicle_costs_of([kind], nodes),
     )

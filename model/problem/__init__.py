@@ -4,7 +4,7 @@ from model.problem.breaks import MAX_BREAKS, Break
 from model.problem.customer import Customer, Depot, DepotKind, IncompatibleGoods, ServedBy
 from model.problem.driving import REST, DrivingRules
 from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES_PER_WH, Energy
-from model.problem.fairness import Balance, Fairness, Measure
+from model.problem.fairness import Balance, Before, Fairness, Measure
 from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.hours import within_hours
 from model.problem.overtime import Overtime
@@ -23,7 +23,7 @@ __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
     "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
     "MOST_INCOMPATIBLE", "MOST_IN_ORDER", "MOST_RELATIONS", "MS_PER_HOUR", "REST", "UNLIMITED",
-    "UNREACHABLE", "USUAL_DECIMALS", "Balance", "BoolArray", "Break", "Customer", "Depot",
+    "UNREACHABLE", "USUAL_DECIMALS", "Balance", "Before", "BoolArray", "Break", "Customer", "Depot",
     "DepotKind", "DrivingRules", "DroneType", "Energy", "Fairness", "FloatArray",
     "IncompatibleGoods", "Int32Array", "IntArray", "Lag", "Measure", "Overtime", "Pickups",
     "Points", "Problem", "Relation", "RelationKind", "ServedBy", "Shipment", "SpeedProfile",

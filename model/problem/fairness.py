@@ -1,7 +1,7 @@
 """What a plan costs as a whole: its end, how unequal its vehicles' work is, and too few of them."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from model.problem.quantities import require_rate
 
@@ -19,6 +19,13 @@ class Balance:
         require_rate("balance cost", self.cost)
 
 
+class Before(NamedTuple):
+    """What a vehicle has done that has worked already."""
+
+    kinds: frozenset[int]  # indices of types that are this vehicle and no other
+    share: int  # in ms, stops, parts or mm
+
+
 @dataclass(frozen=True)
 class Fairness:
     """Prices of a plan as a whole."""
@@ -27,6 +34,8 @@ class Fairness:
     balance: Balance | None = None
     min_vehicles: int = 0  # how many are to be used
     too_few_cost: float = 0.0  # of each vehicle fewer, more than using one costs
+    before: tuple[Before, ...] = ()  # vehicles that are used in any case
+    last_end: int = 0  # ms; when those of them are done that do nothing more
 
     def __post_init__(self) -> None:
         require_rate("makespan_cost_per_hour", self.makespan_cost_per_hour)

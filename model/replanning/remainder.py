@@ -16,6 +16,7 @@ from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
 from model.replanning.amend import customers_of
 from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
+from model.replanning.shares import fairness_left
 from model.replanning.workers import Worker, from_now_on
 
 NOBODY, ANYBODY = -1, -2
@@ -101,7 +102,8 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
         may_serve=_table(problem, past, kinds, owners, nodes)
         & _goods_table(problem, kept, kinds, owners, nodes)
         & company_table(problem, kept, kinds, owners, nodes),
-        vehicle_costs=problem.vehicle_costs_of(kinds, nodes))
+        vehicle_costs=problem.vehicle_costs_of(kinds, nodes),
+        fairness=fairness_left(problem, past, kept, owners))
     return Remainder(left, tuple(source), kinds, owners)
 
 

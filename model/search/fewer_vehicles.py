@@ -60,7 +60,7 @@ def search_fewer(data: ProblemData, whole: Searcher, search: Callable[[], None],
 
 def _fewest(data: ProblemData) -> int:
     """Return how many routes there are at least, where what each customer is brought tells."""
-    least = data.fairness.min_vehicles
+    least = data.fairness.min_vehicles - int(data.fairness.used)
     if len(data.pair) or data.type["max_trips"][0] > 1:
         return max(1, least)
     demand = data.place["demand"][0, data.num_depots:, 0].sum(axis=0)

@@ -72,7 +72,9 @@ def _plan_prices(problem: Problem) -> PlanPrices:
     """Return what the plan as a whole costs, per ms, stop, part or mm."""
     fairness = problem.fairness
     per_ms, balance = fairness.makespan_cost_per_hour / MS_PER_HOUR, fairness.balance
-    least = fairness.min_vehicles, fairness.too_few_cost
+    shares = [float(each.share) for each in fairness.before]
+    least = (fairness.min_vehicles, fairness.too_few_cost, float(len(shares)), sum(shares),
+             sum([share * share for share in shares]), fairness.last_end)
     if balance is None:
         return PlanPrices(per_ms, 0.0, 0, *least)
     unit = {"duration": MS_PER_HOUR, "stops": 1, "load": 10**problem.amount_decimals[0],

@@ -59,8 +59,9 @@ class Heat:
         missing, is_fleet = int(searcher.count.missing), vehicles_first(data, searcher)
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(data, searcher)
-        lacking = max(0, data.fairness.min_vehicles - int(searcher.now.used.sum()))
-        cost -= lacking * data.fairness.too_few
+        fairness = data.fairness
+        lacking = fairness.min_vehicles - fairness.used - int(searcher.now.used.sum())
+        cost -= max(0.0, lacking) * fairness.too_few
         if is_fleet:
             cost -= fixed_costs(data, searcher)
         drones = data.type["drones"][:data.num_types]

@@ -54,12 +54,13 @@ double share_of(const ProblemData& data, const Fleet& fleet, Int slot) {
 }  // namespace
 
 Shares shares_of(const ProblemData& data, const Searcher& searcher) {
-    Shares shares{0.0, 0.0, 0.0, 0};
-    if (!plan_costs(data)) return shares;
+    if (!plan_costs(data)) return {0.0, 0.0, 0.0, 0};
+    Shares shares = shares_before(data.fairness);
     const Fleet& now = searcher.now;
     const auto count = [&](Int slot) {
         if (now.route[slot].length == 0) return;
-        shares = with(shares, share_of(data, now, slot), now.route[slot].end);
+        const Route& route = now.route[slot];
+        shares = with_route(shares, data.type[route.type], share_of(data, now, slot), route.end);
     };
     const Int active = searcher.count->active;
     for (const Int slot : searcher.active.first(active)) count(slot);
@@ -85,7 +86,8 @@ double plan_cost_of_joining(const ProblemData& data, const Fleet& fleet, const S
     if (measure_of(data.fairness) == Measure::stops) more = 1.0;
     if (measure_of(data.fairness) == Measure::load) more = amount_at(data, node);
     if (measure_of(data.fairness) == Measure::duration) more = longer;
-    const Shares grown = with_more(shares, share, more, route.end + Int(longer));
+    const double before = share_before(data.type[route.type]) + share;
+    const Shares grown = with_more(shares, before, more, route.end + Int(longer));
     return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
 }
 
@@ -100,7 +102,7 @@ double plan_cost_of_opening(const ProblemData& data, const Shares& shares, Int k
     if (measure_of(data.fairness) == Measure::load) share = amount_at(data, node);
     if (measure_of(data.fairness) == Measure::distance)
         share = double(out.distance + home.distance);
-    const Shares grown = with(shares, share, type.shift_earliest + working);
+    const Shares grown = with_route(shares, type, share, type.shift_earliest + working);
     return fairness_cost(data.fairness, grown) - fairness_cost(data.fairness, shares);
 }
 

@@ -73,7 +73,6 @@ def _construct(data: ProblemData, searcher: Searcher, linked: Linked | None) -> 
     """Plan anew by insertion in the best of several orders, if that is better. In place."""
     for order in CONSTRUCTED:
         call("tandem_disband", data, searcher)
-        unused = data.fairness.min_vehicles * data.fairness.too_few
-        searcher.value.cost = missing_cost(data, searcher) + unused
+        searcher.value.cost = missing_cost(data, searcher) + data.fairness.unused
         insert_missing(data, searcher, order, linked)
     go_back(searcher)

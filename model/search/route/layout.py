@@ -58,6 +58,17 @@ class PlanPrices(NamedTuple):
     measure: int  # index into MEASURES
     min_vehicles: int
     too_few: float  # of each vehicle fewer
+    used: float = 0.0  # how many vehicles, in any case
+    sum: float = 0.0  # of their shares
+    squares: float = 0.0  # of their shares
+    latest: int = 0  # ms, their last end
+
+    @property
+    def unused(self) -> float:
+        """Return what it costs that nobody else does anything."""
+        unequal = self.used * self.squares / self.sum - self.sum if self.sum > 0 else 0.0
+        return (self.makespan * self.latest + self.balance * max(0.0, unequal)
+                + self.too_few * max(0.0, self.min_vehicles - self.used))
 
 
 MEASURES = "duration", "stops", "load", "distance"

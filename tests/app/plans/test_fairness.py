@@ -69,7 +69,18 @@ def test_vehicles_that_lack_are_told_where_no_plan_uses_as_many(client: httpx.Cl
     assert errors_of(client, request) == {("TOO_FEW_VEHICLES", "$.fairness.min_vehicles")}
 
 
-def test_a_day_under_way_is_not_shared_fairly_yet(client: httpx.Client) -> None:
-    plan = planned(client, street(None))
-    request = street({"makespan_cost_per_hour": 1}) | {"replan": {"plan": plan, "freeze_before": 5}}
-    assert errors_of(client, request) == {("FAIRNESS_REPLANNED", "$.fairness")}
+@pytest.mark.parametrize(("least", "used"), [(0, 2), (3, 3)])
+def test_what_was_done_counts_on_a_day_under_way(client: httpx.Client, searching: httpx.Client,
+                                                 least: int, used: int) -> None:
+    request = street({"balance": {"measure": "stops", "cost": 2}, "min_vehicles": least})
+    request["fleet"] = [{"id": "van", "count": 3, "capacity": [9], "costs": {"fixed": 99}}]
+    plan = searched(client, searching, request | {"fairness": {}})
+    assert stops_of(plan) == [6]
+    begun = plan["routes"][0]["trips"][0]["stops"][0]["departure"] + 1
+    request["customers"] += [{"id": f"new {number}", "location": [-8, number], "demand": [1]}
+                             for number in range(4)]
+    request["replan"] = {"plan": plan, "freeze_before": begun}
+    later = planned(searching, request)
+    assert stops_of(later) == {2: [4, 6], 3: [2, 2, 6]}[used]
+    assert (later["summary"]["vehicles"], later["summary"]["vehicles_lacking"]) == (used, 0)
+    assert later["cost"]["balance"] == pytest.approx(2 * {2: 2 / 5, 3: 32 / 10}[used])

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection
 from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -10,7 +11,7 @@ from model.judge.check import check
 from model.judge.launches import launch_begins
 from model.judge.past import Vehicle
 from model.planner import Planner, PlanOptions
-from model.problem import Problem, Travel
+from model.problem import Balance, Fairness, Measure, Problem, Travel
 from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution, Trip
 from tests.model.fliers import from_few_hubs, with_fliers
@@ -295,10 +296,16 @@ def with_all_at_once(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_limits_aboard(rng, problem)
 
 
+def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
+    balance = Balance(get_args(Measure)[int(rng.integers(4))], float(rng.integers(0, 9)))
+    return replace(problem, fairness=Fairness(
+        float(rng.integers(0, 2)) * 30, balance, int(rng.integers(0, 4)), 40.0))
+
+
 @pytest.mark.parametrize("change", [
-    with_own_durations, with_goods, with_setups, with_limits_aboard, with_all_at_once,
-    with_ranges, with_few_airborne, with_few_launch_places, with_storms, with_relations,
-    with_choices])
+    with_fairness, with_own_durations, with_goods, with_setups, with_limits_aboard,
+    with_all_at_once, with_ranges, with_few_airborne, with_few_launch_places, with_storms,
+    with_relations, with_choices])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],

@@ -1583,7 +1583,6 @@ export default {
     SHIFT_ENDS_BEFORE_START: 'Die Schicht endet, bevor sie beginnt.',
     DEPOT_CLOSED: 'Das Depot ist die ganze Schicht geschlossen.',
     HOURS_DIFFER: 'Depots eines Typs öffnen oder schließen zu verschiedenen Zeiten.',
-    FAIRNESS_REPLANNED: 'Ein Tag lässt sich unterwegs noch nicht ausgewogen weiterplanen.',
     TOO_FEW_VEHICLES: 'Es sollen mehr Fahrzeuge fahren, als es gibt.',
     RELATION_WITH: 'Das geht nicht mit einer Reihenfolge, oder sagt ohne eine nichts.',
     HOURS_AND_OVERTIME: 'Das Depot schließt vor allen Überstunden.',

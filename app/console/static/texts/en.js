@@ -1558,7 +1558,6 @@ export default {
     SHIFT_ENDS_BEFORE_START: 'The shift ends before it begins.',
     DEPOT_CLOSED: 'The depot is closed all shift.',
     HOURS_DIFFER: 'Depots of one type open or close at different times.',
-    FAIRNESS_REPLANNED: 'A day under way can’t be planned on with fairness yet.',
     TOO_FEW_VEHICLES: 'More vehicles are to be used than there are.',
     RELATION_WITH: 'This can’t be combined with an order of customers, or says nothing without one.',
     HOURS_AND_OVERTIME: 'The depot closes before all overtime.',
