@@ -1,13 +1,15 @@
 """Random problems to train and validate on: the mix of all variants, which `variants` lists."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from model.problem import Problem
+from training.company import chosen, related, shipments
 from training.mixture import mixed
 from training.particulars import particular
 from training.pickups import pickups
+from training.resting import resting
 from training.variants import (
     InstanceConfig,
     appointed,
@@ -36,6 +38,10 @@ VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem
     "pickups": pickups,
     "various": various,
     "particular": particular,
+    "shipments": shipments,
+    "chosen": chosen,
+    "related": related,
+    "resting": resting,
 }
 
 VALIDATED = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", "mixed")
@@ -44,9 +50,10 @@ VALIDATED = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", 
 COMPARED = (*VALIDATED, "appointed")
 """Variants on which versions of this planner are compared, which stay as they are, too."""
 
-SHARES = {"cvrp": 0.04, "vrptw": 0.18, "soft": 0.04, "hetero": 0.05, "multitrip": 0.06,
-          "drone": 0.09, "table1": 0.1, "mixed": 0.08, "appointed": 0.06, "pickups": 0.1,
-          "various": 0.1, "particular": 0.1}
+SHARES = {"cvrp": 0.04, "vrptw": 0.16, "soft": 0.04, "hetero": 0.04, "multitrip": 0.05,
+          "drone": 0.08, "table1": 0.1, "mixed": 0.06, "appointed": 0.05, "pickups": 0.05,
+          "various": 0.05, "particular": 0.05, "shipments": 0.1, "chosen": 0.04, "related": 0.05,
+          "resting": 0.04}
 """How often training draws each variant."""
 
 CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])
@@ -80,14 +87,15 @@ def sample_variant(rng: np.random.Generator) -> str:
                      len(names) - 1)]
 
 
-def validation_set(size: int = 200, seed: int = 20_250_926) -> list[tuple[str, Problem]]:
+def validation_set(size: int = 200, seed: int = 20_250_926,
+                   names: Sequence[str] = VALIDATED) -> list[tuple[str, Problem]]:
     """Return the named problems that every run is measured on.
 
-    `VALIDATED` take turns, then sizes (40 % of 20 customers, 40 % of 50, 20 % of 100): by default
-    each has 10, 10 and 5. Each problem has its own stream, so a smaller set is a prefix of
-    a larger one.
+    Variants, usually `VALIDATED`, take turns, then sizes (40 % of 20 customers, 40 % of 50, 20 % of
+    100): by default each has 10, 10 and 5. Each problem has its own stream, so a smaller set is a
+    prefix of a larger one.
     """
-    names, problems = VALIDATED, []
+    problems = []
     for index in range(size):
         variant = names[index % len(names)]
         num_customers = VALIDATION_SIZES[index // len(names) % len(VALIDATION_SIZES)]

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 
+import torch
 from torch import Tensor
 from torch.nn.functional import pad
 
@@ -26,3 +27,17 @@ def widened(policy: AnyPolicy, weights: dict[str, Tensor]) -> dict[str, Tensor]:
             pad(value, (0, 0) * (value.dim() - 2)
                 + (0, max(0, own[name].shape[1] - value.shape[1])))
             for name, value in weights.items()}
+
+
+def train_new_alone(policy: AnyPolicy, known: dict[str, int]) -> None:
+    """Let nothing be learnt but weights of features behind those that are known. In place.
+
+    `known` tells how many columns each layer had that has more now. So problems that state none of
+    what is new are planned as before.
+    """
+    for name, parameter in policy.named_parameters():
+        parameter.requires_grad_(name in known)
+        if name in known:
+            is_new = torch.arange(parameter.shape[1], device=parameter.device) >= known[name]
+            is_new = is_new.view(1, -1, *(1,) * (parameter.dim() - 2))
+            parameter.register_hook(lambda gradient, is_new=is_new: gradient * is_new)

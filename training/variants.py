@@ -28,6 +28,10 @@ Shared by all, so not restated below:
 | `pickups` | amounts both ways, or pickups last, open ends, prices of what is aboard |
 | `various` | rules that all those lack: places, overtime, stops, batteries, windows, tables, … |
 | `particular` | and those: addresses, setups, service by type, freshness, goods, batteries, … |
+| `shipments` | parcels that are fetched at one customer and brought to another |
+| `chosen` | several places of a customer, prices by vehicle |
+| `related` | customers who go together, apart, or one before another |
+| `resting` | breaks, rests by driving rules, limits of all legs together |
 
 References
 ----------

@@ -382,6 +382,13 @@ typedef struct tandem_node_features {
     float max_time_aboard;
     float setup;
     float barred;
+    float partner_x;
+    float partner_y;
+    float is_pickup;
+    float is_delivery;
+    float other_places;
+    float price;
+    float kept;
 } tandem_node_features;
 
 typedef struct tandem_type_features {
@@ -419,6 +426,9 @@ typedef struct tandem_type_features {
     float other_depots;
     float handling;
     float charge;
+    float breaks;
+    float driving_limit;
+    float price;
 } tandem_type_features;
 
 typedef struct tandem_action_features {
@@ -447,6 +457,13 @@ typedef struct tandem_action_features {
     float lost;
     float detour_before;
     float later_duration;
+    float price;
+    float delivers;
+    float delivery_way;
+    float delivery_hurry;
+    float joins;
+    float forsaken;
+    float rest;
 } tandem_action_features;
 
 typedef struct tandem_vehicle_features {
@@ -464,7 +481,10 @@ typedef struct tandem_vehicle_features {
     float flying;
     float drone_aboard;
     float load_by_demand;
-    float type[34];
+    float type[37];
+    float aboard;
+    float bound;
+    float rest_due;
 } tandem_vehicle_features;
 
 /* A stop of a truck: what is chosen, and all that follows. */

@@ -1,6 +1,7 @@
 #include "policy/decision.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 
 #include "guard.h"
@@ -16,6 +17,8 @@ constexpr Int pointer_part = 3 * width;
 constexpr Int share_part = 4 * width;
 
 constexpr Int num_action_features = sizeof(ActionFeatures) / sizeof(float);
+// Those behind are 0 where nobody states a rule that few state.
+constexpr Int num_usual_features = offsetof(ActionFeatures, price) / sizeof(float);
 
 constexpr Int blocks = width / num_lanes;                // of lanes, of a query
 constexpr Int action_blocks = action_width / num_lanes;  // of what describes an action
@@ -48,11 +51,11 @@ void add_product(const float* x, View<const float, 2> matrix, float* result) {
     for (Int k = 0; k < num_blocks; ++k) store(sum[k], result + k * num_lanes);
 }
 
-// Add rows times a matrix to what describes actions.
-template <Int length>
+// Add rows, from an entry on, times a matrix to what describes actions.
+template <Int length, Int first = 0>
 void add_products(const float* const (&rows)[abreast], const float* matrix,
                   Lanes (&sum)[abreast][action_blocks]) {
-    for (Int i = 0; i < length; ++i) {
+    for (Int i = first; i < length; ++i) {
         Lanes of_row[action_blocks];
         for (Int k = 0; k < action_blocks; ++k) {
             load(matrix + i * action_width + k * num_lanes, of_row[k]);
@@ -61,6 +64,16 @@ void add_products(const float* const (&rows)[abreast], const float* matrix,
             for (Int k = 0; k < action_blocks; ++k) sum[row][k] += rows[row][i] * of_row[k];
         }
     }
+}
+
+// Whether any of some rows tells of a rule that few state.
+bool tells_of_rarer(const float* const (&rows)[abreast]) {
+    for (const float* row : rows) {
+        for (Int i = num_usual_features; i < num_action_features; ++i) {
+            if (row[i] != 0) return true;
+        }
+    }
+    return false;
 }
 
 // Where what describes an action lies.
@@ -115,7 +128,11 @@ void Decider::describe_actions(Memory memory, const Seen& seen) {
                 sum[row][k] += own;
             }
         }
-        add_products<num_action_features>(feature, weights_.action.data(), sum);
+        add_products<num_usual_features>(feature, weights_.action.data(), sum);
+        if (tells_of_rarer(feature)) {
+            add_products<num_action_features, num_usual_features>(feature, weights_.action.data(),
+                                                                  sum);
+        }
         for (Int row = 0; row < abreast; ++row) {
             for (Int k = 0; k < action_blocks; ++k) {
                 raise_to_zero(sum[row][k]);

@@ -4,8 +4,10 @@
 
 #include "guard.h"
 #include "policy/lookahead.h"
+#include "policy/rarer.h"
 #include "rules/flight.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "simulation/aboard.h"
@@ -120,6 +122,11 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
         left = std::min(static_cast<double>(feature.window_slack), slack(0, excess, unit.time));
         feature.window_slack = to_float(left);
     }
+    if (some_limited(setting.max_between) && is_delivery(setting.pair, node)) {
+        const Int excess = excess_under_way(setting, log, node, outlook.start);
+        left = std::min(static_cast<double>(feature.window_slack), slack(0, excess, unit.time));
+        feature.window_slack = to_float(left);
+    }
     const double hourly = static_cast<double>(late) * prices[node].lateness +
                           static_cast<double>(wait) * prices[node].waiting;
     const double once = once_late_cost(prices[node], place, outlook.arrival);
@@ -129,6 +136,13 @@ void describe_customer(const Situation& now, Int node, const Outlook& outlook,
     const Int departure = log.count.trips > 0 ? vehicle.departure_best : vehicle.next_start;
     feature.working_slack =
         to_float(slack(usual_working(setting.type), outlook.end - departure, unit.time));
+    if (limits_travel(setting.type)) {
+        const Int used = vehicle.travel + travel_of(setting, vehicle.node, node) +
+                         travel_of(setting, node, setting.type.ends_at);
+        left = std::min(static_cast<double>(feature.working_slack),
+                        slack(longest_travel(setting.type), used, unit.time));
+        feature.working_slack = to_float(left);
+    }
     feature.release_delay = to_float(ratio(release_of(place) - vehicle.next_start, unit.time));
 }
 
@@ -215,7 +229,10 @@ double unserved_demand(const Instance& instance, const State& state, Int r) {
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (served[node]) continue;
         total += static_cast<double>(demand_of(nodes[node])[0]);
-        if (some_picked) picked += static_cast<double>(picked_of(amounts, node, 0)[0]);
+        // What is brought somewhere was picked up before.
+        if (some_picked) {
+            picked += static_cast<double>(std::max(Int{0}, picked_of(amounts, node, 0)[0]));
+        }
     }
     return std::max(total, picked);
 }
@@ -230,6 +247,20 @@ double closed_reserve(const Instance& instance, const State& state, Int r) {
                    static_cast<double>(type.max_trips) * static_cast<double>(type.capacity[0]);
     }
     return reserve;
+}
+
+// The open vehicle as rules see it that few state.
+Duty duty_of(const Instance& instance, const State& state, Int r, const Setting& setting,
+             const Unit& unit, const VehicleLog& log) {
+    const Int b = state.problem[r];
+    const Size& size = instance.size[b];
+    return {.setting = setting,
+            .unit = unit,
+            .vehicle = state.vehicle[r],
+            .log = log,
+            .served = state.served[r],
+            .vehicle_cost = instance.vehicle_cost[b],
+            .num_nodes = size.depots + size.customers};
 }
 
 // Describe the open vehicle, when all vehicles not open yet can carry so much.
@@ -265,6 +296,13 @@ void describe_vehicle(const Scene& scene, const State& state, Int r, double unse
     seen.drone_aboard = type.drones > vehicle.flying ? 1 : 0;
     seen.load_by_demand = to_float(std::min(free / std::max(1.0, unserved), 2.0));
     std::copy_n(type_token[b][vehicle.type].data(), std::size(seen.type), seen.type);
+    const Setting setting = setting_of(instance, b, vehicle.type);
+    const Unit unit = unit_of(scale, b);
+    if (limits_travel(type)) {
+        const double left = slack(longest_travel(type), vehicle.travel, unit.time);
+        seen.working_slack = to_float(std::min(static_cast<double>(seen.working_slack), left));
+    }
+    describe_duty(duty_of(instance, state, r, setting, unit, log), clock, seen);
 }
 
 // Describe the open vehicle and what is left to do.
@@ -305,6 +343,10 @@ void describe_opens(const Scene& scene, const State& state, Int r, double unserv
         ActionFeatures& feature = begin_candidate(seen, index, instance.node.shape(2) + k);
         describe_open(instance.type(b, k), instance.rate(b, k).fixed, state.used(r, k), unserved,
                       unit, feature);
+        if (state.vehicle[r].type == no_vehicle) continue;
+        const Setting setting = setting_of(instance, b, state.vehicle[r].type);
+        const VehicleLog log = log_of(state.log, r);
+        describe_parting(duty_of(instance, state, r, setting, unit, log), true, feature);
     }
 }
 
@@ -332,6 +374,7 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
         .since = vehicle.idle != 0 ? vehicle.next_start : log.trip[log.count.trips - 1].start,
         .nearest = nearest_drive(setting.drive[here], actions),
     };
+    const Duty duty = duty_of(instance, state, r, setting, unit, log);
     for (Int index = 0; index < actions.size(); ++index) {
         const ActionKind kind = kind_of(actions[index]);
         const Int node = target_of(actions[index]);
@@ -345,15 +388,17 @@ void describe_moves(const Instance& instance, const Scales& scale, const State& 
         }
         if (kind == ActionKind::end_trip) {
             describe_return(now, feature);
+            describe_parting(duty, log.count.trips >= setting.type.max_trips, feature);
             continue;
         }
         feature.way_home = to_float(std::min(
             static_cast<double>(setting.drive(node, setting.type.ends_at)) / unit.time, furthest));
         if (kind == ActionKind::drive) describe_drive(now, node, feature);
         const Outlook& outlook = seen.outlook[index];
+        const Candidate candidate{here, node, kind == ActionKind::launch, load, outlook};
         describe_customer(now, node, outlook, feature);
-        describe_neighbours(setting, neighbour[node], served,
-                            {here, node, kind == ActionKind::launch, load, outlook}, unit, feature);
+        describe_neighbours(setting, neighbour[node], served, candidate, unit, feature);
+        describe_rarer(duty, candidate, feature);
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "rules/flight.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/window.h"
 
 namespace tandem {
@@ -32,14 +33,25 @@ Int asked(const Setting& setting, Int node) {
     return std::max(delivered, picked_of(setting.amount, node, 0)[0]);
 }
 
-// Run for each unserved neighbour, the nearest first, as many as are wanted.
+// Whether nobody can be served at a node once a candidate is: a parcel isn't aboard, or he is the
+// same customer elsewhere.
+bool is_out(View<const Pair, 1> pairs, View<const bool, 1> served, Int candidate, Int other) {
+    if (is_delivery(pairs, other)) {
+        return pairs[other].partner != candidate && !served[pairs[other].partner];
+    }
+    return unit_of(pairs, other) == unit_of(pairs, candidate) && !is_paired(pairs, other);
+}
+
+// Run for each neighbour who is unserved behind a candidate, the nearest first, as many as are
+// wanted.
 template <class Look>
-void look_around(View<const Int, 1> neighbours, View<const bool, 1> served, Int wanted,
-                 Look&& look) {
+void look_around(View<const Int, 1> neighbours, View<const bool, 1> served,
+                 View<const Pair, 1> pairs, Int candidate, Int wanted, Look&& look) {
+    const bool some_out = some_paired(pairs);
     Int seen = 0;
     for (const Int other : neighbours) {
         if (other < 0 || seen == wanted) return;
-        if (served[other]) continue;
+        if (served[other] || (some_out && is_out(pairs, served, candidate, other))) continue;
         ++seen;
         look(other);
     }
@@ -53,7 +65,7 @@ void describe_company(const Setting& setting, View<const Int, 1> neighbours,
     const Int past = setting.drive(candidate.here, candidate.node);
     bool is_first = true;
     feature.next_way = feature.third_way = feature.next_excess = 1;
-    look_around(neighbours, served, num_company, [&](Int other) {
+    look_around(neighbours, served, setting.pair, candidate.node, num_company, [&](Int other) {
         const Int way = onward[other];
         feature.third_way = to_float(ratio(way, unit.near));
         if (!is_first) return;
@@ -78,7 +90,7 @@ void describe_drive(const Setting& setting, View<const Int, 1> neighbours,
     const Int left = candidate.load - asked(setting, candidate.node);
     Int soonest = unlimited, tightest = unlimited, detour = unlimited, later = unlimited;
     Int seen = 0, lost = 0;
-    look_around(neighbours, served, num_prospects, [&](Int other) {
+    look_around(neighbours, served, setting.pair, candidate.node, num_prospects, [&](Int other) {
         ++seen;
         const Windows there = setting.node[other];
         const Int latest = there.closing();

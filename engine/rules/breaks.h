@@ -121,6 +121,13 @@ inline bool none_due(const VehicleType& type, Int number, Int begin, Int end) {
     return true;
 }
 
+// Until when the next break from `number` on has to begin, of a route that begins at `begin`; `far`
+// if none is left.
+inline Int latest_rest(const VehicleType& type, Int number, Int begin) {
+    while (number < type.breaks && over_before(type, number, begin)) ++number;
+    return number < type.breaks ? break_of(type, number, begin).latest : far;
+}
+
 // How long the breaks between two stops are that don't count in the working duration.
 inline Int unpaid_of(const VehicleType& type, Rests rests) {
     Int unpaid = 0;

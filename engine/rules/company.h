@@ -27,4 +27,9 @@ inline bool joins_anybody(const Goods& company, Int parted) {
     return (kept_by_vehicle(company) & parted) == 0;
 }
 
+// Whether a customer goes with those of some relations, on one trip or by one vehicle.
+inline bool goes_with(const Goods& company, Int on_trip, Int by_vehicle) {
+    return (kept_on_trip(company) & on_trip) != 0 || (kept_by_vehicle(company) & by_vehicle) != 0;
+}
+
 }  // namespace tandem

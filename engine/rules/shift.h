@@ -95,6 +95,9 @@ inline bool may_travel(const VehicleType& type, Int travel) {
     return travel <= type.max_travel_duration;
 }
 
+// How long a vehicle may be on legs, on all its trips together, `unlimited` if ever.
+inline Int longest_travel(const VehicleType& type) { return type.max_travel_duration; }
+
 // How many customers the truck may serve itself on a trip, `unlimited` if any number.
 inline Int most_stops(const VehicleType& type) { return type.max_stops; }
 

@@ -24,10 +24,14 @@ duration, detour against going home now, excess over the nearest candidate, shar
 delay for release; way to the nearest unserved customer, to the third nearest, the former's excess
 over the way from here. Of the nearest unserved ones in time: how soon one is served next (a drone
 recovered), its slack (the truck's waiting), the share lost by this action, the detour by one before
-(by air: that the truck would make instead), how soon this one could be served after another.
+(by air: that the truck would make instead), how soon this one could be served after another. What
+being served by this vehicle costs on top; whether a shipment is delivered; of a pickup, the way to
+its delivery, and how little time that leaves; whether relations keep it with somebody served; how
+many unserved ones they keep from being served then; how long the driver rests on the way.
 
-What is picked up is a load too, and so is a customer where trips of a truck without drones may have
-so many. Shift and working duration end where overtime begins.
+A delivery's window ends once its parcel is too long under way, and the working duration where legs
+take too long. What is picked up is a load too, and so is a customer where trips of a truck without
+drones may have so many. Shift and working duration end where overtime begins.
 
 Of a return, the shares are the load left of the capacity, and the trips left. Of a vehicle to open,
 they are the vehicles left and the capacity by what is unserved; the slack of distance tells whether
@@ -37,7 +41,9 @@ VEHICLE_STATE = dtype_of("tandem_vehicle_features")
 """The open vehicle and what is left to do: customers and demand unserved; that demand by what all
 vehicles left can carry; the way home; whether it is idle; its clock; the load left; how much more
 than the demand all can carry; trips left; slack of shift and of working duration; drones in flight
-and whether one is aboard; the load left by the demand; the features of its type."""
+and whether one is aboard; the load left by the demand; the features of its type; the share of the
+capacity that parcels take which are aboard; how many unserved ones relations keep with its own; how
+soon its driver has to rest."""
 
 NUM_ACTION_FEATURES = ACTION.itemsize // 4
 NUM_GLOBAL_FEATURES = VEHICLE_STATE.itemsize // 4

@@ -19,7 +19,7 @@ from model.engine.cores import num_cores
 from model.engine.instance import Instance
 from model.engine.threads import side_by_side
 from model.policy.decision_features import Observation, Rollouts, Scene
-from model.policy.problem_features import Float32Array, Tokens, scales, tokens
+from model.policy.problem_features import PARTNER, PLACE, Float32Array, Tokens, scales, tokens
 from model.policy.rolling import (
     NOTHING, STEP_WEIGHTS, Rollout, StepWeights, cost_of, read_weights, roll_out,
 )
@@ -125,7 +125,10 @@ def laid_out(seen: Tokens, symmetry: int) -> Tokens:
     """Return a problem's tokens with its plane laid out by one of the `SYMMETRIES`."""
     swapped, x, y = SYMMETRIES[symmetry]
     node = seen.node.copy()
-    node[..., :2] = (node[..., 1::-1] if swapped else node[..., :2]) * np.array([x, y], np.float32)
+    for first in (PLACE, PARTNER):
+        both = node[..., first:first + 2]
+        node[..., first:first + 2] = (both[..., ::-1] if swapped else both) * np.array(
+            [x, y], np.float32)
     return seen._replace(node=node)
 
 

@@ -23,7 +23,10 @@ the largest capacity, of all demand, of demand and payload together; service, re
 lateness and waiting; share of types whose trucks, and whose drones, may serve it; the way home by
 scale and by nearness. What few ask for: the cost of leaving it out, the share that is picked up,
 how much of the horizon lies between its windows, its longest time aboard, its setup, and how many
-of the customers have goods that must not go with its own."""
+of the customers have goods that must not go with its own. Of a shipment's end, which one it is and
+where the other lies from there; how many other places its customer has, whose cost of being left
+out all of them show; what being served costs on top, in the mean of all types; and how many of the
+customers relations keep with it."""
 
 TYPE = dtype_of("tandem_type_features")
 """A vehicle type: capacity by the largest and by all demand, that of all vehicles, how many there
@@ -33,7 +36,11 @@ drones, their payload, endurance, mean flight from the depot and its cost; the s
 that trucks and drones may serve. What few are given: the mean ways from where it begins and to
 where it ends; what overtime costs and how much there may be; what stops and loads cost; the most
 stops and sorties; whether pickups come last; other depots where it reloads; how long launch and
-recovery take, and how fast batteries are charged."""
+recovery take, and how fast batteries are charged; how long its breaks are, how soon a rest is due,
+and what serving costs on top in the mean. Legs that may take so long are shown as work that may."""
+
+PLACE, PARTNER = [(NODE.names or ()).index(name) for name in ("x", "partner_x")]
+"""Columns of node features that hold a way along each axis of the plane, one behind the other."""
 
 NUM_NODE_FEATURES = NODE.itemsize // 4
 NUM_TYPE_FEATURES = TYPE.itemsize // 4
@@ -85,7 +92,7 @@ def scales(instance: Instance) -> Scales:
                      + rate["time"].mean() * result.time[b] / MS_PER_HOUR)
         result.cost[b] = cost if cost > 0 else max(1e-9, float(rate["fixed"].mean()) or 1.0)
         delivered = instance.node[b, 0, nodes, 0]["demand"]
-        result.amount[b] = max(1, picked[b, nodes, 0].sum(), delivered[:, 0].sum())
+        result.amount[b] = max(1, np.maximum(picked[b, nodes, 0], 0).sum(), delivered[:, 0].sum())
     return result
 
 
@@ -184,6 +191,7 @@ def node_features(instance: Instance, scale: Scales, coordinates: FloatArray,
     seen["nearness"] = squash(home / scale.near[:, None] / 4)
     _describe_who_serves(instance, demand, seen)
     _describe_rarer_of_nodes(instance, scale, seen)
+    _describe_company(instance, scale, place, seen)
     return seen
 
 
@@ -205,12 +213,15 @@ def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -
     """Describe what few customers ask for. In place."""
     time, horizon = scale.time[:, None], scale.horizon[:, None]
     left_out = instance.unassigned_cost[:, None] + instance.unassigned_more
+    if instance.pair.shape[1]:
+        left_out = np.take_along_axis(left_out, instance.pair["unit"], axis=1)
     capacity = np.maximum(instance.type["capacity"].max(axis=1), 1)[:, None, :DIMENSIONS_PER_TIER]
     gap = instance.node[:, 0, :, 1:]
     between = np.where(gap["window_latest"] < FAR, gap["window_earliest"] - gap["window_latest"], 0)
     is_customer = seen["is_depot"] == 0
     seen["unassigned_cost"] = is_customer * squash(left_out / scale.cost[:, None])
-    seen["pickup_share"] = np.minimum((picked_up(instance) / capacity).max(axis=2), 2)
+    picked = np.maximum(picked_up(instance), 0)
+    seen["pickup_share"] = np.minimum((picked / capacity).max(axis=2), 2)
     seen["between_windows"] = np.minimum(between.sum(axis=2) / horizon, 2)
     seen["max_time_aboard"] = (
         squash(instance.max_time_aboard / time) if instance.max_time_aboard.shape[1] else 1.0)
@@ -222,6 +233,36 @@ def _describe_rarer_of_nodes(instance: Instance, scale: Scales, seen: Records) -
         apart = goods["held"][:, None, :] & away[:, :, None] != 0
         apart &= ~np.eye(apart.shape[1], dtype=np.bool_)
         seen["barred"] = apart.sum(axis=2) / np.maximum(instance.size["customers"], 1)[:, None]
+
+
+def _describe_company(instance: Instance, scale: Scales, place: FloatArray,
+                      seen: Records) -> None:
+    """Describe who belongs together, and what serving customers costs on top. In place.
+
+    `place` (problem, node, 2) is where nodes lie, -1..1.
+    """
+    customers = np.maximum(instance.size["customers"], 1)[:, None]
+    is_customer = seen["is_depot"] == 0
+    pair = instance.pair
+    if pair.shape[1]:
+        is_end = pair["partner"] >= 0
+        partner = np.where(is_end, pair["partner"], np.arange(pair.shape[1]))
+        away = np.take_along_axis(place, partner[..., None], axis=1) - place
+        seen["partner_x"], seen["partner_y"] = away[..., 0] / 2, away[..., 1] / 2
+        seen["is_pickup"] = is_end & (pair["is_delivery"] == 0)
+        seen["is_delivery"] = is_end & (pair["is_delivery"] == 1)
+        alike = (pair["unit"][:, None] == pair["unit"][..., None]).sum(axis=2)
+        seen["other_places"] = np.where(is_end, 0.0, squash(np.maximum(alike - 1, 0) / 1.0))
+    if instance.vehicle_cost.shape[1]:
+        types = np.maximum(instance.size["types"], 1)[:, None]
+        price = instance.vehicle_cost.sum(axis=1) / types / scale.cost[:, None]
+        seen["price"] = is_customer * squash(price)
+    if instance.goods.shape[1]:
+        goods = instance.goods
+        kept = goods["kept_on_trip"] | goods["kept_on_vehicle"]
+        together = kept[:, None, :] & kept[:, :, None] != 0
+        together &= ~np.eye(together.shape[1], dtype=np.bool_)
+        seen["kept"] = together.sum(axis=2) / customers
 
 
 def pair_features(instance: Instance, scale: Scales) -> Float32Array:
@@ -265,7 +306,8 @@ def type_features(instance: Instance, scale: Scales, is_type: NDArray[np.bool_])
     seen["way_home"] = squash(leg / time)
     seen["shift_earliest"] = np.minimum(kind["shift_earliest"] / horizon, 2)
     seen["usual_end"] = np.minimum(kind["usual_end"] / horizon, 2)
-    seen["usual_working"] = squash(unbounded(kind["usual_working"]) / time / 8)
+    longest = np.minimum(kind["usual_working"], kind["max_travel_duration"])
+    seen["usual_working"] = squash(unbounded(longest) / time / 8)
     seen["max_trip_distance"] = squash(
         unbounded(kind["max_trip_distance"]) / np.maximum(driven, 1) / 8)
     seen["max_trips"] = squash((kind["max_trips"] - 1.0) / 2)
@@ -330,6 +372,13 @@ def _describe_rarer_of_types(instance: Instance, scale: Scales, driven: FloatArr
     seen["max_stops"] = squash(unbounded(kind["max_stops"]) / 8)
     seen["pickup_order"] = kind["pickup_order"] != ANY
     seen["other_depots"] = squash(np.maximum(reload - 1, 0))
+    soonest = np.where(kind["must_rest"] == 1, np.minimum(kind["max_driving"], kind["max_work"]),
+                       UNLIMITED)
+    seen["breaks"] = squash(kind["break_duration"].sum(axis=2) / time)
+    seen["driving_limit"] = 1 - squash(unbounded(soonest) / time / 8)
+    if instance.vehicle_cost.shape[1]:
+        price = instance.vehicle_cost[:, :seen.shape[1]].sum(axis=2) / customers
+        seen["price"] = squash(price / cost)
 
 
 def _longest_flights(kind: Records) -> IntArray:

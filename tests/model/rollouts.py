@@ -9,8 +9,8 @@ from model.engine.instance import Instance, pack
 from model.policy import problem_features
 from model.policy.decision_features import Rollouts, Scene
 from model.problem import (
-    UNLIMITED, UNREACHABLE, Customer, DroneType, Energy, FloatArray, Overtime, Problem,
-    SpeedProfile, Travel, VehicleType,
+    UNLIMITED, UNREACHABLE, Customer, DrivingRules, DroneType, Energy, FloatArray, Overtime,
+    Problem, Relation, SpeedProfile, Travel, VehicleType,
 )
 from model.simulation.actions import NUM_KINDS, RETURN, legal_actions
 from model.simulation.state import State, by_term, empty_outlooks
@@ -206,7 +206,25 @@ class Units:
             energy=None if kind.energy is None else self.energy(kind.energy),
             speed_profile=None if profile is None else SpeedProfile(
                 tuple(self.time * change for change in profile.times), profile.factors),
-            drones=None if kind.drones is None else self.drones(kind.drones))
+            breaks=tuple(replace(
+                each, duration=self.time * each.duration, earliest=self.time * each.earliest,
+                latest=self.limit(each.latest)) for each in kind.breaks),
+            driving=None if kind.driving is None else self.driving(kind.driving),
+            drones=None if kind.drones is None else self.drones(kind.drones),
+            more_drones=tuple(map(self.drones, kind.more_drones)))
+
+    def driving(self, rules: DrivingRules) -> DrivingRules:
+        """Convert driving rules."""
+        return replace(
+            rules, max_driving=self.limit(rules.max_driving), rest=self.time * rules.rest,
+            split=tuple(self.time * part for part in rules.split),
+            max_work=self.limit(rules.max_work))
+
+    def relation(self, relation: Relation) -> Relation:
+        """Convert a relation."""
+        most = relation.max_lag
+        return replace(relation, min_lag=self.time * relation.min_lag,
+                       max_lag=None if most is None else self.time * most)
 
     def travel(self, travel: Travel) -> Travel:
         """Convert legs."""
@@ -220,5 +238,10 @@ def in_other_units(problem: Problem, units: Units) -> Problem:
         problem, customers=tuple(map(units.customer, problem.customers)),
         vehicle_types=tuple(map(units.vehicle_type, problem.vehicle_types)),
         travel=tuple(map(units.travel, problem.travel)),
+        shipments=tuple(replace(each, amount=units.amounts(each.amount))
+                        for each in problem.shipments),
+        relations=tuple(map(units.relation, problem.relations)),
+        vehicle_costs=None if problem.vehicle_costs is None
+        else problem.vehicle_costs * units.money,
         coordinates=problem.coordinates * units.length,
         unassigned_cost=units.money * problem.unassigned_cost)

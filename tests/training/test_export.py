@@ -17,6 +17,7 @@ from model.policy.rolling import (
 from training.export import WEIGHTS, Encoder, Step, example_inputs, export
 from tests.conftest import made_once
 from training.policies import POLICIES
+from training.widen import main as widen
 
 pytestmark = pytest.mark.slow
 
@@ -68,6 +69,22 @@ def test_torch_and_onnx_agree(exported: tuple[str, Path], nodes: int, types: int
 def test_weights_committed_for_training_are_those_of_the_graphs(name: str) -> None:
     folder = Path(__file__).parents[2] / "model" / "weights" / name
     compare(name, folder, (9, 2, 3, 7))
+
+
+def test_a_policy_that_is_widened_plans_as_before(exported: tuple[str, Path],
+                                                  tmp_path: Path) -> None:
+    name, folder = exported
+    weights = torch.load(folder / WEIGHTS, weights_only=True)
+    column = "node_embedding.weight" if name == "attention" else "node_convolution.weight"
+    (tmp_path / name).mkdir()
+    (tmp_path / name / "card.json").write_text(
+        (folder / "card.json").read_text().replace("{", f'{{"policy": "{name}",', 1))
+    torch.save({**weights, column: weights[column][:, :-1]}, tmp_path / name / WEIGHTS)
+    widen(name, tmp_path)
+    compare(name, tmp_path / name, (9, 2, 3, 7))
+    found = torch.load(tmp_path / name / WEIGHTS, weights_only=True)
+    assert torch.equal(found[column][:, :-1], weights[column][:, :-1])
+    assert not found[column][:, -1].any()
 
 
 @pytest.mark.parametrize(("nodes", "types", "candidates"), [(2, 1, 1), (21, 4, 30), (301, 2, 170)])

@@ -12,8 +12,12 @@ from model.problem import (
     UNLIMITED,
     Customer,
     Problem,
+    Shipment,
     VehicleType,
 )
+from model.engine.instance import pack
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
 from training.instances import (
     SHARES,
     VALIDATED,
@@ -293,6 +297,53 @@ def test_particular_draws_every_rule() -> None:
     assert {each.batteries is None for each in drones} == {False, True}
     assert any(each.energy is not None and each.energy.charge for each in drones)
     assert any(kind.more_drones and kind.num_drones > 2 for kind in kinds)
+
+
+def test_shipments_leave_room_for_each_alone() -> None:
+    problems = draw("shipments", 20)
+    legs = [each for p in problems for each in p.shipments]
+    assert {each.max_detour is None for each in legs} == {False, True}
+    assert any(len(p.shipments) == 10 for p in problems)
+    assert any(0 < len(p.shipments) < 10 for p in problems)
+    alone = [replace_all_but(p, each) for p in problems[:12] for each in p.shipments[:3]]
+    assert all(nobody_is_left_out(p) for p in alone)
+
+
+def replace_all_but(problem: Problem, each: Shipment) -> Problem:
+    """Return the problem of one shipment alone."""
+    nodes = [*range(problem.num_depots), each.pickup, each.delivery]
+    source = np.array(nodes)
+    return dataclasses.replace(
+        problem, customers=tuple([problem.customer_at(node) for node in nodes[-2:]]),
+        coordinates=problem.coordinates[source], shipments=problem.shipments_among(nodes),
+        travel=tuple([legs.among(source) for legs in problem.travel]))
+
+
+def nobody_is_left_out(problem: Problem) -> bool:
+    """Tell whether a few turns of the search serve everybody."""
+    found = improve(problem, pack([problem], legs=False), Solution((), ()), SearchConfig(turns=5))
+    return not found.solution.unassigned
+
+
+def test_chosen_draws_places_and_prices() -> None:
+    problems = draw("chosen", 20)
+    assert {len(places) for p in problems for places in p.choices} == {2, 3, 4}
+    assert {p.vehicle_costs is None for p in problems} == {False, True}
+
+
+def test_related_draws_every_relation() -> None:
+    relations = [each for p in draw("related", 20) for each in p.relations]
+    assert {(each.kind, each.scope) for each in relations} == {
+        (kind, scope) for kind in ("together", "apart", "before") for scope in ("trip", "vehicle")}
+    assert any(each.min_lag and each.max_lag is not None for each in relations)
+
+
+def test_resting_draws_every_rule() -> None:
+    kinds = [kind for p in draw("resting", 20) for kind in p.vehicle_types]
+    assert {len(kind.breaks) for kind in kinds} == {0, 1, 2, 3}
+    assert {each.anywhere for kind in kinds for each in kind.breaks} == {False, True}
+    assert any(kind.max_travel_duration is not None for kind in kinds)
+    assert any(kind.driving is not None and kind.driving.split for kind in kinds)
 
 
 def test_sides_span_orders_of_magnitude() -> None:

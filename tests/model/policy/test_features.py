@@ -8,11 +8,13 @@ import pytest
 
 from model.engine.instance import pack
 from model.policy.decision_features import (
-    ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, Rollouts, Scene,
+    ACTION, NUM_ACTION_FEATURES, VEHICLE_STATE, Observation, Rollouts, Scene,
 )
 from model.policy.problem_features import NODE, TYPE, Float32Array, Tokens, scales, tokens
-from model.problem import IncompatibleGoods, Overtime, Problem
-from model.simulation.actions import DRIVE, OPEN, apply, encode_action
+from model.problem import (
+    Break, DrivingRules, IncompatibleGoods, Overtime, Problem, Relation, Shipment,
+)
+from model.simulation.actions import DRIVE, OPEN, RETURN, apply, encode_action
 from tests.conftest import MINUTE
 from tests.model.rollouts import Batch, Units, in_other_units, random_problems, roll
 from tests.model.tiny import draw_tiny, with_energy
@@ -31,7 +33,7 @@ SIGNED_STATE = {"spare_reserve"}  # the capacity left may fall short of the dema
 
 @pytest.fixture(scope="module")
 def problems() -> list[Problem]:
-    return random_problems(seed=31, count=160)
+    return random_problems(seed=33, count=160)
 
 
 @pytest.fixture(scope="module")
@@ -42,8 +44,10 @@ def alone(problems: list[Problem]) -> list[Batch]:
 def test_tokens_are_finite_and_bounded(alone: list[Batch]) -> None:
     for batch in alone:
         assert np.isfinite(batch.tokens.node).all()
-        assert (np.abs(batch.tokens.node[..., :2]) <= 1).all()
-        assert ((batch.tokens.node[..., 2:] >= 0) & (batch.tokens.node[..., 2:] <= 2)).all()
+        signed = np.isin(NODE.names or (), ("x", "y", "partner_x", "partner_y"))
+        assert (np.abs(batch.tokens.node[..., signed]) <= 1).all()
+        others = batch.tokens.node[..., ~signed]
+        assert ((others >= 0) & (others <= 2)).all()
         assert ((batch.tokens.type >= 0) & (batch.tokens.type <= 2)).all()
 
 
@@ -80,9 +84,10 @@ def test_each_action_has_one_kind_and_its_token(problems: list[Problem],
 def test_features_are_free_of_units(problems: list[Problem], alone: list[Batch],
                                     units: Units) -> None:
     for problem, batch in zip(problems, alone, strict=True):
-        if units.time > 1 and any(kind.speed_profile or (kind.drones and kind.drones.energy)
-                                  for kind in problem.vehicle_types):
-            continue  # legs, and how long a battery lasts, are rounded to a millisecond
+        if units.time > 1 and (problem.limits_time_between or any(
+                kind.speed_profile or (kind.drones and kind.drones.energy)
+                for kind in problem.vehicle_types)):
+            continue  # legs, detours and how long a battery lasts are rounded to a millisecond
         other = roll([in_other_units(problem, units)], seed=4)
         np.testing.assert_allclose(other.tokens.node, batch.tokens.node, atol=TOLERANCE)
         np.testing.assert_allclose(other.tokens.type, batch.tokens.type, atol=TOLERANCE)
@@ -268,17 +273,27 @@ def test_overtime_is_seen_as_no_longer_shift() -> None:
     assert told_apart(problem, longer) == ({}, ["overtime_price", "overtime"])
 
 
-def first_drives(problem: Problem, name: str) -> list[float]:
-    """Return a feature of the drives of the first vehicle, which has just been opened."""
+def seen_after(problem: Problem, *visited: int) -> Observation:
+    """Return what is seen once the first vehicle has been opened and has driven to some."""
     instance = pack([problem])
     scale = scales(instance)
     types = tokens(instance, scale, problem.coordinates[None]).type
     rollouts = Rollouts(Scene(instance, scale, types), np.zeros(1, np.int64))
-    seen = rollouts.seen
-    apply(instance, rollouts.state, 0, encode_action(OPEN, 0))
+    for action in (encode_action(OPEN, 0), *(encode_action(DRIVE, node) for node in visited)):
+        apply(instance, rollouts.state, 0, action)
     rollouts.observe()
-    return [float(seen.described[name][0, index]) for index, code
-            in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == DRIVE]
+    return rollouts.seen
+
+
+def described(seen: Observation, kind: int, name: str) -> dict[int, float]:
+    """Return a feature of all candidates of a kind, by their target."""
+    return {int(code) // 4: float(seen.described[name][0, index]) for index, code
+            in enumerate(seen.action[0, :seen.count[0]]) if code % 4 == kind}
+
+
+def first_drives(problem: Problem, name: str) -> list[float]:
+    """Return a feature of the drives of the first vehicle, which has just been opened."""
+    return list(described(seen_after(problem), DRIVE, name).values())
 
 
 def test_time_aboard_and_stops_are_seen_as_slack_and_load(tiny_problem, customers, truck) -> None:
@@ -291,3 +306,86 @@ def test_time_aboard_and_stops_are_seen_as_slack_and_load(tiny_problem, customer
     few = tiny_problem(*customers, truck=replace(truck, max_stops=3))
     assert first_drives(few, "load_share") == pytest.approx([1 / 3] * 4)
     assert first_drives(few, "capacity_share") == pytest.approx([1 / 3] * 4)
+
+
+def with_one_shipment(problem: Problem, pickup: int, delivery: int, **limits: int) -> Problem:
+    """Return a problem two of whose customers are a shipment's ends."""
+    customers = list(problem.customers)
+    for node in (pickup, delivery):
+        customers[node - 1] = replace(customers[node - 1], demand=(0,), unassigned_cost=(
+            0.0 if node == delivery else None))
+    return replace(problem, customers=tuple(customers),
+                   shipments=(Shipment("s", pickup, delivery, (500,), **limits),))
+
+
+def test_ends_of_shipments_are_seen(tiny_problem, customers, truck) -> None:
+    plain = tiny_problem(*customers, truck=truck)
+    problem = with_one_shipment(plain, 1, 3)
+    nodes = tokens_of(problem).node
+    assert column(nodes, NODE, "is_pickup").tolist() == [0, 1, 0, 0, 0]
+    assert column(nodes, NODE, "is_delivery").tolist() == [0, 0, 0, 1, 0]
+    x, away = column(nodes, NODE, "x"), column(nodes, NODE, "partner_x")
+    assert away[[1, 3]] == pytest.approx([(x[3] - x[1]) / 2, (x[1] - x[3]) / 2])
+    assert (column(nodes, NODE, "share_of_demand") <= 1).all()
+    # Customers 1 and 3 are 2 km, so 4 minutes, apart; places are 5 minutes away in the mean.
+    way = described(seen_after(problem), DRIVE, "delivery_way")
+    assert way == pytest.approx({1: 4 / 9, 2: 0, 4: 0})
+    later = seen_after(problem, 1)
+    assert described(later, DRIVE, "delivers") == {2: 0, 3: 1, 4: 0}
+    assert later.vehicle["aboard"][0] == pytest.approx(0.5 / (truck.capacity[0] / 1000))
+
+
+def test_time_under_way_is_seen_as_slack(tiny_problem, customers, truck) -> None:
+    problem = with_one_shipment(tiny_problem(*customers, truck=truck), 1, 3,
+                                max_time_between=9 * MINUTE)
+    # 4 of 9 minutes are driven; 5 are left, as long as the scale.
+    assert described(seen_after(problem), DRIVE, "delivery_hurry")[1] == pytest.approx(0.5)
+    assert described(seen_after(problem, 1), DRIVE, "window_slack")[3] == pytest.approx(0.5)
+
+
+def test_other_places_and_prices_by_vehicle_are_seen(tiny_problem, customers, truck) -> None:
+    a, b, *others = customers
+    plain = tiny_problem(replace(a, unassigned_cost=40.0), replace(b, unassigned_cost=0.0), *others,
+                         truck=replace(truck, cost_per_km=2.0))
+    problem = replace(plain, choices=((1, 2),), vehicle_costs=np.array([[0.0, 5.0, 0.0, 0.0]]))
+    nodes = tokens_of(problem).node
+    assert column(nodes, NODE, "other_places").tolist() == [0, 0.5, 0.5, 0, 0]
+    left_out = column(nodes, NODE, "unassigned_cost")
+    assert left_out[1] == left_out[2] > 0
+    # To drive to a customer costs 5 in the mean.
+    assert column(nodes, NODE, "price").tolist() == [0, 0, 0.5, 0, 0]
+    assert described(seen_after(problem), DRIVE, "price") == {1: 0, 2: 0.5, 3: 0, 4: 0}
+
+
+def test_company_is_seen_of_who_is_kept_with_somebody(tiny_problem, customers, truck) -> None:
+    plain = tiny_problem(*customers, truck=truck)
+    problem = replace(plain, relations=(Relation("together", (1, 3)), Relation("before", (2, 4))))
+    nodes = tokens_of(problem).node
+    assert column(nodes, NODE, "kept") == pytest.approx([0, 0.25, 0.25, 0.25, 0.25])
+    # Who serves 4 first serves 2 no more.
+    assert described(seen_after(problem), DRIVE, "forsaken") == pytest.approx(
+        {1: 0, 2: 0, 3: 0, 4: 1 / 3})
+    seen = seen_after(problem, 1)
+    assert described(seen, DRIVE, "joins") == {2: 0, 3: 1, 4: 0}
+    assert list(described(seen, RETURN, "forsaken").values()) == pytest.approx([1 / 3])
+    assert seen.vehicle["bound"][0] == pytest.approx(1 / 3)
+
+
+def test_rests_are_seen(tiny_problem, customers, truck) -> None:
+    rules = DrivingRules(max_driving=5 * MINUTE, rest=2 * MINUTE)
+    resting = tiny_problem(*customers, truck=replace(truck, driving=rules))
+    # Of 5 minutes, 2 are driven to the first; 4 lie before the third.
+    seen = seen_after(resting, 1)
+    assert seen.vehicle["rest_due"][0] == pytest.approx(5 / 8)
+    assert described(seen, DRIVE, "rest") == pytest.approx({2: 0, 3: 2 / 7, 4: 2 / 7})
+    pause = Break("lunch", 3 * MINUTE, 0, 12 * MINUTE)
+    pausing = tiny_problem(*customers, truck=replace(truck, breaks=(pause,)))
+    assert seen_after(pausing, 1).vehicle["rest_due"][0] == pytest.approx(0.5)
+    assert told_apart(resting, pausing) == ({}, ["breaks", "driving_limit"])
+
+
+def test_long_legs_are_seen_as_long_work(tiny_problem, customers, truck) -> None:
+    plain, limited = (tiny_problem(*customers, truck=replace(truck, max_travel_duration=limit))
+                      for limit in (None, 9 * MINUTE))
+    assert told_apart(plain, limited) == ({}, ["usual_working"])
+    assert described(seen_after(limited), DRIVE, "working_slack")[1] == pytest.approx(0.5)
