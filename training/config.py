@@ -23,6 +23,8 @@ class TrainConfig:
     kept: float = 0.2  # share of the decisions that the gradient is computed from
     unassigned_weight: float = 0.4  # of the true penalty, lest one drop outweigh a whole plan
     max_candidates: int = 60_000  # in one chunk of the gradient pass
+    variants: tuple[str, ...] = ()  # of the problems, evenly; none: all by their shares
+    only_new: bool = False  # weights of features alone that those it begins with lack
 
     def learning_rate_at(self, step: int) -> float:
         """Return the rate of a step: warm-up, constant, linear decay."""

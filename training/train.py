@@ -10,7 +10,7 @@ import os
 import signal
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -29,9 +29,9 @@ from training.config import TrainConfig
 from training.dataset import join
 from training.export import WEIGHTS
 from training.heuristics import nearest_neighbour
-from training.instances import generate, sample_variant, validation_set
+from training.instances import VALIDATED, generate, sample_variant, validation_set
 from training.learn import BASELINES, critic_step, draw_weights, policy_gradient, training_costs
-from training.policies import POLICIES, widened
+from training.policies import POLICIES, train_new_alone, widened
 from training.rollout import Batch, greedy, make_batch, roll_out, sampler
 
 SAVE_EVERY = 120.0
@@ -84,7 +84,7 @@ def _train(leg: Leg, rank: int, world: int) -> dict[str, float]:
     torch.manual_seed(config.seed)
     run = Run(config, device, rank)
     run.begin(folder / "checkpoint.pt", leg.begin_with)
-    validation = validation_batches(leg.validation_size)
+    validation = validation_batches(leg.validation_size, config.variants or VALIDATED)
     log = Log(folder) if rank == 0 else None
     began = saved = time.monotonic()
     validated = began - VALIDATE_EVERY + min(60.0, VALIDATE_EVERY)
@@ -154,6 +154,7 @@ class Run:
                                            weight_decay=1e-6)
         self.critic_optimizer = torch.optim.Adam(self.critic.parameters(), lr=config.critic_rate)
         self.rank = rank
+        self.known = dict[str, int]()  # columns of layers, of which it began with fewer
         self.step = 0
         self.spread = 1.0  # running standard deviation of advantages
         self.past_seconds = 0.0
@@ -168,7 +169,9 @@ class Run:
         size = self.config.size_at(self.step)
         if rng.random() < self.config.size_mix:
             size = int(rng.integers(self.config.sizes[0][1] // 2, size + 1))
-        names = [sample_variant(rng) for _ in range(self.config.problems_at(size))]
+        number, some = self.config.problems_at(size), self.config.variants
+        names = [some[int(rng.integers(len(some)))] if some else sample_variant(rng)
+                 for _ in range(number)]
         problems = [generate(rng, size, name) for name in names]
         return make_batch(problems, names, rng)
 
@@ -229,7 +232,8 @@ class Run:
             "config": dataclasses.asdict(self.config), "policy": self.policy.state_dict(),
             "critic": self.critic.state_dict(), "optimizer": self.optimizer.state_dict(),
             "critic_optimizer": self.critic_optimizer.state_dict(),
-            "step": self.step, "spread": self.spread, "seconds": self.seconds()}
+            "known": self.known, "step": self.step, "spread": self.spread,
+            "seconds": self.seconds()}
         torch.save(content, path.with_suffix(".part"))
         path.with_suffix(".part").replace(path)
 
@@ -237,6 +241,7 @@ class Run:
         """Go on from a checkpoint. In place."""
         content: dict[str, Any] = torch.load(path, map_location=self.device, weights_only=False)
         self.policy.load_state_dict(content["policy"])
+        self.know(content["known"])
         self.critic.load_state_dict(content["critic"])
         self.optimizer.load_state_dict(content["optimizer"])
         self.critic_optimizer.load_state_dict(content["critic_optimizer"])
@@ -262,14 +267,24 @@ class Run:
         try:
             weights = torch.load(path, map_location=self.device, weights_only=True)
             self.policy.load_state_dict(widened(self.policy, weights))
+            self.know({name: weights[name].shape[1] for name, own in self.policy.named_parameters()
+                       if weights[name].shape != own.shape})
         except (OSError, RuntimeError) as error:
             raise ValueError(f"begin_with: {str(path)!r} is not usable: {error}") from error
 
 
-def validation_batches(size: int) -> list[tuple[Batch, np.ndarray]]:
+    def know(self, columns: dict[str, int]) -> None:
+        """Note how many columns layers had; train those behind alone, if the run does. In place."""
+        self.known = columns
+        if self.config.only_new:
+            train_new_alone(self.policy, columns)
+
+
+def validation_batches(size: int, names: Sequence[str] = VALIDATED
+                       ) -> list[tuple[Batch, np.ndarray]]:
     """Pack the fixed validation set by size, each with its nearest-neighbour costs."""
     groups: dict[int, list[tuple[str, Any]]] = {}
-    for name, problem in validation_set(size):
+    for name, problem in validation_set(size, names=names):
         groups.setdefault(problem.num_customers, []).append((name.split("-")[0], problem))
     batches = [make_batch([problem for _, problem in group], [name for name, _ in group])
                for group in groups.values()]

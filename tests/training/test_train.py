@@ -66,6 +66,26 @@ def test_a_policy_that_sees_more_begins_with_weights_that_saw_less() -> None:
         assert torch.equal(found[name][..., :columns], value), name
 
 
+def test_weights_of_new_features_are_learnt_alone(tmp_path: Path) -> None:
+    old = torch.load(EXPORTED / "weights.pt", weights_only=True)
+    fewer = {name: value[:, :-2] if name == "node_embedding.weight" else value
+             for name, value in old.items()}
+    (tmp_path / "fewer").mkdir()
+    torch.save(fewer, tmp_path / "fewer" / "weights.pt")
+    config = replace(TINY, policy="attention", baseline="shared", variants=("related",),
+                     only_new=True)
+    ratios = {}
+    for steps in (1, 2):
+        ratios = train(Leg(tmp_path, config, max_steps=steps, validation_size=2,
+                           begin_with=tmp_path / "fewer"))
+    assert set(ratios) > {"all", "related"}
+    learnt = torch.load(tmp_path / "checkpoint.pt", weights_only=False)["policy"]
+    assert learnt["node_embedding.weight"][:, -2:].all(dim=0).any()
+    for name, value in fewer.items():
+        columns = value.shape[-1] if value.dim() else None
+        assert torch.equal(learnt[name][..., :columns], value), name
+
+
 def test_training_begins_with_an_exported_policy(tmp_path: Path) -> None:
     config = replace(TINY, policy="attention", baseline="shared")
     train(Leg(tmp_path, config, max_steps=0, validation_size=8, begin_with=EXPORTED))
