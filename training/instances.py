@@ -23,7 +23,7 @@ from training.variants import (
 )
 from training.variety import various
 
-__all__ = ["VARIANTS", "InstanceConfig", "generate", "sample_variant", "validation_set"]
+__all__ = ["ALL", "VARIANTS", "InstanceConfig", "generate", "sample_variant", "validation_set"]
 
 VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem]] = {
     "cvrp": cvrp,
@@ -38,11 +38,17 @@ VARIANTS: dict[str, Callable[[np.random.Generator, int, InstanceConfig], Problem
     "pickups": pickups,
     "various": various,
     "particular": particular,
+}
+"""Variants by which all parts of the planner are tested."""
+
+ALL = {
+    **VARIANTS,
     "shipments": shipments,
     "chosen": chosen,
     "related": related,
     "resting": resting,
 }
+"""Variants by which policies are trained."""
 
 VALIDATED = ("cvrp", "vrptw", "soft", "hetero", "multitrip", "drone", "table1", "mixed")
 """Variants of the validation set, which stays as it is when others come."""
@@ -56,7 +62,7 @@ SHARES = {"cvrp": 0.04, "vrptw": 0.16, "soft": 0.04, "hetero": 0.04, "multitrip"
           "resting": 0.04}
 """How often training draws each variant."""
 
-CUMULATIVE_SHARES = np.cumsum([SHARES[name] for name in VARIANTS])
+CUMULATIVE_SHARES = np.cumsum(list(SHARES.values()))
 
 DEFAULT_CONFIG = InstanceConfig()
 
@@ -73,16 +79,16 @@ def generate(rng: np.random.Generator, num_customers: int, variant: str,
     ValueError
         If the variant is unknown or there is no customer.
     """
-    if variant not in VARIANTS:
-        raise ValueError(f"variant: {variant!r} is not one of {', '.join(VARIANTS)}")
+    if variant not in ALL:
+        raise ValueError(f"variant: {variant!r} is not one of {', '.join(ALL)}")
     if num_customers < 1:
         raise ValueError(f"num_customers: {num_customers!r} is not allowed")
-    return VARIANTS[variant](rng, num_customers, config)
+    return ALL[variant](rng, num_customers, config)
 
 
 def sample_variant(rng: np.random.Generator) -> str:
     """Draw the name of a variant by `SHARES`."""
-    names = tuple(VARIANTS)
+    names = tuple(SHARES)
     return names[min(int(np.searchsorted(CUMULATIVE_SHARES, rng.random(), "right")),
                      len(names) - 1)]
 

@@ -27,14 +27,14 @@ from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
-from training.instances import DEFAULT_CONFIG, VALIDATION_SIZES, VARIANTS, generate
+from training.instances import ALL, DEFAULT_CONFIG, VALIDATION_SIZES, generate
 from training.labels import Actor
 from training.rollout import make_batch
 from training.variants import uniform_vrptw
 
 UNIFORM = {"uniform-50": 50, "uniform-100": 100}
 
-CLASSES = (*UNIFORM, *VARIANTS)
+CLASSES = (*UNIFORM, *ALL)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,6 @@
 """Random masked rollouts of packed problems, recorded step by step."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -106,10 +106,11 @@ def legal(problem: Problem, instance: Instance, state: State) -> list[int]:
     return actions[:count].tolist()
 
 
-def random_problems(seed: int, count: int, largest: int = 25) -> list[Problem]:
-    """Draw problems of all training variants in turn, of 1 to `largest` customers."""
+def random_problems(seed: int, count: int, largest: int = 25,
+                    variants: Iterable[str] = VARIANTS) -> list[Problem]:
+    """Draw problems of training variants in turn, of 1 to `largest` customers."""
     rng = np.random.default_rng(seed)
-    names = list(VARIANTS)
+    names = list(variants)
     return [generate(rng, int(rng.integers(1, largest + 1)), names[index % len(names)])
             for index in range(count)]
 

@@ -19,9 +19,9 @@ from model.engine.instance import pack
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from training.instances import (
+    ALL,
     SHARES,
     VALIDATED,
-    VARIANTS,
     InstanceConfig,
     generate,
     sample_variant,
@@ -106,7 +106,7 @@ def servable(problem: Problem) -> list[bool]:
 
 
 @pytest.mark.parametrize("num_customers", [1, 6, 40])
-@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("variant", ALL)
 def test_each_customer_can_be_served_alone(variant: str, num_customers: int) -> None:
     for problem in draw(variant, num_customers):
         assert problem.num_customers == num_customers
@@ -119,7 +119,7 @@ def test_mixed_holds_a_few_unservable_customers() -> None:
     assert 0.95 < share < 0.999
 
 
-@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("variant", ALL)
 def test_same_stream_gives_same_problem(variant: str) -> None:
     first, second = (generate(np.random.default_rng(3), 12, variant) for _ in range(2))
     assert first.customers == second.customers
@@ -130,7 +130,7 @@ def test_same_stream_gives_same_problem(variant: str) -> None:
         assert (mine.distance[:] == other.distance[:]).all()
 
 
-@pytest.mark.parametrize("variant", VARIANTS)
+@pytest.mark.parametrize("variant", ALL)
 def test_leaving_out_costs_more_than_a_trip_alone(variant: str) -> None:
     for problem in draw(variant, 20, 10):
         for kind in problem.vehicle_types:
