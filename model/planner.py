@@ -192,7 +192,8 @@ class Planner:
 
 def _shared(problem: Problem, options: PlanOptions) -> PlanOptions:
     """Return options by which threads needn't know what others' vehicles do where that counts."""
-    return replace(options, threads=1) if problem.fairness.is_stated else options
+    knows = problem.fairness.is_stated or bool(problem.lags_across)
+    return replace(options, threads=1) if knows else options
 
 
 def _give_up(began: float, deadline: float | None, searches: bool) -> float:

@@ -48,9 +48,7 @@ def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
         yield error_at("WRONG_LENGTH", (*path, "customers"),
                        f"At most {MOST_IN_ORDER} customers are served in an order: name fewer.")
     if not relation.same_vehicle:
-        yield error_at("RELATION_WITH", (*path, "same_vehicle"),
-                       "Orders across vehicles can't be planned yet, as each route is timed by "
-                       "itself: let one vehicle serve them, or bound their windows.")
+        yield from _across_errors(draft, relation, path)
     several = {customer.id for _, customer in draft.known_customers() if customer.alternatives}
     for place, name in enumerate(relation.customers):
         if name in several:
@@ -67,9 +65,23 @@ def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
                        "and driving_rules.")
 
 
+def _across_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
+    """Say what contradicts that any trucks serve those of an order."""
+    if relation.scope == "trip":
+        yield error_at("RELATION_WITH", (*path, "scope"),
+                       "Whom one trip serves one vehicle does: leave scope out, or same_vehicle.")
+    flown = {customer.id for _, customer in draft.known_customers()
+             if customer.served_by == "drone"}
+    for place, name in enumerate(relation.customers):
+        if name in flown:
+            yield error_at("RELATION_WITH", (*path, "customers", place),
+                           f"Only a drone may serve {name!r}, and trucks alone wait for whoever "
+                           "other vehicles serve: let either serve it, or one vehicle all of them.")
+
+
 def _count_errors(draft: Draft) -> Errors:
-    together = sum(relation.kind != "apart" for relation in draft.relations)
-    apart = len(draft.relations) - together
+    together = sum(map(_keeps_together, draft.relations))
+    apart = sum(relation.kind == "apart" for relation in draft.relations)
     goods = len({goods for each in draft.incompatible_goods for goods in each.goods})
     if together > MOST_RELATIONS:
         yield error_at("WRONG_LENGTH", ("relations",),
@@ -101,13 +113,18 @@ def _contradictions(draft: Draft) -> Errors:
                                    f"relations[{behind[pair[1], pair[0]]}]: take one of both away.")
                     break
     for index, relation in enumerate(draft.relations):
-        if relation.kind != "apart" and apart:
+        if _keeps_together(relation) and apart:
             found = _contradicted(draft, relation, apart)
             if found is not None:
                 names, other = found
                 yield error_at("CONTRADICTION", ("relations", index),
                                f"{' and '.join(names)} are kept apart by relations[{other}]: take "
                                "one of both away.")
+
+
+def _keeps_together(relation: RelationInput) -> bool:
+    """Tell whether one vehicle serves those whom a relation names."""
+    return relation.kind == "together" or (relation.kind == "before" and relation.same_vehicle)
 
 
 def _contradicted(draft: Draft, relation: RelationInput,

@@ -16,8 +16,8 @@ class RelationInput(Input):
     """
 
     kind: Literal["together", "apart", "before"] = Field(
-        description="Whether one vehicle serves them `together`, in their order (`before`), or "
-        "they are kept `apart`."
+        description="Whether one vehicle serves them `together`, they are served in their order "
+        "(`before`), or they are kept `apart`."
     )
     customers: Annotated[list[Name], Field(min_length=2, max_length=MAX_RELATED)] = Field(
         description="Ids of customers; ends of shipments are none."
@@ -36,5 +36,7 @@ class RelationInput(Input):
         None, description="Of `before`: at most so many seconds lie between one and the next named."
     )
     same_vehicle: bool = Field(
-        True, description="Of `before`: whether one vehicle serves them. False is refused yet."
+        True,
+        description="Of `before`: whether one vehicle serves them. If not, trucks alone do, any of "
+        "them, and wait for those whom others serve before or behind.",
     )

@@ -77,6 +77,6 @@ def relate(rng: random.Random, request: Data) -> None:
             least = rng.choice((0, rng.uniform(0, 3600)))
             relation |= {"kind": "before", "min_lag": least,
                          "max_lag": rng.choice((None, least + rng.uniform(0, 7200))),
-                         "same_vehicle": rng.random() > 0.01}
+                         "same_vehicle": relation["scope"] == "trip" or rng.random() < 0.5}
     if rng.random() < 0.02:
         request["relations"][0]["customers"][0] = "nobody"

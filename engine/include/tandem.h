@@ -88,6 +88,12 @@ typedef struct tandem_lag {
     int64_t most;
 } tandem_lag;
 
+/* From when to when service may begin at a customer, by those whom other vehicles serve. */
+typedef struct tandem_span {
+    int64_t soonest;
+    int64_t latest;
+} tandem_span;
+
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
    beside its customers' is taken from its capacity; what it has worked when it may begin (`begun`)
    is taken from its working duration, and costs as if it were fixed. The end of the shift and the
@@ -517,7 +523,7 @@ typedef struct tandem_stop {
     int64_t rests;      /* breaks before the next, as rules/breaks.h packs them */
     int64_t heavy;      /* bits of breaks for which too much is aboard before the next */
     int64_t start;      /* of service, where lags count */
-    int64_t free_start; /* the latest that costs nothing, likewise */
+    int64_t free_start; /* the latest that costs nothing, likewise; of a plan, its start */
     double window_cost;
 } tandem_stop;
 
@@ -972,6 +978,10 @@ typedef struct tandem_sortie_2d {
     tandem_sortie* data;
     int64_t shape[2];
 } tandem_sortie_2d;
+typedef struct tandem_span_1d {
+    tandem_span* data;
+    int64_t shape[1];
+} tandem_span_1d;
 typedef struct tandem_stop_2d {
     tandem_stop* data;
     int64_t shape[2];
@@ -1046,6 +1056,8 @@ typedef struct tandem_instance {
     tandem_i64_3d max_between;     /* (problem, type, node) ms from a pickup to its delivery, FAR
                                       without limit, or (problem, 0, 0) if none has one */
     tandem_lag_3d lag;             /* (problem, node, rank), or (problem, 0, 0) if nobody has one */
+    tandem_lag_3d across;          /* (problem, node, rank) behind others on any vehicle, by less
+                                      than nothing before them, or (problem, 0, 0) likewise */
     tandem_f64_3d vehicle_cost;    /* (problem, type, node) of being served by it, on top of all
                                       else, or (problem, 0, 0) if nobody states any */
     tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
@@ -1080,6 +1092,8 @@ typedef struct tandem_state {
     tandem_i64_1d num_unserved; /* (rollout,) */
     tandem_i64_2d used;         /* (rollout, type) vehicles opened */
     tandem_hub_2d taken;       /* (rollout, depot) by the vehicles closed so far, or (rollout, 0) */
+    tandem_i64_2d starts;      /* (rollout, node) when vehicles closed so far begin to serve those
+                                  of orders across vehicles, far before all else nobody */
     tandem_bool_1d done;       /* (rollout,) */
     tandem_vehicle_1d vehicle; /* (rollout,) the open one */
     tandem_drone_2d drone;     /* (rollout, drone) its drones */
@@ -1173,6 +1187,8 @@ typedef struct tandem_problem_data {
     tandem_pair_1d pair;           /* (node,) none where nobody belongs together */
     tandem_i64_2d max_between;  /* (type, node) ms from a pickup to its delivery, none likewise */
     tandem_lag_2d lag;          /* (node, rank), none likewise */
+    tandem_lag_2d across;       /* (node, rank) behind others on any vehicle, none likewise */
+    tandem_span_1d span;        /* (node,) as a route is timed, none likewise */
     tandem_f64_2d vehicle_cost; /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
         no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */

@@ -14,6 +14,7 @@ using Goods = tandem_goods;
 using Hub = tandem_hub;
 using Pair = tandem_pair;
 using Lag = tandem_lag;
+using Span = tandem_span;
 using VehicleType = tandem_vehicle_type;
 using Rate = tandem_rate;
 using Cost = tandem_cost;
@@ -66,7 +67,8 @@ struct Instance {
     View<const Pair, 2> pair;                     // (problem, node), or (problem, 0)
     View<const std::int64_t, 3> max_between;      // (problem, type, node) ms from a pickup to its
                                                   // delivery, or (problem, 0, 0) if none is limited
-    View<const Lag, 3> lag;  // (problem, node, rank), or (problem, 0, 0) if nobody has one
+    View<const Lag, 3> lag;     // (problem, node, rank), or (problem, 0, 0) if nobody has one
+    View<const Lag, 3> across;  // (problem, node, rank) by any vehicle, or (problem, 0, 0) likewise
     View<const double, 3> vehicle_cost;  // (problem, type, node) of being served by it, or
                                          // (problem, 0, 0) if nobody states any
     View<const bool, 2> no_launch;  // (problem, node) no drone takes off or is recovered there, or
@@ -100,6 +102,7 @@ inline Instance instance_of(const tandem_instance& from) {
             from.pair,
             from.max_between,
             from.lag,
+            from.across,
             from.vehicle_cost,
             from.no_launch,
             from.hub,

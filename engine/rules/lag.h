@@ -1,5 +1,5 @@
 // Lags: how long after others service begins at a customer whom the same vehicle serves behind
-// them.
+// them, or any vehicle: who is elsewhere then begins when that vehicle's plan says.
 //
 // Callers tell by `start_at` when service begins at others; `none` of whoever isn't served there.
 #pragma once
@@ -76,6 +76,20 @@ inline Int latest_before(View<const Lag, 1> lags, Int node, Int start) {
         if (lag.node == node) latest = std::min(latest, start - lag.least);
     }
     return latest;
+}
+
+// Whether a customer is to be served some time behind or before others, whoever serves them.
+inline bool is_bound(const View<const Lag, 2>& across, Int node) { return is_behind(across, node); }
+
+// From when to when service may begin at a customer, by those whom other vehicles serve.
+template <class StartAt>
+Span span_by(View<const Lag, 1> across, const StartAt& start_at) {
+    Span span{none, far};
+    for_each_lag(across, start_at, [&](const Lag& lag, Int start) {
+        span.soonest = std::max(span.soonest, start + lag.least);
+        span.latest = std::min(span.latest, start + lag.most);
+    });
+    return span;
 }
 
 }  // namespace tandem

@@ -7,6 +7,11 @@
 
 namespace tandem {
 
+// From when to when service may begin at a customer, by those whom vehicles closed serve.
+inline Span span_of(const Setting& setting, Int node) {
+    return span_by(lags_of(setting.across, node), [&](Int other) { return setting.starts[other]; });
+}
+
 // When service begins at the stops and on the sorties of a log, which may be as tried.
 template <class StopStart, class SortieStart>
 struct Starts {
@@ -32,8 +37,9 @@ struct Starts {
 
     // When service may begin at stop `index`, or one behind all, which is reached at `arrival`.
     Int ready_at(const Setting& setting, Int node, Int index, Int arrival) const {
-        return std::max(arrival, soonest_behind(lags_of(setting.lag, node),
-                                                [&](Int other) { return at(other, 0, index); }));
+        const Int soonest = soonest_behind(lags_of(setting.lag, node),
+                                           [&](Int other) { return at(other, 0, index); });
+        return std::max({arrival, soonest, span_of(setting, node).soonest});
     }
 
     // Call `visit` with each customer served from a stop on, his lags, and when service begins.
@@ -57,7 +63,18 @@ struct Starts {
             kept = kept && keeps_lags(lags, start,
                                       [&](Int other) { return at(other, 0, log.count.stops); });
         });
-        return kept;
+        return kept && keep_spans(setting);
+    }
+
+    // Tell whether nobody is served too late for those whom vehicles closed serve.
+    bool keep_spans(const Setting& setting) const {
+        for (Int index = 0; index < log.count.stops; ++index) {
+            const Int node = log.stop[index].node;
+            if (node >= setting.num_depots && of_stop(index) > span_of(setting, node).latest) {
+                return false;
+            }
+        }
+        return true;
     }
 
     // By how much somebody is served too long behind another from a stop on; at most 0 if nobody.

@@ -10,6 +10,7 @@
 #include "rules/company.h"
 #include "rules/driving.h"
 #include "rules/flight.h"
+#include "rules/lag.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
@@ -201,8 +202,78 @@ Int legal_returns(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1>
     return found;
 }
 
+template <class T>
+std::vector<T> copied(View<const T, 1> row) {
+    return {row.begin(), row.end()};
+}
+
+template <class T>
+void put_back(const std::vector<T>& from, View<T, 1> row) {
+    std::ranges::copy(from, row.begin());
+}
+
+// What opening a vehicle changes of a rollout, to be put back.
+class Aside {
+public:
+    Aside(State& state, Int r)
+        : state_(state),
+          r_(r),
+          vehicle_(state.vehicle[r]),
+          count_(state.log.count[r]),
+          cost_(state.cost[r]),
+          used_(copied<Int>(state.used[r])),
+          starts_(copied<Int>(state.starts[r])),
+          taken_(copied<Hub>(state.taken[r])),
+          drone_(copied<Drone>(state.drone[r])),
+          trip_(copied<LoggedTrip>(state.log.trip[r].first(count_.trips))),
+          stop_(copied<LoggedStop>(state.log.stop[r].first(count_.stops))),
+          sortie_(copied<LoggedSortie>(state.log.sortie[r].first(count_.sorties))) {}
+
+    ~Aside() {
+        state_.vehicle[r_] = vehicle_;
+        state_.log.count[r_] = count_;
+        state_.cost[r_] = cost_;
+        put_back<Int>(used_, state_.used[r_]);
+        put_back<Int>(starts_, state_.starts[r_]);
+        put_back<Hub>(taken_, state_.taken[r_]);
+        put_back<Drone>(drone_, state_.drone[r_]);
+        put_back<LoggedTrip>(trip_, state_.log.trip[r_]);
+        put_back<LoggedStop>(stop_, state_.log.stop[r_]);
+        put_back<LoggedSortie>(sortie_, state_.log.sortie[r_]);
+    }
+
+    Aside(const Aside&) = delete;
+    Aside& operator=(const Aside&) = delete;
+
+private:
+    State& state_;
+    Int r_;
+    Vehicle vehicle_;
+    LogLengths count_;
+    Cost cost_;
+    std::vector<Int> used_, starts_;
+    std::vector<Hub> taken_;
+    std::vector<Drone> drone_;
+    std::vector<LoggedTrip> trip_;
+    std::vector<LoggedStop> stop_;
+    std::vector<LoggedSortie> sortie_;
+};
+
+// Tell whether a vehicle of type `k` could serve anybody when others are served.
+bool serves_behind_others(const Rollout& rollout, Int k) {
+    const auto& [instance, state, r, scratch] = rollout;
+    const Aside aside(state, r);
+    if (state.vehicle[r].type != no_vehicle) close_vehicle(instance, state, r);
+    open_vehicle(instance, state, r, k);
+    const Int most = 2 * instance.size[state.problem[r]].customers + 1;
+    std::vector<Int> actions(static_cast<std::size_t>(most));
+    std::vector<Outlook> outlooks(static_cast<std::size_t>(most));
+    return legal_services(rollout, {actions.data(), {most}}, {outlooks.data(), {most}}) > 0;
+}
+
 // Tell whether a vehicle of type `k` may open: one is left and has a customer to serve.
-bool open_legal(const Instance& instance, const State& state, Int r, Int k) {
+bool open_legal(const Rollout& rollout, Int k) {
+    const auto& [instance, state, r, scratch] = rollout;
     const Int b = state.problem[r];
     const VehicleType& type = instance.type(b, k);
     if (state.used(r, k) >= type.count || !may_take_off(instance, state, r, k, type.begins_at, 0)) {
@@ -211,13 +282,15 @@ bool open_legal(const Instance& instance, const State& state, Int r, Int k) {
     const Size& size = instance.size[b];
     const View<const Goods, 1> goods = instance.goods[b];
     const Int parted = state.vehicle[r].parted | state.vehicle[r].kept_by_vehicle;
+    bool waits = false;
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.fresh(b, k, node) && !state.served(r, node) &&
             (!some_apart(goods) || joins_anybody(goods[node], parted))) {
-            return true;
+            if (!is_bound(instance.across[b], node)) return true;
+            waits = true;
         }
     }
-    return false;
+    return waits && serves_behind_others(rollout, k);
 }
 
 }  // namespace
@@ -241,7 +314,7 @@ Int legal_actions(const Instance& instance, State& state, Int r, Int scratch, Vi
         }
     }
     for (Int k = 0; k < instance.size[b].types; ++k) {
-        if (open_legal(instance, state, r, k)) {
+        if (open_legal(rollout, k)) {
             actions[found++] = encode_action(ActionKind::open, k);
         }
     }
@@ -291,6 +364,7 @@ void price_routes(const Instance& instance, State& state, Int r, View<const Int,
     for (Int done = 0; done < actions.size(); ++vehicle) {
         state.cost[r] = {};
         std::ranges::fill(state.used[r], 0);
+        std::ranges::fill(state.starts[r], none);
         done = apply_route(instance, state, r, actions, done);
         close_vehicle(instance, state, r);
         clear_vehicle(state.vehicle[r]);

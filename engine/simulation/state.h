@@ -52,6 +52,8 @@ struct Setting {
     View<const Pair, 1> pair;            // (node,) none where nobody belongs together
     View<const Int, 1> max_between;      // (node,) ms, none where no shipment is limited
     View<const Lag, 2> lag;              // (node, rank) none where nobody is served behind others
+    View<const Lag, 2> across;           // (node, rank) none likewise, of any vehicles
+    View<const Int, 1> starts;           // (node,) when vehicles closed begin to serve, or `none`
     View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
     const VehicleType& type;
     View<const Int, 2> drive;           // (node, node) ms
@@ -94,6 +96,7 @@ struct State {
     View<std::int64_t, 1> num_unserved;  // (rollout,)
     View<std::int64_t, 2> used;          // (rollout, type) vehicles opened
     View<Hub, 2> taken;                  // (rollout, depot) by vehicles closed, or (rollout, 0)
+    View<std::int64_t, 2> starts;        // (rollout, node) by vehicles closed, or (rollout, 0)
     View<bool, 1> done;                  // (rollout,)
     View<Vehicle, 1> vehicle;            // (rollout,) the open one
     View<Drone, 2> drone;                // (rollout, drone) its drones
@@ -103,8 +106,9 @@ struct State {
 };
 
 inline State state_of(const tandem_state& from) {
-    return {from.problem, from.served, from.num_unserved,         from.used, from.taken, from.done,
-            from.vehicle, from.drone,  vehicle_logs_of(from.log), from.cost, from.fresh};
+    return {from.problem, from.served, from.num_unserved, from.used,  from.taken,
+            from.starts,  from.done,   from.vehicle,      from.drone, vehicle_logs_of(from.log),
+            from.cost,    from.fresh};
 }
 
 }  // namespace tandem

@@ -171,6 +171,15 @@ bool keep_fresh(OpenVehicle& open) {
     }
 }
 
+// Note when service begins at those of orders across vehicles. In place.
+void note_starts(const OpenVehicle& open, View<Int, 1> starts) {
+    for (const LoggedStop& stop : open.log.stop.first(open.log.count.stops)) {
+        if (stop.node >= open.setting.num_depots && is_bound(open.setting.across, stop.node)) {
+            starts[stop.node] = stop.start;
+        }
+    }
+}
+
 // End the trip at a depot.
 void come_home(const Setting& setting, Vehicle& vehicle) {
     vehicle.idle = 1;
@@ -185,7 +194,8 @@ void come_home(const Setting& setting, Vehicle& vehicle) {
 
 OpenVehicle open_vehicle_of(const Instance& instance, Int b, const State& state, Int row) {
     Vehicle& vehicle = state.vehicle[row];
-    const Setting setting = setting_of(instance, b, vehicle.type);
+    Setting setting = setting_of(instance, b, vehicle.type);
+    setting.starts = state.starts[row];
     return {setting, vehicle, log_of(state.log, row), state.drone[row].first(setting.type.drones)};
 }
 
@@ -290,7 +300,9 @@ bool drive(OpenVehicle& open, Int node) {
     if (!setting.lag.empty()) {
         if (!logged_starts(log).keep_lags(setting)) return false;
         // Who is served some time behind another may come later than the start known so far allows.
-        if (is_customer && is_behind(setting.lag, node)) vehicle.start_best = log.trip[0].start;
+        if (is_customer && (is_behind(setting.lag, node) || is_bound(setting.across, node))) {
+            vehicle.start_best = log.trip[0].start;
+        }
     }
     note_charges(setting, log, drones);
     if (!is_customer) come_home(setting, vehicle);
@@ -345,6 +357,7 @@ void close_vehicle(const Instance& instance, State& state, Int r) {
         }
     }
     if (log.count.trips == 0) return;
+    note_starts(open, state.starts[r]);
     note_taken(instance, state, r);
     add_cost(instance, setting, log, b, vehicle.type, state.cost[r]);
 }

@@ -29,6 +29,7 @@ void copy_vehicle(State& state, Int r, Int to) {
     const LogLengths& count = logs.count[r];
     state.vehicle[to] = state.vehicle[r];
     logs.count[to] = count;
+    copy_rows<Int>(state.starts[r], state.starts[to], state.starts.shape(1));
     copy_rows<Drone>(state.drone[r], state.drone[to], state.drone.shape(1));
     copy_rows<LoggedTrip>(logs.trip[r], logs.trip[to], count.trips);
     copy_rows<LoggedStop>(logs.stop[r], logs.stop[to], count.stops);

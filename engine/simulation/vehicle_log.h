@@ -33,6 +33,8 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .pair = instance.pair[b],
         .max_between = limits_of(instance.max_between[b], k),
         .lag = instance.lag[b],
+        .across = instance.across[b],
+        .starts = {},
         .no_launch = instance.no_launch[b],
         .type = type,
         .drive = durations[type.travel],

@@ -11,6 +11,8 @@ def company_rows(problem: Problem) -> list[tuple[int, int, int, int, int]]:
     first, next_bit = problem.num_depots, {False: 1 << len(_named(problem)), True: 1}
     for relation in problem.relations:
         kept, on_trip = relation.keeps_together, relation.scope == "trip"
+        if relation.across:
+            continue
         # Apart: whoever is held bars all others like him.
         fields = (3 if on_trip else 4,) if kept else (0, 1 if on_trip else 2)
         for node in relation.nodes:

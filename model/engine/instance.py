@@ -72,6 +72,7 @@ class Instance(NamedTuple):
     pair: Records  # (problem, node), or (problem, 0)
     max_between: IntArray  # (problem, type, node) ms, FAR without limit; (problem, 0, 0) where none
     lag: Records  # (problem, node, rank), or (problem, 0, 0) where nobody is served behind others
+    across: Records  # (problem, node, rank) behind or before them by any vehicle, likewise
     vehicle_cost: FloatArray  # (problem, type, node) of being served by it, or (problem, 0, 0)
     no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
     hub: Records  # (problem, depot), or (problem, 0) where all have enough
@@ -121,8 +122,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     """Allocate arrays for problems with so many types and tables of nodes and of `legs`, if any."""
     rows, nodes = len(problems), max(each.num_nodes for each in problems)
     depots = max(problem.num_depots for problem in problems)
-    ends = nodes if legs else 0
-    changes = _num_changes(problems)
+    ends, changes = nodes if legs else 0, _num_changes(problems)
     gaps = max((len(c.gaps) for problem in problems for c in problem.customers), default=0)
     limited = any(problem.limits_time_aboard for problem in problems)
     apart = any(problem.limits_company for problem in problems)
@@ -138,7 +138,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
         max_time_aboard=np.full((rows, nodes if limited else 0), FAR, np.int64),
         pair=empty_pairs(problems, nodes),
         max_between=empty_limits(problems, types, nodes, FAR),
-        lag=lag_rows(problems, nodes),
+        **lag_rows(problems, nodes),
         vehicle_cost=vehicle_costs(problems, types, nodes),
         no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
         hub=np.zeros((rows, depots if any(problem.limits_hubs for problem in problems) else 0),

@@ -2,13 +2,13 @@
 places of one customer.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from model.engine.library import dtype_of
 from model.engine.records import Records
-from model.problem import IntArray, Problem, VehicleType
+from model.problem import IntArray, Lag, Problem, VehicleType
 
 
 def empty_pairs(problems: Sequence[Problem], nodes: int) -> Records:
@@ -64,12 +64,18 @@ def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray)
                 rows[index, each.pickup] = min(limit, rows.item(index, each.pickup))
 
 
-def lag_rows(problems: Sequence[Problem], nodes: int) -> Records:
-    """Return (problem, node, rank) how long behind others customers are served."""
-    most = max([len(lags) for problem in problems for lags in problem.lags.values()], default=0)
-    rows = np.zeros((len(problems), nodes if most else 0, most), dtype_of("tandem_lag"))
+def lag_rows(problems: Sequence[Problem], nodes: int) -> dict[str, Records]:
+    """Return how long behind others customers are served, by one vehicle or any."""
+    return {"lag": _rows_of([each.lags for each in problems], nodes),
+            "across": _rows_of([each.lags_across for each in problems], nodes)}
+
+
+def _rows_of(behind: Sequence[Mapping[int, Sequence[Lag]]], nodes: int) -> Records:
+    """Return (problem, node, rank) lags; (problem, 0, 0) where there are none."""
+    most = max([len(lags) for each in behind for lags in each.values()], default=0)
+    rows = np.zeros((len(behind), nodes if most else 0, most), dtype_of("tandem_lag"))
     rows["node"] = -1
-    for row, problem in zip(rows, problems, strict=True):
-        for node, lags in problem.lags.items():
+    for row, each in zip(rows, behind, strict=True):
+        for node, lags in each.items():
             row[node, : len(lags)] = [tuple(lag) for lag in lags]
     return rows

@@ -10,6 +10,7 @@ from model.judge.check import Evaluation, JudgedRoute, check, judge_route
 from model.judge.clock import with_all_setups
 from model.judge.ends import with_ends
 from model.judge.launch_sites import without_idle_stops
+from model.judge.lags import Awaited, soonest_across
 from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
 from model.judge.places import Found, Place, changed, find_place, route_with, routes_without
 from model.judge.retiming import TimedRoute, read_route, time_route
@@ -134,6 +135,12 @@ class Bench:
         else:
             decision = RouteDecision(place.vehicle.type, place.vehicle.number, ())
         decision = route_with(decision, place, self.node, (kind.begins_at, kind.ends_at))
+        if self.node in problem.lags_across:
+            others = [route for number, route in enumerate(routes) if number != index]
+            until = soonest_across(problem, others, self.node)
+            decision = replace(decision, trips=tuple([
+                replace(trip, awaited=(*trip.awaited, Awaited(self.node, until)))
+                for trip in decision.trips]))
         if place.own_trip:
             decision = replace(decision, trips=with_ends(kind, decision.trips))
         timed = self._best(problem, [decision], index)

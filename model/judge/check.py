@@ -5,16 +5,17 @@ Shares nothing with simulator and search, so that it can judge both.
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import chain, pairwise
 from operator import attrgetter
 from types import MappingProxyType
 
-from model.judge.company import plan_company, route_company
+from model.judge.company import plan_company, plan_orders, route_company
 from model.judge.fairness import fairness_cost
 from model.judge.hours import hours_violations
 from model.judge.hubs import hub_violations
 from model.judge.launch_sites import site_violations, with_launch_sites
+from model.judge.lags import starts_across
 from model.judge.metrics import (
     RouteMetrics, flight_legs, measure_route, measure_trip, unassigned_cost,
 )
@@ -54,7 +55,8 @@ def check(problem: Problem, solution: Solution, past: Past = EVERYTHING_OPEN,
               for index, route in enumerate(solution.routes)]
     violations = [*_assignment_violations(problem, solution, routes),
                   *_fleet_violations(problem, solution), *hub_violations(problem, solution),
-                  *plan_company(problem, [judged.nodes for judged in routes])]
+                  *plan_company(problem, [judged.nodes for judged in routes]),
+                  *plan_orders(problem, [judged.starts for judged in routes])]
     if past is not EVERYTHING_OPEN:
         violations += past_violations(problem, solution, past)
     for judged in routes:
@@ -78,6 +80,7 @@ class JudgedRoute:
     cost: Cost
     end: int  # ms, the last return
     nodes: tuple[int, ...]  # of all whom it serves, or claims to
+    starts: Mapping[int, int] = field(default_factory=dict)  # of service, in orders across vehicles
 
 
 def judge_route(problem: Problem, route: Route, path: str,
@@ -104,7 +107,9 @@ def judge_route(problem: Problem, route: Route, path: str,
     violations += route_violations(problem, vehicle_type, trips, measured, path,
                                    len(known) == len(trips))
     violations += route_company(problem, trips, path)
-    return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes)
+    starts = starts_across(problem, timed)
+    return JudgedRoute(violations, measured, cost, timed.trips[-1].stops[-1].departure, nodes,
+                       starts)
 
 
 def _nodes(route: Route) -> Iterator[int]:
@@ -121,7 +126,7 @@ def _total(costs: list[Cost]) -> Cost:
 def _time(problem: Problem, vehicle_type: VehicleType, stated: Trip, path: str,
           known: KnownTrip | None, now: int, before: Sequence[Trip]) -> TimedTrip:
     """Recompute a trip from the choices it states, and what is known of it."""
-    decision = read_decision(stated, vehicle_type)
+    decision = read_decision(stated, vehicle_type, problem.lags_across)
     if known is not None and begins_with(stated, known):
         trip = resume_trip(problem, vehicle_type, decision, known, now, before)
     else:

@@ -1,11 +1,12 @@
 """Who goes with whom: relations between customers, of those who are served."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 
-from model.judge.lags import halts_of, starts_of
+from model.judge.lags import halts_of, starts_across, starts_of
 from model.judge.past import Vehicle
 from model.judge.rules import TimedTrip, Violation, seconds
-from model.problem import Lag, Problem, Relation
+from model.problem import UNLIMITED, Lag, Problem, Relation
 from model.solution import Route, Solution
 
 
@@ -38,6 +39,21 @@ def plan_company(problem: Problem, served: Sequence[Sequence[int]]) -> Iterator[
             yield _violation(problem, relation, there[0][1], other, f"routes[{number}]")
 
 
+def plan_orders(problem: Problem, starts: Sequence[Mapping[int, int]]) -> Iterator[Violation]:
+    """Orders and lags that routes break together, by when each begins to serve whom."""
+    elsewhere = {node: number for number, own in enumerate(starts) for node in own}
+    for number, own in enumerate(starts):
+        for node, start in own.items():
+            for lag in problem.lags.get(node, ()):
+                other = elsewhere.get(lag.node, number)
+                if other == number:
+                    continue
+                after = start - starts[other][lag.node]
+                if not lag.least <= after <= lag.most:
+                    yield Violation("RELATION", _lag_words(problem, node, lag, after),
+                                    f"routes[{number}]")
+
+
 def _lag_violations(problem: Problem, trips: Sequence[TimedTrip], path: str) -> Iterator[Violation]:
     """Orders and lags that a vehicle doesn't keep."""
     starts = starts_of(halts_of([timed.trip for timed in trips]))
@@ -66,7 +82,7 @@ def words_of(relation: Relation) -> str:
 def _is_broken(relation: Relation, is_one_trip: bool) -> bool:
     """Tell whether two whom a vehicle serves, on one trip or not, break a relation."""
     if relation.scope == "vehicle":
-        return not relation.keeps_together
+        return relation.kind == "apart"
     return relation.keeps_together != is_one_trip
 
 
@@ -87,6 +103,34 @@ def who_decides(problem: Problem, solution: Solution, node: int) -> tuple[str, V
                 names = " and ".join(problem.customer_at(other).id for other in there)
                 return names, Vehicle(route.vehicle_type, route.vehicle)
     return None
+
+
+def who_waits(problem: Problem, solution: Solution, node: int) -> tuple[str, Problem | None]:
+    """Return for whom on any routes a customer's service has to wait, or who for it, by name.
+
+    And a problem in which it begins when these, as they are planned, let it; None if never.
+    """
+    starts = {other: start for route in solution.routes
+              for other, start in starts_across(problem, route).items() if other != node}
+    lags = [lag for lag in problem.lags_across.get(node, ()) if lag.node in starts]
+    names = " and ".join(dict.fromkeys([problem.customer_at(lag.node).id for lag in lags]))
+    customer = problem.customer_at(node)
+    soonest = max([customer.earliest, *(starts[lag.node] + lag.least for lag in lags)])
+    latest = min([starts[lag.node] + lag.most for lag in lags], default=UNLIMITED)
+    if customer.late_cost_per_hour is None:
+        latest = min(latest, customer.latest)
+    for closes, opens in customer.gaps:
+        soonest = opens if closes < soonest < opens else soonest
+        latest = closes if closes < latest < opens else latest
+    if not lags or soonest > latest:
+        return names, None if lags else problem
+    gaps = tuple([(closes, opens) for closes, opens in customer.gaps
+                  if soonest <= closes and opens <= latest])
+    bound = replace(customer, earliest=soonest, latest=latest, gaps=gaps,
+                    late_cost_per_hour=None, late_cost=0.0)
+    index = node - problem.num_depots
+    return names, replace(problem, customers=(
+        *problem.customers[:index], bound, *problem.customers[index + 1:]))
 
 
 def kept_off(problem: Problem, solution: Solution, kind: int, node: int) -> dict[Vehicle, str]:

@@ -12,7 +12,7 @@ from itertools import chain
 from math import ceil
 
 from model.judge.check import check
-from model.judge.company import kept_off, who_decides
+from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
@@ -188,12 +188,27 @@ def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> 
         why = f"It is to be served together with {names}, which {name} serves"
         room = ", and has no room for it" if vehicle.type == index else ""
         return Reason(index, "RELATION", f"{why}{room}.")
+    waiting = _out_of_order(problem, solution, index, node)
+    if waiting is not None:
+        return waiting
     barred = kept_off(problem, solution, index, node)
     if not barred or len(barred) < kind.count:
         return None
     return Reason(index, "RELATION", f"It is kept apart from {', '.join(barred.values())}, whom "
                   f"{kind.id} serves.", f"fits with one more vehicle of {kind.id}"
                   if kind.part_of in (None, kind.id) else None)
+
+
+def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -> Reason | None:
+    """Say for whom other vehicles serve no truck of a type comes in time; None if one may."""
+    if node not in problem.lags_across:
+        return None
+    names, bound = who_waits(problem, solution, node)
+    if bound is problem or (bound is not None and any(
+            not attempt.codes for attempt in attempts(bound, index, node))):
+        return None
+    return Reason(index, "RELATION", f"{problem.vehicle_types[index].id} can't serve it in its "
+                  f"order with {names}, as the plan serves these.")
 
 
 def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int) -> Reason | None:
@@ -226,6 +241,8 @@ def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason
 
 def _remedy_by_other(problem: Problem, index: int, node: int, means: str) -> str | None:
     """Return that a truck, or a drone, should be allowed, if that suffices."""
+    if node in problem.lags_across:
+        return None
     small = small_problem(problem, index, [node])
     customer = replace(small.customers[0], served_by="either")
     attempt = next(try_truck(replace(small, customers=(customer,))))

@@ -1,11 +1,24 @@
-"""Who is served before whom by one vehicle, and how much later the other is."""
+"""Who is served before whom, by one vehicle or any, and how much later the other is."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from itertools import chain
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from model.problem import Problem
-from model.solution import Stop, Trip, Visit
+from model.solution import Route, Stop, Trip, Visit
+
+
+class Awaited(NamedTuple):
+    """Until when a truck waits at a customer, for whoever others serve before or behind."""
+
+    node: int
+    until: int
+
+
+def waits_of(trip: Trip, bound: Container[int]) -> tuple[Awaited, ...]:
+    """Return until when a truck waits, as a trip states, at those of orders across vehicles."""
+    return tuple([Awaited(stop.node, stop.service_start) for stop in trip.customer_stops
+                  if stop.node in bound]) if bound else ()
 
 
 def starts_of(halts: Iterable[Stop | Visit]) -> dict[int, int]:
@@ -20,6 +33,22 @@ def halts_of(trips: Iterable[Trip]) -> Iterator[Stop | Visit]:
         yield from chain.from_iterable([sortie.visits for sortie in trip.sorties])
 
 
+def starts_across(problem: Problem, route: Route) -> dict[int, int]:
+    """Return when service begins at those whom a route serves of orders across vehicles."""
+    if not problem.lags_across:
+        return {}
+    return {node: start for node, start in starts_of(halts_of(route.trips)).items()
+            if node in problem.lags_across}
+
+
+def soonest_across(problem: Problem, routes: Iterable[Route], node: int) -> int:
+    """Return when service at a customer may begin at the soonest, for those whom routes serve."""
+    starts = {other: start for route in routes
+              for other, start in starts_across(problem, route).items()}
+    return max([starts[lag.node] + lag.least for lag in problem.lags_across.get(node, ())
+                if lag.node in starts], default=0)
+
+
 class Flown(Protocol):
     """A flight that has taken off, timed or about to be."""
 
@@ -27,17 +56,19 @@ class Flown(Protocol):
 
 
 def awaited(problem: Problem, node: int, before: Iterable[Trip], stops: Iterable[Stop],
-            flights: Mapping[int, Flown]) -> int:
+            flights: Mapping[int, Flown], chosen: Iterable[Awaited] = ()) -> int:
     """Return until when a truck waits at a customer for those who are served some time before.
 
-    They are so on trips before, or on stops and flights of the same trip.
+    They are so on trips before, or on stops and flights of the same trip; `chosen` is how long it
+    waits for others.
     """
-    if node not in problem.lags:
+    if node not in problem.lags and node not in problem.lags_across:
         return 0
     starts = starts_of(chain(halts_of(before), stops,
                              *[flight.visits for flight in flights.values()]))
-    return max([starts[lag.node] + lag.least for lag in problem.lags[node] if lag.node in starts],
-               default=0)
+    return max([0, *(each.until for each in chosen if each.node == node),
+                *(starts[lag.node] + lag.least for lag in problem.lags.get(node, ())
+                  if lag.node in starts)])
 
 
 def excess_of_lags(problem: Problem, trip: Trip) -> int:

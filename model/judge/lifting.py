@@ -19,7 +19,7 @@ def lifted(problem: Problem, node: int) -> Iterator[tuple[str, Problem]]:
         yield "vehicles", _open_to_all(problem, node)
     if any(not customer.skills <= kind.skills for kind in problem.vehicle_types):
         yield "skills", with_customer(problem, node, replace(customer, skills=frozenset()))
-    if customer.served_by != "either":
+    if customer.served_by != "either" and node not in problem.lags_across:
         yield "served_by", with_customer(problem, node, replace(customer, served_by="either"))
     if any(node in each.nodes for each in problem.relations):
         yield "relations", replace(problem, relations=tuple(

@@ -40,7 +40,7 @@ def read_route(problem: Problem, route: Route) -> RouteDecision:
     """Return the choices that a timed route states."""
     kind = problem.vehicle_types[route.vehicle_type]
     return RouteDecision(route.vehicle_type, route.vehicle, tuple(
-        [read_decision(trip, kind) for trip in route.trips]))
+        [read_decision(trip, kind, problem.lags_across) for trip in route.trips]))
 
 
 def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:

@@ -1,12 +1,12 @@
 """When everything in a route happens, from the decisions that leave a choice.
 
-A decision fixes sequences, the order of launches and recoveries at each stop and when a trip
-begins; every other time follows as soon as possible, but for launches: one is held back as long as
-windows would let its flight last longer than the endurance, or hover for more than its battery
-holds, or its battery is being charged. Times in ms, plain Python integers.
+A decision fixes sequences, launches and recoveries at each stop in order, when a trip begins, and
+until when trucks wait for whom others serve. All else follows as soon as possible, but launches are
+held back as long as windows would let a flight last longer than the endurance, or hover for more
+than its battery holds, or that is being charged. Times in ms, plain Python integers.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -14,7 +14,7 @@ from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
 from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
-from model.judge.lags import awaited
+from model.judge.lags import Awaited, awaited, waits_of
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
@@ -48,6 +48,7 @@ class TripDecision:
     operations: tuple[tuple[Operation, ...], ...] | None = None  # per stop; None: by arrival
     start: int | None = None  # arrival at the first stop; None: as soon as possible
     breaks: tuple[BreakDecision, ...] = ()
+    awaited: tuple[Awaited, ...] = ()  # customers of orders across vehicles
 
     def customers(self, first: int) -> tuple[int, ...]:
         """Return those whom it serves, whose nodes begin at `first`, the truck's first."""
@@ -105,15 +106,15 @@ def _is_complete(operations: tuple[tuple[Operation, ...], ...],
     )
 
 
-def read_decision(trip: Trip, kind: VehicleType) -> TripDecision:
+def read_decision(trip: Trip, kind: VehicleType, bound: Container[int] = ()) -> TripDecision:
     """Return the choices that a timed trip states; the order at a stop is that of beginnings.
 
-    Operations that take no time come before others that begin with them, as their times demand.
+    What takes no time comes before others that begin with it. Trucks wait at `bound` customers.
     """
     nodes = tuple([stop.node for stop in trip.stops])
-    start = trip.stops[0].arrival
+    start, taken, waits = trip.stops[0].arrival, decisions_of(trip), waits_of(trip, bound)
     if not trip.sorties:
-        return TripDecision(nodes, (), None, start, decisions_of(trip))
+        return TripDecision(nodes, (), None, start, taken, waits)
     keyed: list[list[tuple[tuple[int, ...], Operation]]] = [[] for _ in nodes]
     sorties = []
     begins = launch_begins(trip.sorties, kind)
@@ -129,7 +130,7 @@ def read_decision(trip: Trip, kind: VehicleType) -> TripDecision:
             recovery = (max(begin, recovery[0]), max(end, recovery[1]), phase, index, 1)
         keyed[last].append((recovery, Operation(index, False)))
     operations = tuple(tuple(operation for _, operation in sorted(group)) for group in keyed)
-    return TripDecision(nodes, tuple(sorties), operations, start, decisions_of(trip))
+    return TripDecision(nodes, tuple(sorties), operations, start, taken, waits)
 
 
 def latest_release(problem: Problem, decision: TripDecision) -> int:
@@ -288,8 +289,7 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     duration, setup = problem.travel[vehicle_type.travel].duration, 0
     profile, drones = vehicle_type.speed_profile, vehicle_type.drones
     customers, first, last = problem.customers, len(problem.depots), len(decision.nodes) - 1
-    flights: dict[int, _Flight] = {}
-    stops: list[Stop] = []
+    flights, stops = dict[int, _Flight](), list[Stop]()
     arrival = decision.start
     if arrival is None:
         arrival = max(ready, latest_release(problem, decision))
@@ -315,7 +315,7 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
         elif 0 < index < last:
             customer = customers[node - first]
             start = service_start(customer, max(
-                arrival + setup, awaited(problem, node, before, stops, flights)))
+                arrival + setup, awaited(problem, node, before, stops, flights, decision.awaited)))
             departure = start + vehicle_type.service_at(customer)
         if drones is not None and decision.sorties:
             departure = max(departure,

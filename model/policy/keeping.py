@@ -1,7 +1,7 @@
 """Parts of a plan that a further sample keeps, so that it plans anew only what is near a customer.
 
 As ruin and recreate does, with the policy to recreate. Vehicles don't meet in the decision process,
-so the actions of any of them are legal in any order.
+so the actions of any of them are legal in any order. Where orders bind some to others, all is new.
 """
 
 import numpy as np
@@ -38,7 +38,7 @@ def part_to_keep(instance: Instance, actions: IntArray, most_anew: float,
     Codes of the actions kept, those of whole vehicles first.
     """
     vehicle, services = _vehicles(actions), np.flatnonzero(serves(actions))
-    if len(services) == 0:
+    if len(services) == 0 or instance.across.shape[1]:
         return actions[:0]
     nearest_first = _nearby(instance, actions[services] // NUM_KINDS, vehicle[services], rng)
     anew = np.cumsum(np.bincount(vehicle[services])[nearest_first])

@@ -78,8 +78,8 @@ class RoutePool:
                  alarm: IntArray | None = None) -> Rollout:
         """Return the cheapest plan that is found by the routes seen, at most as dear as `best`.
 
-        That is `best` where vehicles share batteries, or places to charge, or where some customers
-        go together.
+        That is `best` where vehicles share batteries, or places to charge, where some customers go
+        together, or are served in an order by any vehicles.
 
         Parameters
         ----------
@@ -92,8 +92,8 @@ class RoutePool:
         """
         alarm = Alarm().setting if alarm is None else alarm
         company = self._instance.goods
-        if (self._instance.hub.shape[1] or company["kept_on_trip"].any()
-                or company["kept_on_vehicle"].any()):
+        if (self._instance.hub.shape[1] or self._instance.across.shape[1]
+                or company["kept_on_trip"].any() or company["kept_on_vehicle"].any()):
             return best
         self._forget(best)
         for _ in range(-(-int(self._instance.size[0].customers) // REGION)):

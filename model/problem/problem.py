@@ -101,11 +101,15 @@ class Problem:
         named = frozenset().union(*(each.goods for each in self.incompatible_goods))
         require(len(named) <= MOST_INCOMPATIBLE, "incompatible goods", len(named))
         together = sum(each.keeps_together for each in self.relations)
-        apart = len(self.relations) - together + len(named)
+        apart = sum(each.kind == "apart" for each in self.relations) + len(named)
         require(max(together, apart) <= MOST_RELATIONS, "relations", len(self.relations))
         for each in self.relations:
             require(self.num_depots <= min(each.nodes) and max(each.nodes) < self.num_nodes
                     and self.shipment_at.keys().isdisjoint(each.nodes), "relations", each.nodes)
+        for node in self.lags_across:
+            customer = self.customer_at(node)
+            require(customer.served_by == "truck", f"customer {customer.id} served_by",
+                    customer.served_by)
 
     def _require_pairs(self) -> None:
         ends = [node for each in self.shipments for node in (each.pickup, each.delivery)]
@@ -322,7 +326,8 @@ class Problem:
     @cached_property
     def limits_company(self) -> bool:
         """Tell whether it matters who goes with whom."""
-        return bool(self.incompatible_goods or self.relations)
+        return bool(self.incompatible_goods
+                    or any(not each.across for each in self.relations))
 
     @cached_property
     def keeps_together(self) -> bool:
@@ -334,6 +339,14 @@ class Problem:
         """How much later than others each customer is served behind whom there are some."""
         found: dict[int, tuple[Lag, ...]] = {}
         for node, lag in chain.from_iterable([each.lags() for each in self.relations]):
+            found[node] = (*found.get(node, ()), lag)
+        return found
+
+    @cached_property
+    def lags_across(self) -> dict[int, tuple[Lag, ...]]:
+        """How much later or sooner than others, on any vehicles, customers of orders are served."""
+        found: dict[int, tuple[Lag, ...]] = {}
+        for node, lag in chain.from_iterable([each.lags_across() for each in self.relations]):
             found[node] = (*found.get(node, ()), lag)
         return found
 

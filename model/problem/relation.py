@@ -28,7 +28,7 @@ class Lag(NamedTuple):
 class Relation:
     """Customers who go together, or no two of whom do; it binds those alone who are served.
 
-    Those of `before` go together, too, in their order.
+    Those of `before` go together, too, in their order, unless it says so `across` vehicles.
     """
 
     kind: RelationKind
@@ -36,6 +36,7 @@ class Relation:
     scope: Literal["vehicle", "trip"] = "vehicle"
     min_lag: int = 0  # ms from the start of service at any to that at all who are named behind
     max_lag: int | None = None  # ms to that of who is named next
+    across: bool = False  # any vehicles serve them, of `before`
 
     def __post_init__(self) -> None:
         name = f"relation {self.kind}"
@@ -47,11 +48,13 @@ class Relation:
         require(max(self.min_lag, self.max_lag or 0) <= MAX_QUANTITY, f"{name} max_lag",
                 self.max_lag)
         require(self.kind != "before" or len(self.nodes) <= MOST_IN_ORDER, name, self.nodes)
+        require(not self.across or (self.kind, self.scope) == ("before", "vehicle"), name,
+                self.across)
 
     @property
     def keeps_together(self) -> bool:
         """Tell whether one vehicle serves all of those who are served."""
-        return self.kind != "apart"
+        return self.kind != "apart" and not self.across
 
     def lags(self) -> Iterator[tuple[int, Lag]]:
         """Yield who is served behind whom, and how much later."""
@@ -60,6 +63,13 @@ class Relation:
                 is_next = other_place == place + 1
                 most = UNLIMITED if self.max_lag is None or not is_next else self.max_lag
                 yield other, Lag(one, self.min_lag, most)
+
+    def lags_across(self) -> Iterator[tuple[int, Lag]]:
+        """Yield for both of any two how much later than the other one is served, or less if before.
+        """
+        for node, lag in self.lags() if self.across else ():
+            yield node, lag
+            yield lag.node, Lag(node, -lag.most, -lag.least)
 
     def among(self, number: Mapping[int, int]) -> "Relation | None":
         """Return it for those who have a new number; None if it says nothing of them."""

@@ -7,6 +7,7 @@ import numpy as np
 from model.engine.alarm import Alarm
 from model.engine.instance import WORK_RATES, Instance
 from model.engine.leg import are_the_same_back
+from model.engine.library import dtype_of
 from model.engine.records import Records
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
 from model.search.evaluation import evaluate
@@ -54,7 +55,8 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
         setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
         pair=instance.pair[0], max_between=instance.max_between[0],
-        lag=instance.lag[0],
+        lag=instance.lag[0], across=instance.across[0],
+        span=np.zeros(instance.across.shape[1], dtype_of("tandem_span")),
         vehicle_cost=instance.vehicle_cost[0],
         no_launch=instance.no_launch[0], hub=instance.hub[0], **halts._asdict(),
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),

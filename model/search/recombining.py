@@ -28,12 +28,13 @@ def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     """Let the best plan take over the parts of the plan as it is that cost less. In place.
 
     Where that would take too many vehicles, batteries or places to charge, those parts alone that
-    need no more of any. None where the plan costs something as a whole.
+    need no more of any. None where the plan costs something as a whole, or orders bind routes.
 
     Who is to go with others stays in one part with them, so that no other part serves them too.
     """
     fairness = data.fairness
-    if fairness.makespan > 0 or fairness.balance > 0 or fairness.min_vehicles > 0:
+    if (fairness.makespan > 0 or fairness.balance > 0 or fairness.min_vehicles > 0
+            or len(data.across)):
         return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
     nodes, unit = np.arange(data.num_depots, data.num_nodes), np.arange(data.num_nodes)

@@ -63,7 +63,7 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
     """
     linked = bool(evaluation["by_distance"].all())
     # Else parts of trips may have ends of shipments alone, or part who goes together.
-    whole = not (problem.shipments or problem.keeps_together)
+    whole = not (problem.shipments or problem.keeps_together or problem.lags_across)
     # Who else has how much work counts wherever somebody is inserted.
     fair = problem.fairness.is_stated
     scan_all = fair or problem.num_customers < SCAN_ALL_BELOW
@@ -77,7 +77,9 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
                      and _may_be_any_time(problem, instance) and _flights_may_save(instance)),
         swap_vehicles=moves.types and bool(swap.any()),
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
-        scan_all=scan_all, keep_places=scan_all and not linked and blink <= LEAST_BLINK,
+        scan_all=scan_all,
+        keep_places=(scan_all and not linked and blink <= LEAST_BLINK
+                     and not problem.lags_across),
         give_up_early=not (fair or problem.launch_sites or _may_save(instance, evaluation)),
         blink=blink)
 

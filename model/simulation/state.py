@@ -4,7 +4,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from model.engine.instance import Instance
+from model.engine.instance import FAR, Instance
 from model.engine.library import dtype_of
 from model.engine.records import Records
 from model.problem import BoolArray, FloatArray, IntArray
@@ -37,6 +37,7 @@ class State(NamedTuple):
     num_unserved: IntArray  # (rollout,)
     used: IntArray  # (rollout, type) vehicles opened
     taken: Records  # (rollout, depot) by the vehicles closed so far, or (rollout, 0)
+    starts: IntArray  # (rollout, node) by them, in orders across vehicles, or (rollout, 0)
     done: BoolArray  # (rollout,)
     vehicle: Records  # (rollout,) the open one
     drone: Records  # (rollout, drone) its drones
@@ -67,6 +68,7 @@ def empty_state(instance: Instance, rows: int) -> State:
         num_unserved=np.zeros(rows, np.int64),
         used=np.zeros((rows, num_types), np.int64),
         taken=np.zeros((rows, instance.hub.shape[1]), dtype_of("tandem_hub")),
+        starts=np.full((rows, num_nodes if instance.across.shape[1] else 0), -FAR, np.int64),
         done=np.zeros(rows, np.bool_),
         vehicle=np.zeros(rows, dtype_of("tandem_vehicle")),
         drone=np.zeros((rows, max_drones), dtype_of("tandem_drone")),

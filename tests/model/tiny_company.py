@@ -36,6 +36,17 @@ def with_order(rng: np.random.Generator, problem: Problem) -> Problem:
     return _with_drawn(rng, problem, draw)
 
 
+def with_order_across(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem some of whose customers any trucks serve before others."""
+    def draw(some: Callable[[], tuple[int, ...]]) -> Relation:
+        least = int(rng.integers(0, 12)) * MINUTE if rng.random() < 0.6 else 0
+        most = least + int(rng.integers(0, 12)) * MINUTE if rng.random() < 0.5 else None
+        return Relation("before", some(), "vehicle", least, most, across=True)
+
+    by_truck = tuple([replace(each, served_by="truck") for each in problem.customers])
+    return _with_drawn(rng, replace(problem, customers=by_truck), draw)
+
+
 def _with_drawn(rng: np.random.Generator, problem: Problem,
                 draw: Callable[[Callable[[], tuple[int, ...]]], Relation]) -> Problem:
     """Return a problem with one relation more, or two, between two or three of its customers."""

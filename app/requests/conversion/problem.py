@@ -40,6 +40,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         to_customer(customer, decimals, site)
         for customer, site in zip(request.customers, sites[len(depots):], strict=True)])
     customers, shipments = _with_shipments(request, customers, len(depots))
+    customers = _by_truck_across(customers, relations := _relations(request, len(depots)), depots)
     amounts = [amount for customer in customers for amount in (customer.demand, customer.taken_in)]
     vehicle_types = tuple([to_vehicle_type(stated, depots, travels, decimals, amounts)
                            for stated in request.fleet])
@@ -66,7 +67,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         may_stop=placed.may_stop(kinds, None if serves is None else serves[:, len(customers):]),
         must_serve=request.unassigned_cost is None,
         incompatible_goods=_apart(request),
-        relations=_relations(request, len(depots)),
+        relations=relations,
         shipments=shipments, choices=_choices(request, len(depots)),
         fairness=fairness,
     )
@@ -153,8 +154,19 @@ def _relations(request: PlanRequest, num_depots: int) -> tuple[Relation, ...]:
     places = {chosen[0]: chosen for chosen in _choices(request, num_depots)}
     return tuple(Relation(each.kind, tuple([
         place for name in each.customers for place in places.get(node[name], (node[name],))
-    ]), each.scope, thousandths(each.min_lag), optional_thousandths(each.max_lag))
+    ]), each.scope, thousandths(each.min_lag), optional_thousandths(each.max_lag),
+        each.kind == "before" and not each.same_vehicle)
         for each in request.relations)
+
+
+def _by_truck_across(customers: tuple[Customer, ...], relations: Sequence[Relation],
+                     depots: Sequence[object]) -> tuple[Customer, ...]:
+    """Let trucks alone serve those of orders across vehicles, since drones can't wait."""
+    bound = {node - len(depots) for each in relations if each.across for node in each.nodes}
+    if not bound:
+        return customers
+    return tuple([replace(customer, served_by="truck") if index in bound else customer
+                  for index, customer in enumerate(customers)])
 
 
 def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],

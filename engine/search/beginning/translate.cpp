@@ -14,6 +14,7 @@
 #include "search/insertion/evaluate.h"
 #include "search/route/fairness.h"
 #include "search/route/freshness.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
@@ -95,6 +96,7 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
+    if (orders_cross(data)) keep_starts(data, route, stops);
     if (has_breaks(data.type[route.type])) {
         bool settled = false;
         return price_as_is(data, fleet, slot, settled) &&

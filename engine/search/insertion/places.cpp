@@ -8,6 +8,7 @@
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/cheapest_stop.h"
+#include "search/insertion/evaluate.h"
 #include "search/insertion/offers.h"
 #include "search/insertion/pairs.h"
 #include "search/route/edit.h"
@@ -15,6 +16,7 @@
 #include "search/route/fairness.h"
 #include "search/route/goods.h"
 #include "search/route/hubs.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -196,6 +198,15 @@ void offer_halts_beside(const Insertion& insertion, Int other) {
     offer_halts(insertion, slot, std::max(p - 1, trip.first), std::min(p, trip.last - 1));
 }
 
+// What a route costs that serves a customer alone, among the others as they are.
+double cost_alone(const ProblemData& data, const Searcher& searcher, Int k, Int way, Int node) {
+    const double cost = searcher.alone(k, way, node);
+    if (cost >= infeasible || !is_bound(data.across, node)) return cost;
+    const Int slot = searcher.now.route.size() - 1;
+    return serve_alone(data, searcher.now, slot, k, node, way == 1) ? searcher.now.cost[slot]
+                                                                    : infeasible;
+}
+
 }  // namespace
 
 void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, Best& best) {
@@ -208,7 +219,7 @@ void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, 
             best, best.weight > 0.0 ? best.weight * plan_cost_of_opening(data, best.shares, k, node)
                                     : 0.0);
         for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
-            if (!best.takes(searcher.alone(k, way, node))) continue;
+            if (!best.takes(cost_alone(data, searcher, k, way, node))) continue;
             best.move.kind = way == 0 ? new_route : new_flight;
             best.move.type = k;
         }

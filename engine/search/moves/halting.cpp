@@ -31,12 +31,6 @@ void move_rest(View<Line, 1> line, Int from, Int length, Int more) {
     }
 }
 
-// Go on from a route that was kept aside. In place.
-void put_back(const ProblemData& data, const Fleet& now, Int slot, Int spare) {
-    keep_aside(now, spare, slot);
-    refresh(data, now, slot);
-}
-
 }  // namespace
 
 void halt_for(const ProblemData& data, const Searcher& searcher, Int node) {
@@ -54,7 +48,7 @@ void halt_for(const ProblemData& data, const Searcher& searcher, Int node) {
     const Int halt = near[below(searcher.rng, near.size())];
     if (halt < 0) return;
     const Int spare = now.route.size() - 2;
-    keep_aside(now, slot, spare);
+    set_aside(data, now, slot, spare);
     insert_stops(sequence_in(now, slot), p + 1, {{halt, halt_stop}});
     if (!refresh(data, now, slot)) put_back(data, now, slot, spare);
     locate(now, slot);
@@ -66,7 +60,7 @@ void drop_idle_halts(const ProblemData& data, const Searcher& searcher) {
     for (const Int slot : searcher.touched.first(searcher.count->touched)) {
         const Int length = now.route[slot].length;
         if (length == 0) continue;
-        keep_aside(now, slot, spare);
+        set_aside(data, now, slot, spare);
         close_ranks(sequence_in(now, slot), searcher.marked, searcher.scratch->moved);
         if (now.route[slot].length == length) continue;
         if (!refresh(data, now, slot)) put_back(data, now, slot, spare);

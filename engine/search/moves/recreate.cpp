@@ -93,7 +93,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     touch(searcher, slot);
     Route& route = now.route[slot];
     const Int spare = now.route.size() - 2;
-    keep_aside(now, slot, spare);
+    set_aside(data, now, slot, spare);
     const Int former = route.type;
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
@@ -102,8 +102,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const bool allowed = refresh(data, now, slot) && hubs_suffice(data, searcher);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);
-        keep_aside(now, spare, slot);
-        refresh(data, now, slot);
+        put_back(data, now, slot, spare);
     }
     locate(now, slot);
     return allowed;

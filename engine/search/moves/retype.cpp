@@ -76,15 +76,14 @@ void give_type(const ProblemData& data, Searcher& searcher, Int slot, Int k, boo
         return;
     }
     const Int spare = now.route.size() - 2;
-    keep_aside(now, slot, spare);
+    set_aside(data, now, slot, spare);
     now.route[slot].type = k;
     if (refresh(data, now, slot) && hubs_suffice(data, searcher) &&
         !(cheaper && now.cost[slot] >= cost - least_saving)) {
         --now.used[former];
         ++now.used[k];
     } else {
-        keep_aside(now, spare, slot);
-        refresh(data, now, slot);
+        put_back(data, now, slot, spare);
     }
 }
 

@@ -5,6 +5,7 @@
 #include "randomness.h"
 #include "rules/company.h"
 #include "search/route/edit.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -98,6 +99,7 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
               View<Int, 1> touched) {
     const Fleet& fleet = searcher.now;
     const Int turn = searcher.count->turn;
+    const Int before = removed.count;
     Strings chosen(fleet, searcher.rng, longest, removed);
     Int num_touched = 0;
     Int strings = draw_strings(longest, searcher.rng);
@@ -111,19 +113,30 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
         const Int slot = fleet.where[node].slot;
         if (slot >= 0 && !removed.marked[node]) {
             Int& last_turn = searcher.hit(slot, fleet.stop(slot, stop_beside(fleet, node)).trip);
-            const Int before = removed.count;
+            const Int marked = removed.count;
             if (fleet.where[node].position < 0 && uniform(searcher.rng) < flight_only_share) {
                 removed.mark(node);
             } else if (last_turn != turn) {
                 last_turn = turn;
                 chosen.mark_around(node);
             }
-            if (removed.count > before) {
+            if (removed.count > marked) {
                 --strings;
                 if (!listed(touched, num_touched, slot)) touched[num_touched++] = slot;
             }
         }
         node = rank < near.size() ? near[rank] : nowhere;
+    }
+    if (!orders_cross(data)) return {num_touched, seed};
+    for (Int index = before; index < removed.count; ++index) {
+        for (const Lag& lag : lags_of(data.across, removed.absent[index])) {
+            if (lag.node < 0) break;
+            const Int slot = fleet.where[lag.node].slot;
+            if (slot < 0 || removed.marked[lag.node]) continue;
+            if (uniform(searcher.rng) >= company_share) continue;
+            removed.mark(lag.node);
+            if (!listed(touched, num_touched, slot)) touched[num_touched++] = slot;
+        }
     }
     return {num_touched, seed};
 }

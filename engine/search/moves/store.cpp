@@ -14,6 +14,7 @@
 #include "search/moves/small_moves.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/fairness.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -162,6 +163,12 @@ private:
             choose(data_, searcher_, longest_string(searcher_, num_trips()), removed,
                    searcher_.scratch->moved);
         mark_company(data_, now, searcher_.rng, removed, before);
+        if (orders_cross(data_)) {
+            // Nobody waits any more for whoever is about to be removed.
+            for (Int index = before; index < removed.count; ++index) {
+                leave_out(data_, now, removed.absent[index]);
+            }
+        }
         if (first > 0) try_near(data_, searcher_, seed, first, before);
         for (Int slot : searcher_.scratch->moved.view().first(num_touched)) touch(searcher_, slot);
         for (Int slot : searcher_.touched.first(num_touched)) {

@@ -47,7 +47,49 @@ auto starts_on(const ProblemData& data, View<const Stop, 1> stops, View<const So
     };
 }
 
+// When service begins at a customer on another route than that in a slot, as it is planned; `none`
+// of others.
+Int start_elsewhere(const Fleet& fleet, Int slot, Int node) {
+    const Place& place = fleet.where[node];
+    if (place.slot < 0 || place.slot == slot || place.position < 0) return none;
+    const Stop& stop = fleet.stop(place.slot, place.position);
+    return stop.kind == customer_stop && stop.node == node ? stop.free_start : none;
+}
+
+// From when to when a customer may be served, by those on other routes.
+Span span_of(const ProblemData& data, Int node) {
+    return is_bound(data.across, node) ? data.span[node] : Span{none, far};
+}
+
+// Tell whether a customer is on a route.
+bool is_on(View<const Stop, 1> stops, Int node) {
+    return std::any_of(stops.begin(), stops.end(), [&](const Stop& stop) {
+        return stop.kind == customer_stop && stop.node == node;
+    });
+}
+
 }  // namespace
+
+void note_spans(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const View<const Stop, 1> stops = fleet.stop[slot].first(fleet.route[slot].length);
+    for (const Stop& stop : stops) {
+        if (stop.kind != customer_stop || !is_bound(data.across, stop.node)) continue;
+        data.span[stop.node] = span_by(lags_of(data.across, stop.node), [&](Int other) {
+            return is_on(stops, other) ? none : start_elsewhere(fleet, slot, other);
+        });
+    }
+}
+
+void keep_starts(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    for (const Stop& stop : stops.first(route.length)) {
+        if (stop.kind != customer_stop || !is_bound(data.across, stop.node)) continue;
+        data.span[stop.node] = {stop.free_start, stop.free_start};
+    }
+}
+
+void plan_starts(const Route& route, View<Stop, 1> stops) {
+    for (Stop& stop : stops.first(route.length)) stop.free_start = stop.start;
+}
 
 Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int p,
                  Int arrival) {
@@ -55,10 +97,13 @@ Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> 
     if (stop.kind != customer_stop) return none;
     const Windows place = truck.places[stop.node];
     const View<const Lag, 1> lags = lags_of(truck.data.lag, stop.node);
+    const Span span = span_of(truck.data, stop.node);
     const Int ready =
-        std::max(arrival, soonest_behind(lags, starts_on(truck.data, stops, sorties, {0, p})));
+        std::max({arrival, span.soonest,
+                  soonest_behind(lags, starts_on(truck.data, stops, sorties, {0, p}))});
     if (place.too_late(ready)) return far;
     stop.start = place.start_of_service(ready);
+    if (stop.start > span.latest) return far;
     return stop.start + place.service_duration();
 }
 
@@ -89,7 +134,7 @@ Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop
 Int latest_leave(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties, Int p, Int service_duration) {
     const Int node = stops[p].node;
-    Int latest = far;
+    Int latest = span_of(data, node).latest;
     const auto look_at = [&](Int behind, Int start) {
         latest = std::min(latest, latest_before(lags_of(data.lag, behind), node, start));
     };

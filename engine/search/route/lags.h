@@ -10,6 +10,19 @@ namespace tandem {
 // Tell whether anybody is to be served some time behind others.
 inline bool lags_count(const ProblemData& data) { return !data.lag.empty(); }
 
+// Tell whether anybody is to be served some time behind others whom any vehicle may serve.
+inline bool orders_cross(const ProblemData& data) { return !data.across.empty(); }
+
+// Write from when to when those of a route may be served by whom other routes serve, as these are
+// planned. In place: `data.span`.
+void note_spans(const ProblemData& data, const Fleet& fleet, Int slot);
+
+// Write likewise that they are served as the route is planned. In place.
+void keep_starts(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
+
+// Write that a route's stops are planned as they are timed. In place.
+void plan_starts(const Route& route, View<Stop, 1> stops);
+
 // The arrival at a timed stop of whoever would be served then without waiting for others.
 inline Int as_if_reached(const ProblemData& data, const Stop& stop) {
     return lags_count(data) ? std::max(stop.arrival, stop.start) : stop.arrival;
@@ -17,8 +30,8 @@ inline Int as_if_reached(const ProblemData& data, const Stop& stop) {
 
 // Have the truck, which reaches stop `p` at `arrival`, wait for those who are to be served before.
 //
-// In place, if they are on the route's stops and sorties before; returns when it leaves at the
-// soonest, `far` if that is too late.
+// In place, if they are on the route's stops and sorties before, or on others, by `data.span`;
+// returns when it leaves at the soonest, `far` if that is too late.
 Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int p,
                  Int arrival);
 

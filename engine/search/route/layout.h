@@ -79,9 +79,11 @@ struct ProblemData {
     View<const Pair, 1> pair;                     // (node,) none where nobody belongs together
     View<const std::int64_t, 2> max_between;      // (type, node) ms from a pickup to its delivery
     View<const Lag, 2> lag;                       // (node, rank) of who is served behind others
-    View<const double, 2> vehicle_cost;           // (type, node) of being served by it
-    View<const bool, 1> no_launch;                // (node,) none where drones may take off anywhere
-    View<const Hub, 1> hub;                       // (depot,) none where all have enough
+    View<const Lag, 2> across;           // (node, rank) behind or before them, by any vehicle
+    View<Span, 1> span;                  // (node,) written as a route is timed
+    View<const double, 2> vehicle_cost;  // (type, node) of being served by it
+    View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
+    View<const Hub, 1> hub;              // (depot,) none where all have enough
     View<const bool, 2> halts;  // (type, depot) launch sites where it may stop; (0, 0) if none
     View<const std::int64_t, 1> halt_after;  // (depot,) who is served before, or `nowhere`
     View<const double, 1> halt_cost;         // (depot,) of each stop there
@@ -126,6 +128,8 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.pair,
             from.max_between,
             from.lag,
+            from.across,
+            from.span,
             from.vehicle_cost,
             from.no_launch,
             from.hub,

@@ -18,6 +18,7 @@
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
+#include "search/route/state.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {
@@ -206,6 +207,7 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     if (!price_as_is(data, fleet, slot, settled)) return false;
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
+    if (orders_cross(data)) plan_starts(route, stops);
     if (settled) {
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot]);
@@ -244,6 +246,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     if (!load_trips(data, route, stops, trips, sorties)) return false;
+    if (orders_cross(data)) note_spans(data, fleet, slot);
     if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
@@ -296,6 +299,23 @@ bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
     if (!refresh_as_is(data, fleet, slot)) return false;
     if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot);
     return true;
+}
+
+void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to) {
+    if (orders_cross(data)) {
+        copy_route(fleet, slot, fleet, to);
+    } else {
+        keep_aside(fleet, slot, to);
+    }
+}
+
+void put_back(const ProblemData& data, const Fleet& fleet, Int slot, Int from) {
+    if (orders_cross(data)) {
+        copy_route(fleet, from, fleet, slot);
+    } else {
+        keep_aside(fleet, from, slot);
+        refresh(data, fleet, slot);
+    }
 }
 
 bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot) {

@@ -24,6 +24,14 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
 // Where trips may end at several places, that which costs least is chosen between two.
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot);
 
+// Keep a route in a slot that nobody uses, to be put back. In place.
+void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to);
+
+// Go on from a route that was set aside. In place.
+//
+// Where others hang on when it serves whom, that is the same to the millisecond.
+void put_back(const ProblemData& data, const Fleet& fleet, Int slot, Int from);
+
 // As `refresh`, of a route whose cost is all that is asked.
 bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 

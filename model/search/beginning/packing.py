@@ -72,7 +72,7 @@ def comes_by_trips(problem: Problem) -> bool:
     """
     kinds = problem.vehicle_types
     return (problem.num_customers >= BY_TRIP_FROM and not problem.keeps_together
-            and any(kind.flies and kind.max_trips > 1 for kind in kinds)
+            and not problem.lags_across and any(kind.flies and kind.max_trips > 1 for kind in kinds)
             and all(kind.drones is None for kind in kinds))
 
 
@@ -127,7 +127,7 @@ def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
     """
     packed = {k for k, kind in enumerate(problem.vehicle_types)
               if kind.flies and kind.max_trips > 1}
-    if not packed or problem.keeps_together:
+    if not packed or problem.keeps_together or problem.lags_across:
         return searcher
     made = list(read_routes(data, searcher))
     routes = [route for route in made if route.vehicle_type not in packed]

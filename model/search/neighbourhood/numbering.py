@@ -50,10 +50,11 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
         pair["partner"][paired] = numbering.number[pair["partner"][paired]]
         for name in ("unit", "next_place"):
             pair[name] = numbering.number[pair[name]]
-    if instance.lag.shape[1]:
-        by_node["lag"] = lag = np.take(instance.lag, node, 1)
-        behind = lag["node"] >= 0
-        lag["node"][behind] = numbering.number[lag["node"][behind]]
+    for name, rows in (("lag", instance.lag), ("across", instance.across)):
+        if rows.shape[1]:
+            by_node[name] = lag = np.take(rows, node, 1)
+            behind = lag["node"] >= 0
+            lag["node"][behind] = numbering.number[lag["node"][behind]]
     if instance.max_between.shape[2]:
         by_node["max_between"] = np.take(instance.max_between, node, 2)
     if instance.vehicle_cost.shape[2]:

@@ -97,6 +97,8 @@ class ProblemData(NamedTuple):
     pair: Records  # (node,), none where there are no shipments
     max_between: IntArray  # (type, node) ms from a pickup to its delivery, none where unlimited
     lag: Records  # (node, rank) how long behind others each is served, none likewise
+    across: Records  # (node, rank) behind or before them by any vehicle, none likewise
+    span: Records  # (node,) from when to when, as a route is timed, none likewise
     vehicle_cost: FloatArray  # (type, node) of being served by it, none where nobody states any
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
     hub: Records  # (depot,), none where all have enough

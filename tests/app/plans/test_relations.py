@@ -92,8 +92,10 @@ def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(service: httpx.Cli
      [("CONTRADICTION", "$.relations[1]")]),
     ([{"kind": "before", "customers": ["A", "B"], "min_lag": 9, "max_lag": 8}],
      [("OUT_OF_RANGE", "$.relations[0].max_lag")]),
-    ([{"kind": "before", "customers": ["A", "B"], "same_vehicle": False}],
-     [("RELATION_WITH", "$.relations[0].same_vehicle")]),
+    ([{"kind": "before", "customers": ["A", "B"], "same_vehicle": False, "scope": "trip"}],
+     [("RELATION_WITH", "$.relations[0].scope")]),
+    ([{"kind": "before", "customers": ["A", "F"], "same_vehicle": False}],
+     [("RELATION_WITH", "$.relations[0].customers[1]")]),
     ([{"kind": "before", "customers": ["A", "E"]}],
      [("RELATION_WITH", "$.relations[0].customers[1]")]),
     ([{"kind": "apart", "customers": ["A", "B"], "min_lag": 5}],
@@ -106,6 +108,8 @@ def test_relations_that_make_no_sense_are_refused(client: httpx.Client, related:
     related["relations"] = relations
     related["customers"].append({"id": "E", "location": [0, 1], "demand": [1], "alternatives": [
         {"id": "locker", "location": [0, 2]}]})
+    related["customers"].append({"id": "F", "location": [0, 3], "demand": [1],
+                                 "served_by": "drone"})
     related["shipments"] = [{"id": "s", "amount": [1], "pickup": {"location": [3, 0]},
                              "delivery": {"location": [1, 0]}}]
     told = client.post("/plan", json=related).json()["errors"]
@@ -141,6 +145,47 @@ def test_customers_are_served_in_the_order_that_is_stated(
     related["relations"] = [{"kind": "before", "customers": ["A", "D"]}]
     checked = service.post("/check", json={"problem": related, "plan": plan}).json()
     assert {each["code"] for each in checked["violations"]} >= {"RELATION"}
+
+
+def test_any_vehicles_serve_an_order_and_wait_for_each_other(
+        service: httpx.Client, related: Request) -> None:
+    order = {"kind": "before", "customers": ["A", "D"], "same_vehicle": False,
+             "min_lag": 3600, "max_lag": 3600}
+    related["relations"] = [order]
+    related["customers"][3]["time_window"] = {"earliest": 1, "latest": 5400}
+    plan = service.post("/plan", json=related).json()
+    assert plan["unassigned"] == []
+    own = vehicle_of(plan)
+    assert own["A"] == own["B"] != own["C"] == own["D"]
+    start = {stop["id"]: stop["service_start"] for route in plan["routes"]
+             for trip in route["trips"] for stop in trip["stops"]}
+    assert start["D"] - start["A"] == 3600
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+    assert checked["feasible"], checked
+    for change, code in (({"min_lag": 3601, "max_lag": 3700}, "RELATION"),
+                         ({"customers": ["D", "A"]}, "RELATION")):
+        related["relations"] = [order | change]
+        checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+        assert [each["code"] for each in checked["violations"]] == [code]
+
+
+def test_whom_others_keep_from_his_place_in_an_order_is_told_so(
+        service: httpx.Client, related: Request) -> None:
+    related["relations"] = [{"kind": "before", "customers": ["A", "D"], "same_vehicle": False,
+                             "min_lag": 7200}]
+    related["customers"][0]["unassigned_cost"] = 9000
+    related["customers"][3] |= {"time_window": {"earliest": 0, "latest": 7200},
+                                "unassigned_cost": 100}
+    plan = service.post("/plan", json=related).json()
+    left, = plan["unassigned"]
+    assert left["id"] == "D"
+    assert [(each["code"], each["message"]) for each in left["reasons"]] == [
+        ("RELATION", "truck can't serve it in its order with A, as the plan serves these.")]
+    asked = {"problem": related, "plan": plan, "customer": "D"}
+    assert service.post("/explain", json=asked).status_code == 200
+    related["relations"][0]["min_lag"] = 3600
+    fits = service.post("/fit", json={"problem": related, "plan": plan, "customer": "D"}).json()
+    assert fits["places"], fits
 
 
 @pytest.mark.parametrize("change", [

@@ -47,11 +47,15 @@ class Position:
     vehicle: Vehicle | None = None
     served: set[int] = field(default_factory=set)
     closed: list[Route] = field(default_factory=list)
+    actions: list[int] = field(default_factory=list)
+    opened: int = 0  # how many actions before the open vehicle
 
     def advance(self, problem: Problem, code: int) -> None:
         """Do an action. In place."""
         kind, target = code % NUM_KINDS, code // NUM_KINDS
+        self.actions.append(code)
         if kind == OPEN:
+            self.opened = len(self.actions) - 1
             if self.vehicle is not None:
                 self.closed.append(judge(problem, self.vehicle, None)[0])
             self.vehicle = Vehicle(target, self.used[target])

@@ -1471,12 +1471,12 @@ export default {
       cost: 'Preis der Quadrate der Abstände vom Mittel, geteilt durch das Mittel.',
     },
     RelationInput: {
-      kind: 'Ob sie zusammen fahren, irgendwie oder in dieser Reihenfolge, oder keine zwei von ihnen.',
+      kind: 'Ob sie zusammen fahren, in dieser Reihenfolge bedient werden, oder keine zwei zusammen fahren.',
       customers: 'Ihre Namen, durch Kommas getrennt. Wer ausgelassen wird, bindet niemanden.',
       scope: 'Ob das für alle Fahrten eines Fahrzeugs gilt oder für jede Fahrt.',
       min_lag: 'Kürzeste Zeit vom Beginn bei einem bis zum Beginn bei allen danach. Fahrzeuge warten dafür.',
       max_lag: 'Längste Zeit vom Beginn bei einem bis zum Beginn beim nächsten.',
-      same_vehicle: 'Ob ein Fahrzeug die bedient, die eine Reihenfolge haben. Noch ist es so.',
+      same_vehicle: 'Ob ein Fahrzeug alle der Reihenfolge bedient. Sonst bedienen beliebige Lastwagen sie und warten aufeinander.',
     },
     PlanRequest: {
       fairness: 'Was der Plan als Ganzes kostet.',

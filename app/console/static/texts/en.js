@@ -1448,12 +1448,12 @@ export default {
       cost: 'Price of the squares of the differences from the mean, by the mean.',
     },
     RelationInput: {
-      kind: 'Whether they go together, in any or in this order, or no two of them do.',
+      kind: 'Whether they go together, are served in this order, or no two of them go together.',
       customers: 'Their names, with commas between. Whoever is left out binds nobody.',
       scope: 'Whether this is said of all trips of a vehicle, or of each trip.',
       min_lag: 'Least time from the start of service at one to that at all behind. Trucks wait for it.',
       max_lag: 'Longest time from the start of service at one to that at the next.',
-      same_vehicle: 'Whether one vehicle serves those in an order. It does, as yet.',
+      same_vehicle: 'Whether one vehicle serves those in an order. If not, any trucks do, which wait for each other.',
     },
     PlanRequest: {
       fairness: 'What the plan costs as a whole.',

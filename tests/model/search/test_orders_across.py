@@ -1,0 +1,90 @@
+"""Orders across vehicles: the cheapest plans of tiny problems, by brute force."""
+
+from collections.abc import Iterator, Sequence
+from itertools import pairwise, permutations
+
+import numpy as np
+import pytest
+
+from model.engine.instance import pack
+from model.judge.check import check
+from model.problem import MM_PER_KM, Problem
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
+from tests.model.tiny_company import with_order_across
+from tests.model.tiny_streets import draw_streets
+
+pytestmark = pytest.mark.slow
+
+Routes = tuple[tuple[int, ...], ...]
+
+
+def all_routes(left: tuple[int, ...], vehicles: int) -> Iterator[Routes]:
+    """Yield all ways in which alike vehicles serve customers or leave them out."""
+    if vehicles == 0 or not left:
+        yield ()
+        return
+    yield from all_routes((), 0)
+    for size in range(1, len(left) + 1):
+        for own in permutations(left, size):
+            rest = tuple(node for node in left if node not in own)
+            for others in all_routes(rest, vehicles - 1):
+                if not others or min(own) < min(others[0]):
+                    yield (own, *others)
+
+
+def can_be_driven(problem: Problem, routes: Routes) -> bool:
+    """Tell whether there are times at which all rules hold: the soonest are, if any."""
+    kind, duration = problem.vehicle_types[0], problem.travel[0].duration
+    start = {node: problem.customer_at(node).earliest for own in routes for node in own}
+    for _ in range(200):
+        before = dict(start)
+        for own in routes:
+            left, here = kind.earliest, 0
+            for node in own:
+                start[node] = max(start[node], left + duration.item(here, node))
+                left, here = start[node] + problem.customer_at(node).service_duration, node
+        for node, lags in problem.lags_across.items():
+            soonest = [start[lag.node] + lag.least for lag in lags if lag.node in start]
+            if node in start:
+                start[node] = max([start[node], *soonest])
+        if any(start[node] > problem.customer_at(node).latest for node in start):
+            return False
+        if start == before:
+            return all(start[own[-1]] + problem.customer_at(own[-1]).service_duration
+                       + duration.item(own[-1], 0) <= kind.latest for own in routes)
+    return False
+
+
+def cost_of(problem: Problem, routes: Sequence[Sequence[int]]) -> float:
+    kind, distance = problem.vehicle_types[0], problem.travel[0].distance
+    driven = sum(distance.item(*leg) for own in routes for leg in pairwise((0, *own, 0)))
+    left_out = problem.num_customers - sum(map(len, routes))
+    return (driven / MM_PER_KM * kind.cost_per_km + len(routes) * kind.fixed_cost
+            + left_out * problem.unassigned_cost)
+
+
+def test_the_search_finds_the_cheapest_plan_of_orders_across_vehicles() -> None:
+    across = bound = 0
+    for seed in range(40):
+        rng = np.random.default_rng((seed, 4))
+        problem = with_order_across(rng, draw_streets(rng))
+        nodes = tuple(range(1, problem.num_nodes))
+        priced = sorted((cost_of(problem, routes), routes)
+                        for routes in all_routes(nodes, problem.vehicle_types[0].count))
+        least, best = next((cost, routes) for cost, routes in priced
+                           if can_be_driven(problem, routes))
+        found = None
+        for turns in (200, 3000):
+            found = improve(problem, pack([problem]), Solution((), nodes),
+                            SearchConfig(seed, turns=turns)).solution
+            evaluation = check(problem, found)
+            assert evaluation.violations == (), f"seed {seed}"
+            if evaluation.cost.total == pytest.approx(least):
+                break
+        assert evaluation.cost.total == pytest.approx(least), f"seed {seed}"
+        bound += least > priced[0][0]
+        across += any(len({number for number, own in enumerate(best) if set(own) & set(each.nodes)})
+                      > 1 for each in problem.relations)
+    assert across > 10
+    assert bound > 10
