@@ -88,9 +88,6 @@ def break_errors(draft: Draft) -> Errors:
                 yield error_at("WINDOW_ENDS_BEFORE_START", (*here, "start", "latest"),
                                f"The window ends at {draft.told(start.latest)}, before it starts "
                                f"at {draft.told(start.earliest)}: raise latest or lower earliest.")
-            if index == 0 and draft.replan is not None and draft.replan.freeze_before is not None:
-                yield error_at("BREAKS_REPLANNED", here, "Which breaks were taken before is not "
-                               "known: leave breaks out, or freeze_before.")
             if seen.setdefault(each.id, index) != index:
                 yield error_at("DUPLICATE_ID", (*here, "id"),
                                f"breaks[{seen[each.id]}] has the same id: give each its own.")
@@ -114,10 +111,6 @@ def driving_errors(draft: Draft) -> Errors:
             yield error_at("DRIVING_RULES_WITH", (*path, name),
                            "Rests by driving_rules can't be planned beside it yet: leave "
                            f"{name} out, or driving_rules.")
-        if draft.replan is not None and draft.replan.freeze_before is not None:
-            yield error_at("BREAKS_REPLANNED", (*path, "driving_rules"),
-                           "Which rests were taken before is not known: leave driving_rules out, "
-                           "or freeze_before.")
 
 
 def depot_errors(draft: Draft) -> Errors:

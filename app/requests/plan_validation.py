@@ -162,6 +162,9 @@ class _Checker:
                                  "shipments that nobody else can take over yet: leave its vehicle "
                                  "out of unavailable.")
                 begun = _as_whole(trip, begun)
+            elif (begun and kind is not None and (kind.breaks or kind.driving_rules)
+                  and route.vehicle not in self._replan.unavailable):
+                begun = _as_whole(trip, begun)
             shape = list(self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)))
             yield from shape
             if shape or not begun:

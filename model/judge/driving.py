@@ -67,6 +67,17 @@ class Driver:
         self._is_half_rested = self._is_half_rested or (bool(split) and length >= split[0])
 
 
+def driver_behind(rules: DrivingRules, kind: VehicleType, trips: Sequence[Trip]) -> Driver:
+    """Return what is counted of the driver of a route once its trips are over."""
+    driver = Driver(rules, begin_of(kind, trips[0]))
+    for spell in (spell for trip in trips for spell in spells(trip)):
+        if spell.is_break:
+            driver.pause(spell.begin, spell.end)
+        else:
+            driver.drive(spell.end - spell.begin)
+    return driver
+
+
 class Excess(NamedTuple):
     """Too much of something, in ms, on the way from a stop."""
 

@@ -2,17 +2,18 @@
 
 What has departed stays as it is, to the millisecond. A truck that is driving arrives when the plan
 says and serves that stop; a drone that was launched flies its sortie to the end. All else is free,
-but for trips that fetch and bring shipments, or are flown: they are made to the end.
+but for trips that fetch and bring shipments, are flown, or by drivers who rest: they are made to
+the end.
 """
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Literal, NamedTuple
 
 from model.judge.clock import service_start
 from model.judge.launches import launch_begins
 from model.problem import UNREACHABLE, Problem, VehicleType
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
 
 
 class Vehicle(NamedTuple):
@@ -55,6 +56,7 @@ class KnownTrip:
     sorties: tuple[KnownSortie, ...]  # the first ones of the trip
     aboard: frozenset[int]  # customers whose parcels were loaded
     rest: Literal["nothing", "home", "anything"]
+    breaks: tuple[TakenBreak, ...] = ()  # before the stops that are known
 
 
 @dataclass(frozen=True)
@@ -137,10 +139,12 @@ def _known_trips(problem: Problem, route: Route, now: int,
 def _bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> int:
     """Return up to when a trip is made as planned once it has begun: some to their end.
 
-    Whoever has taken off flies its trip to the end, and ends of shipments are served in pairs.
+    Whoever has taken off flies its trip to the end, ends of shipments are served in pairs, and
+    drivers rest as planned.
     """
     nodes = [stop.node for stop in trip.stops]
-    is_whole = (kind.flies and min(nodes, default=0) >= 0) or any(
+    is_bound = kind.flies or bool(kind.breaks) or kind.driving is not None
+    is_whole = (is_bound and min(nodes, default=0) >= 0) or any(
         node in problem.shipment_at for node in nodes)
     begins = [*(stop.departure for stop in trip.stops[:1]), *launch_begins(trip.sorties, kind)]
     if not is_whole or min(begins, default=now + 1) > now:
@@ -169,7 +173,12 @@ def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> Kn
     sorties = tuple(_known_sortie(sortie, trip, len(stops), now) for sortie in launched)
     return KnownTrip(tuple(stops), sorties, frozenset(
         node for node in nodes if node >= 0 and node not in problem.shipment_at),
-                     "nothing" if is_over else "anything")
+                     "nothing" if is_over else "anything", _before(trip.breaks, stops))
+
+
+def _before(breaks: Sequence[TakenBreak], stops: Sequence[KnownStop]) -> tuple[TakenBreak, ...]:
+    """Return the breaks on the legs to some stops."""
+    return tuple([taken for taken in breaks if taken.stop < len(stops) - 1])
 
 
 def _opens(problem: Problem, stop: Stop) -> bool:
@@ -212,7 +221,8 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
              for sortie in known.sorties]
     landed = [_landed(problem, vehicle_type, sortie, nodes, len(stops), now) for sortie in flown]
     return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),
-                     known.aboard, "nothing" if is_home else "home")
+                     known.aboard, "nothing" if is_home else "home",
+                     _before(known.breaks, stops))
 
 
 def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: list[int],

@@ -128,8 +128,9 @@ def begins_with(trip: Trip, known: KnownTrip) -> bool:
         fits = len(trip.stops) >= length
     else:
         fits = (len(trip.stops) == length + (known.rest == "home")
-                and len(trip.sorties) == flights)
+                and (len(trip.sorties), len(trip.breaks)) == (flights, len(known.breaks)))
     return (fits and len(trip.sorties) >= flights
+            and trip.breaks[:len(known.breaks)] == known.breaks
             and all(map(_is_stop, trip.stops, known.stops))
             and all(_is_sortie(sortie, fact, trip, length)
                     for sortie, fact in zip(trip.sorties, known.sorties, strict=False)))

@@ -361,8 +361,8 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             departure = fact.departure
         stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
-        return Trip(tuple(stops))
-    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type))
+        return Trip(tuple(stops), (), known.breaks)
+    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type), known.breaks)
 
 
 def schedule(problem: Problem, decision: RouteDecision) -> Route:

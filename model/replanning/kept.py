@@ -95,7 +95,7 @@ def _settled(kind: VehicleType, trip: Trip, known: KnownTrip, grounded: Collecti
         sorties = tuple(_as_sortie(sortie, len(stops)) for sortie in known.sorties)
         if known.rest == "home":
             stops.append(Stop(kind.ends_at, 0, 0, 0))
-        return Trip(tuple(stops), sorties)
+        return Trip(tuple(stops), sorties, known.breaks)
     meeting, bound = meeting_stop(trip, known), len(known.stops) - 1
     stops = list(trip.stops[:meeting + 1])
     if meeting < len(trip.stops) - 1:

@@ -21,6 +21,7 @@ from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.remainder import Remainder, what_is_left
+from model.replanning.rested import has_clock
 from model.replanning.workers import Worker, find_workers, vehicle_name
 from model.solution import Route, Solution
 
@@ -176,6 +177,9 @@ class Replanning:
         if has_orders and self.check(solution).violations:
             # Who came in between was at another place before.
             first, solution = handed, bridge.whole(handed)
+        if self.check(solution).violations and any(map(has_clock, self.problem.vehicle_types)):
+            # Breaks may be due on a day as a whole that aren't on what is left of it.
+            solution = self._settled
         return first, solution, self._legal(solution)
 
     def _in_order(self, left: Remainder, first: Solution) -> Problem:

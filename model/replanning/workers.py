@@ -21,6 +21,7 @@ from model.judge.past import Past, Vehicle
 from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
 from model.replanning.amend import customers_of
 from model.replanning.kept import Kept, WayOn, charged_then, with_drones_then
+from model.replanning.rested import with_clock
 
 MAX_OWN_TYPES = 500
 """Types that vehicles may become; memory grows by them."""
@@ -251,7 +252,9 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int,
                   max_travel_duration=travel_left,
                   charge_left=charged_between(problem, kind, route.route.trips, ready),
                   has_charger=is_charged(problem, route.route))
-    return Worker(route.vehicle, replace(own, works_since=home) if kind.cost_per_hour else own)
+    own = replace(own, works_since=home) if kind.cost_per_hour else own
+    rested = with_clock(kind, own, route.route, home)
+    return None if rested is None else Worker(route.vehicle, rested)
 
 
 def _own_type(problem: Problem, route: Kept, earliest: int, home_by: int,

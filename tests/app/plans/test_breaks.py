@@ -99,9 +99,16 @@ def test_wrong_breaks_are_told(service: httpx.Client, resting: Request, changes:
     assert (error["code"], error["path"]) == (code, path)
 
 
-def test_plans_with_breaks_cannot_be_gone_on_from(service: httpx.Client, resting: Request) -> None:
+def test_a_trip_with_breaks_that_has_begun_is_made_to_its_end(service: httpx.Client,
+                                                              resting: Request) -> None:
+    resting["fleet"][0]["max_trips"] = 2
     plan = planned(service, resting)
-    again = planned(service, resting | {"replan": {"plan": plan}})
-    assert breaks_of(again) == breaks_of(plan)
-    answer = service.post("/plan", json=resting | {"replan": {"plan": plan, "freeze_before": 60}})
-    assert "BREAKS_REPLANNED" in {error["code"] for error in answer.json()["errors"]}
+    assert breaks_of(planned(service, resting | {"replan": {"plan": plan}})) == breaks_of(plan)
+    trip, = (trip for route in plan["routes"] for trip in route["trips"])
+    begun = resting | {"replan": {"plan": plan, "freeze_before": trip["stops"][0]["departure"] + 1}}
+    new = {"id": "new", "location": [1, 1], "demand": [1]}
+    later = planned(service, begun | {"customers": [*resting["customers"], new]})
+    assert (later["status"], later["routes"][0]["trips"][0]) == ("complete", trip)
+    assert breaks_of(later) == breaks_of(plan)
+    gone = service.post("/plan", json=begun | {"customers": resting["customers"][1:]}).json()
+    assert {error["code"] for error in gone["errors"]} == {"UNKNOWN_CUSTOMER"}

@@ -129,3 +129,16 @@ def test_what_cannot_be_kept_is_told(service: httpx.Client, far: Request, change
     far["fleet"][0] |= changes
     error, = service.post("/plan", json=far).json()["errors"]
     assert (error["code"], error["path"]) == (code, path)
+
+
+@pytest.mark.parametrize(("place", "status"), [([60, 0], "complete"), ([100, 0], "partial")])
+def test_what_was_driven_before_counts_on_a_day_under_way(
+        service: httpx.Client, far: Request, place: list[float], status: str) -> None:
+    far["fleet"][0]["max_trips"] = 2
+    plan = planned(service, far)
+    trip, = plan["routes"][0]["trips"]
+    far["customers"].append({"id": "new", "location": place, "demand": [1]})
+    later = planned(service, far | {"replan": {
+        "plan": plan, "freeze_before": trip["stops"][0]["departure"] + 1}})
+    assert later["status"] == status
+    assert later["routes"][0]["trips"][0] == trip

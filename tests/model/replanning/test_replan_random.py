@@ -13,6 +13,7 @@ from model.judge.past import Vehicle
 from model.planner import Planner, PlanOptions
 from model.problem import Balance, Fairness, Measure, Problem, Travel
 from model.replanning.replan import Replanning, Terms
+from model.replanning.rested import has_clock
 from model.solution import Route, Solution, Trip
 from tests.model.fliers import from_few_hubs, with_fliers
 from tests.model.street import served
@@ -63,7 +64,7 @@ def renumbered(trip: Trip, nodes: dict[int, int]) -> Trip:
     return Trip(tuple(replace(stop, node=nodes[stop.node]) for stop in trip.stops),
                 tuple(replace(sortie, visits=tuple(replace(visit, node=nodes[visit.node])
                                                    for visit in sortie.visits))
-                      for sortie in trip.sorties))
+                      for sortie in trip.sorties), trip.breaks)
 
 
 def instants(plan: Solution) -> list[int]:
@@ -93,6 +94,8 @@ def settled(problem: Problem, plan: Solution, now: int) -> set[int]:
     for route in plan.routes:
         for number, left, launched in begun(problem, route, now):
             trip = route.trips[number]
+            if has_clock(problem.vehicle_types[route.vehicle_type]):
+                left, launched = [*range(len(trip.stops))], [*range(len(trip.sorties))]
             nodes |= {stop.node for stop in trip.stops[:len(left) + 1]}
             for index in launched:
                 nodes |= {visit.node for visit in trip.sorties[index].visits}
@@ -111,6 +114,7 @@ def assert_unchanged(problem: Problem, before: Solution, after: Solution, now: i
         for number, left, launched in begun(problem, route, now):
             old, new = route.trips[number], routes[vehicle].trips[number]
             assert [new.stops[index] for index in left] == [old.stops[index] for index in left]
+            assert new.breaks == old.breaks
             flights = {(sortie.drone, sortie.launch_stop, sortie.launch_time, sortie.visits)
                        for sortie in new.sorties}
             for index in launched:
@@ -305,7 +309,7 @@ def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
 @pytest.mark.parametrize("change", [
     with_fairness, with_own_durations, with_goods, with_setups, with_limits_aboard,
     with_all_at_once, with_ranges, with_few_airborne, with_few_launch_places, with_storms,
-    with_relations, with_choices])
+    with_relations, with_choices, with_breaks, with_driving])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],

@@ -1586,7 +1586,6 @@ export default {
     TOO_FEW_VEHICLES: 'Es sollen mehr Fahrzeuge fahren, als es gibt.',
     RELATION_WITH: 'Das geht nicht mit einer Reihenfolge, oder sagt ohne eine nichts.',
     HOURS_AND_OVERTIME: 'Das Depot schließt vor allen Überstunden.',
-    BREAKS_REPLANNED: 'Ein Tag mit Pausen lässt sich unterwegs noch nicht weiterplanen.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',
     TRAVEL_DURATION_WITH: 'Das lässt sich neben einer längsten Fahrzeit noch nicht planen.',
     DRIVING_RULES_WITH: 'Das lässt sich neben Lenkzeitregeln noch nicht planen.',

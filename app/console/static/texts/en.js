@@ -1561,7 +1561,6 @@ export default {
     TOO_FEW_VEHICLES: 'More vehicles are to be used than there are.',
     RELATION_WITH: 'This can’t be combined with an order of customers, or says nothing without one.',
     HOURS_AND_OVERTIME: 'The depot closes before all overtime.',
-    BREAKS_REPLANNED: 'A day under way can’t be planned on with breaks yet.',
     UNKNOWN_BREAK: 'No driver has this break.',
     TRAVEL_DURATION_WITH: 'This can’t be planned beside a longest travel duration yet.',
     DRIVING_RULES_WITH: 'This can’t be planned beside driving rules yet.',
