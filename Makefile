@@ -89,6 +89,7 @@ screenshots: .venv/testing engine ## Make the pictures of the console in docs/sc
 fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10000), and wild problems
 	$(BIN)/python -m benchmarks.fuzz.api --cases $(CASES)
 	$(BIN)/python -m benchmarks.fuzz.problems
+	$(BIN)/python -m benchmarks.fuzz.mixed --problems 1000
 	$(BIN)/python -m benchmarks.fuzz.vroom
 	$(BIN)/python -m benchmarks.fuzz.remedies
 	$(BIN)/python -m benchmarks.fuzz.replans

@@ -15,7 +15,9 @@ from app.schemas.driving import REST_ID
 from app.schemas.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
 from app.schemas.hints import with_hints
 from app.schemas.launch_site import LaunchSiteInput
-from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput
+from app.schemas.plan import (
+    ON_THE_WAY, PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput,
+)
 from app.schemas.request import DepotInput
 from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
@@ -233,9 +235,9 @@ class _PlanReader:
 
     def _open_ended(self, trip: Trip, stated: TripInput, nowhere: int) -> Trip:
         """Return a trip that ends nowhere, if it ends at its last stop."""
-        if not trip.stops or (len(trip.stops) > 1 and stated.stops[-1].kind != "customer"):
+        if not trip.stops or (len(trip.stops) > 1 and stated.stops[-1].kind not in ON_THE_WAY):
             return trip
-        end = trip.stops[-1].departure
+        end = thousandths(stated.stops[-1].departure)
         return replace(trip, stops=(*trip.stops, Stop(nowhere, end, end, end)))
 
     def _customer(self, path: Path, name: str) -> int:

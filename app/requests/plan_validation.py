@@ -11,7 +11,7 @@ from app.requests.conversion.places import stands_of
 from app.requests.conversion.units import thousandths
 from app.schemas.customer import CustomerInput
 from app.schemas.errors import ErrorCode, InputError, json_path
-from app.schemas.plan import MAX_INSTANT, RouteInput, StopInput, TripInput
+from app.schemas.plan import MAX_INSTANT, ON_THE_WAY, RouteInput, StopInput, TripInput
 from app.schemas.request import DepotInput, ReplanInput
 from app.schemas.vehicle import VehicleTypeInput
 
@@ -154,7 +154,7 @@ class _Checker:
             here = (*path, "trips", number)
             is_last = number == len(route.trips) - 1
             is_open = (is_last and kind is not None and kind.end == "open"
-                       and (len(trip.stops) < 2 or trip.stops[-1].kind == "customer"))
+                       and (len(trip.stops) < 2 or trip.stops[-1].kind in ON_THE_WAY))
             begun = _begun(trip, kind, self._now)
             if begun and any(stop.id in self._names.shipment_ends for stop in trip.stops):
                 if begun.left < len(trip.stops) and route.vehicle in self._replan.unavailable:
@@ -191,13 +191,13 @@ class _Checker:
         inner = kinds[1:] if is_open else kinds[1:-1]
         if (len(kinds) < 2 - is_open or kinds[0] not in ("depot", "start")
                 or (not is_open and kinds[-1] not in ("depot", "end"))
-                or any(kind not in ("customer", "launch_site", "break") for kind in inner)):
+                or any(kind not in ON_THE_WAY for kind in inner)):
             yield _error("TRIP_SHAPE", (*path, "stops"),
                          "A trip begins and ends at a depot, or where its vehicle does, with "
                          "customers between: state it so.")
         # Whoever drove to a launch that there is no more ends its trip there, or goes home.
-        has_moved = has_begun and (_place(trip.stops[0]) != _place(trip.stops[-1])
-                                   or "launch_site" in inner)
+        has_moved = has_begun and kinds and (_place(trip.stops[0]) != _place(trip.stops[-1])
+                                             or "launch_site" in inner)
         if "customer" not in inner and not trip.sorties and not has_moved:
             yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
         for index, stop in enumerate(trip.stops):
@@ -211,6 +211,9 @@ class _Checker:
                 yield _error("SORTIE_STOPS", here, f"The trip has {len(kinds)} stops, and a sortie "
                              "ends no earlier than it begins: correct launch_stop and "
                              "recovery_stop.")
+            elif "break" in (kinds[sortie.launch_stop], kinds[sortie.recovery_stop]):
+                yield _error("SORTIE_STOPS", here, "Nothing is launched or recovered at a break: "
+                             "correct launch_stop and recovery_stop.")
             if not sortie.customers:
                 yield _error("TRIP_SHAPE", (*here, "customers"),
                              "The sortie serves nobody: leave it out.")

@@ -81,6 +81,10 @@ class VisitInput(_Plan):
         return self.arrival + (self.setup or 0.0)
 
 
+ON_THE_WAY = frozenset({"customer", "launch_site", "break"})
+"""Kinds of stops at which only an open trip may end, ends of shipments being customers."""
+
+
 class StopInput(_Plan):
     """A place where the truck halts. Times in seconds since plan start."""
 

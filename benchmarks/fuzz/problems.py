@@ -61,7 +61,16 @@ class Study:
             If a reply should not be.
         """
         rng = random.Random(seed)
-        request = wild_request(rng)
+        self.go_on(rng, wild_request(rng))
+
+    def go_on(self, rng: random.Random, request: Data) -> None:
+        """Have a request planned, checked and, now and then, planned on. In place.
+
+        Raises
+        ------
+        Fault
+            If a reply should not be.
+        """
         plan = self.planned(request)
         if plan is None or rng.random() > GOES_ON:
             return

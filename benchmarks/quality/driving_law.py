@@ -8,7 +8,7 @@ fourteen hours, and a break of half an hour after eight.
 It shares nothing with the judge of plans but what a plan is.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -47,8 +47,13 @@ def record_of(route: Route) -> list[Activity]:
 
 
 def offences(route: Route, law: Law, driven: int = 0, worked: int = 0) -> Iterator[str]:
-    """Yield what is against the law, as far as a driver had driven and worked before."""
-    record = record_of(route)
+    """Yield what is against the law on a route, as far as a driver had driven and worked before."""
+    yield from broken_laws(record_of(route), law, driven, worked)
+
+
+def broken_laws(record: Sequence[Activity], law: Law, driven: int = 0,
+                worked: int = 0) -> Iterator[str]:
+    """Yield what is against the law of what was written down."""
     wheel = sum([end - begin for what, begin, end in record if what == "drive"])
     if law.day is not None and driven + wheel > law.day:
         yield "day"

@@ -128,6 +128,15 @@ inline Int latest_rest(const VehicleType& type, Int number, Int begin) {
     return number < type.breaks ? break_of(type, number, begin).latest : far;
 }
 
+// Whether breaks between two stops are taken later if the route begins later.
+inline bool follow_departure(const VehicleType& type, Rests rests) {
+    if (!has_breaks(type) || type.breaks_since != none) return false;
+    for (Int index = 0; index < rests.count(); ++index) {
+        if (type.break_after_departure[rests.number(index)] == 1) return true;
+    }
+    return false;
+}
+
 // How long the breaks between two stops are that don't count in the working duration.
 inline Int unpaid_of(const VehicleType& type, Rests rests) {
     Int unpaid = 0;

@@ -167,9 +167,11 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
         }
         const bool is_held = trying || is_pickup(setting.pair, node) ||
                              (!is_idle && began < release_of(setting.node[node]));
-        if (room.stop && instance.can_drive(b, k, node) &&
-            legs(here, node) + legs(node, home) <= reach &&
-            may_travel_by(setting, vehicle.travel, here, node)) {
+        // Whoever has parcels aboard goes home by their places, maybe where no way leads straight.
+        const bool is_near = laden || is_pickup(setting.pair, node) ||
+                             (legs(here, node) + legs(node, home) <= reach &&
+                              may_travel_by(setting, vehicle.travel, here, node));
+        if (room.stop && instance.can_drive(b, k, node) && is_near) {
             const Verdict verdict =
                 is_held ? Verdict::unsure : judge_drive(open, earliest, node, outlooks[found]);
             add_if_legal(verdict, {node, false});

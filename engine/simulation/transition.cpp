@@ -290,6 +290,8 @@ bool drive(OpenVehicle& open, Int node) {
         ready = logged_starts(log).ready_at(setting, node, log.count.stops, arrival);
         if (place.too_late(ready)) return false;
     }
+    // The start known so far kept what was behind it, not breaks that come later than a start does.
+    if (follow_departure(setting.type, rests)) vehicle.start_best = log.trip[0].start;
     const Int start = is_customer ? place.start_of_service(ready) : arrival;
     const Int service_end = is_customer ? place.end_of_service(ready) : arrival;
     log_stop(log, node, arrival, start, std::max(service_end, free));

@@ -131,7 +131,7 @@ bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, Way way,
 // Serve some and go home, from where the trip has come so far; false if that isn't legal.
 bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Way way, const Order& order) {
     auto& [setting, vehicle, log, drones] = open;
-    if (!order.empty() && !is_within_reach(open, legs, way, order)) return false;
+    if (!is_within_reach(open, legs, way, order)) return false;
     for (const Int node : order) {
         if (!drive(open, node)) return false;
     }

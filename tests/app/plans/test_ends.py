@@ -5,7 +5,7 @@ from typing import Any
 import httpx
 import pytest
 
-from tests.app.plans.asking import planned_and_judged
+from tests.app.plans.asking import judged, planned_and_judged
 
 Request = dict[str, Any]
 
@@ -132,6 +132,16 @@ def test_flights_alone_may_be_an_open_route(client: httpx.Client, street: Reques
     (sortie,) = plan["routes"][0]["trips"][0]["sorties"]
     assert (sortie["launch_stop"], sortie["recovery_stop"]) == (0, 0)
     assert plan["routes"][0]["trips"][0]["duration"] == 180
+
+
+def test_an_open_route_may_end_at_a_launch_site(client: httpx.Client, street: Request) -> None:
+    street["fleet"][0] |= {"end": "open", "drones": {"count": 1, "capacity": [2], "speed_kmh": 60}}
+    street["launch_sites"] = [{"id": "yard", "location": [2, 1]}]
+    plan = planned_and_judged(client, street)
+    trip = plan["routes"][0]["trips"][0]
+    trip["stops"].append({"kind": "launch_site", "id": "yard", "arrival": 300,
+                          "service_start": 300, "departure": 300})
+    assert judged(client, street, plan)["violations"] == []
 
 
 def test_a_day_under_way_ends_where_it_was_to(client: httpx.Client, street: Request) -> None:

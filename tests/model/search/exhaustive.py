@@ -17,10 +17,11 @@ from operator import add, le
 from model.judge.check import check
 from model.judge.hubs import taken_at_hubs
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Problem, VehicleType
+from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Fairness, Measure, Problem, VehicleType
 from model.problem.travel import Matrix
 from model.solution import Route, Solution
 from tests.model.mask_oracle import costs_nothing
+from tests.model.search.exhaustive_rests import MINUTE, least_rest, rested
 from tests.model.tiny_choices import by_choice
 from tests.model.tiny_company import companions
 
@@ -29,6 +30,14 @@ STEP = 30_000
 
 Nodes = tuple[int, ...]
 Taken = tuple[int, ...]
+Whole = tuple[int, float]
+"""When a route ends, and its share of the work, where these cost."""
+
+NEVER_BY_BEGINNING_LATER = {
+    "CAPACITY", "GOODS", "SERVED_BY", "SKILLS", "VEHICLE", "MAX_STOPS", "MAX_SORTIES", "MAX_TRIPS",
+    "PAYLOAD", "PICKUP_ORDER", "MAX_RANGE", "UNREACHABLE", "TRAVEL_DURATION", "TRIP_DISTANCE",
+    "TIME_WINDOW", "SHIFT"}
+"""Rules that no later departure keeps, as all is later then, whatever breaks are where."""
 
 
 def cheapest_cost(problem: Problem) -> float:
@@ -45,11 +54,12 @@ def cheapest_cost(problem: Problem) -> float:
     without = {node: problem.cost_of_leaving_out(problem.customer_at(node)) for node in everyone}
 
     @cache
-    def cheapest(left: Nodes, used: tuple[int, ...], taken: Taken) -> float:
+    def cheapest(left: Nodes, used: tuple[int, ...], taken: Taken,
+                 wholes: tuple[Whole, ...]) -> float:
         """Return the cost of serving or leaving out the customers left."""
         if not left:
-            return 0.0
-        best = without[left[0]] + cheapest(left[1:], used, taken)
+            return _cost_as_a_whole(problem, wholes)
+        best = without[left[0]] + cheapest(left[1:], used, taken, wholes)
         for kind in kinds:
             if used[kind] < problem.vehicle_types[kind].count:
                 more = (*used[:kind], used[kind] + 1, *used[kind + 1:])
@@ -59,13 +69,51 @@ def cheapest_cost(problem: Problem) -> float:
                         rest = tuple(node for node in left[1:]
                                      if node not in others and node not in alone)
                         parted = sum(without[node] for node in left if node in alone)
-                        for own, cost in routes[kind, (left[0], *others)].items():
+                        for (own, whole), cost in routes[kind, (left[0], *others)].items():
                             total = tuple(map(add, taken, own))
                             if all(map(le, total, stock)):
-                                best = min(best, cost + parted + cheapest(rest, more, total))
+                                best = min(best, cost + parted + cheapest(
+                                    rest, more, total, tuple(sorted((*wholes, whole)))))
         return best
 
-    return cheapest(everyone, (0,) * len(kinds), (0,) * len(stock))
+    return cheapest(everyone, (0,) * len(kinds), (0,) * len(stock), ())
+
+
+def _cost_as_a_whole(problem: Problem, wholes: tuple[Whole, ...]) -> float:
+    """Return what the latest end and unequal shares cost."""
+    fairness = problem.fairness
+    if not fairness.is_stated or not wholes:
+        return 0.0
+    cost = max(end for end, _ in wholes) / MS_PER_HOUR * fairness.makespan_cost_per_hour
+    mean = sum(share for _, share in wholes) / len(wholes)
+    if fairness.balance is not None and mean > 0:
+        cost += fairness.balance.cost * sum((share - mean) ** 2 for _, share in wholes) / mean
+    return cost
+
+
+def _whole(problem: Problem, route: Route) -> Whole:
+    """Return when a route ends and what is its share, nothing of it where that costs nothing."""
+    balance = problem.fairness.balance
+    if not problem.fairness.is_stated:
+        return 0, 0.0
+    end = _end(route) if problem.fairness.makespan_cost_per_hour else 0
+    return end, 0.0 if balance is None else _share(problem, balance.measure, route)
+
+
+def _share(problem: Problem, measure: Measure, route: Route) -> float:
+    """Return a vehicle's share of the work, in hours, stops, units or km."""
+    metrics = check(problem, Solution((route,))).routes[0]
+    if measure == "duration":
+        return metrics.working_duration / MS_PER_HOUR
+    if measure == "distance":
+        return sum(trip.distance for trip in metrics.trips) / MM_PER_KM
+    stops = [stop.node for trip in route.trips for stop in trip.customer_stops]
+    if measure == "stops":
+        return len(stops)
+    flown = [visit.node for trip in route.trips for sortie in trip.sorties
+             for visit in sortie.visits]
+    return sum(sum((each.demand[0], *each.pickup[:1]))
+               for each in map(problem.customer_at, (*stops, *flown))) / 1000
 
 
 def _stock(problem: Problem) -> Taken:
@@ -84,30 +132,63 @@ def _taken(problem: Problem, route: Route) -> Taken:
     return tuple(part[node] for node in range(problem.num_depots) for part in taken)
 
 
-def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[Taken, float]:
+def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[tuple[Taken, Whole], float]:
     """Return the costs of the cheapest routes that serve exactly these, by what they take."""
-    found, vehicle_type = dict[Taken, float](), problem.vehicle_types[kind]
-    bounded = [(_least_cost(problem, vehicle_type, trips), trips) for trips in _trip_lists(
-        problem, vehicle_type, nodes, vehicle_type.max_trips, vehicle_type.begins_at)]
+    found, vehicle_type = dict[tuple[Taken, Whole], float](), problem.vehicle_types[kind]
+    is_one = not problem.limits_hubs and not problem.fairness.is_stated
+    alone = replace(problem, fairness=Fairness())
+    bounded = [(_least_cost(problem, vehicle_type, trips), trips)
+               for driven in _trip_lists(problem, vehicle_type, nodes, vehicle_type.max_trips,
+                                         vehicle_type.begins_at)
+               for trips in rested(problem, vehicle_type, driven)]
     # The most promising first, so that the others need not be timed.
     for least, trips in sorted(bounded, key=lambda entry: entry[0]):
-        if least == math.inf or (not problem.limits_hubs and least >= found.get((), math.inf)):
+        best = found.get(((), (0, 0.0)), math.inf) if is_one else math.inf
+        if least == math.inf or least >= best:
             break
         decision = RouteDecision(kind, 0, trips)
-        soon = schedule(problem, decision)
-        taken = _taken(problem, soon)
-        best = found.get(taken, math.inf)
-        if least >= best:
-            continue
-        evaluation = check(problem, Solution((soon,)))
+        late = _cheapest_start(alone, decision, best)
+        if late is not None:
+            cost, route = late
+            key = _taken(problem, route), _whole(problem, route)
+            if cost < found.get(key, math.inf):
+                found[key] = cost
+    return found
+
+
+def _cheapest_start(problem: Problem, decision: RouteDecision,
+                    best: float) -> tuple[float, Route] | None:
+    """Return a route that costs less than `best`, and what; None if there is none."""
+    kind, soon = problem.vehicle_types[decision.vehicle_type], schedule(problem, decision)
+    if kind.breaks or kind.driving:
+        return _begun_at_any_time(problem, decision, soon, best)
+    evaluation = check(problem, Solution((soon,)))
+    broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
+    cost = evaluation.cost
+    # A later start saves nothing but time and waiting.
+    driven = cost.fixed + cost.distance + cost.stops
+    if broken <= {"WORKING_DURATION"} and driven + cost.lateness < best:
+        late = _begun_late(problem, decision, soon)
+        evaluation = check(problem, Solution((late,)))
         broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
-        cost = evaluation.cost
-        # A later start saves nothing but time and waiting.
-        driven = cost.fixed + cost.distance + cost.stops
-        if broken <= {"WORKING_DURATION"} and driven + cost.lateness < best:
-            late = _cost_begun_late(problem, decision, soon)
-            if late < best:
-                found[taken] = late
+        if not broken and evaluation.cost.total < best:
+            return evaluation.cost.total, late
+    return None
+
+
+def _begun_at_any_time(problem: Problem, decision: RouteDecision, soon: Route,
+                       best: float) -> tuple[float, Route] | None:
+    """Return the same of a route with breaks, which may be left out if it begins later."""
+    found, kind = None, problem.vehicle_types[decision.vehicle_type]
+    for start in range(soon.trips[0].stops[0].arrival, _end(soon) + 1, MINUTE):
+        _, route = _begun(problem, decision, 0, start)
+        evaluation = check(problem, Solution((route,)))
+        broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
+        if not broken and evaluation.cost.total < best:
+            best, found = evaluation.cost.total, (evaluation.cost.total, route)
+        elif broken & NEVER_BY_BEGINNING_LATER or (
+                "DRIVING" in broken and kind.driving and kind.driving.max_work >= UNLIMITED):
+            break
     return found
 
 
@@ -116,7 +197,8 @@ def _least_cost(problem: Problem, kind: VehicleType, trips: tuple[TripDecision, 
     truck = problem.travel[kind.travel]
     kilometres = sum(_sum(truck.distance, trip.nodes) for trip in trips) / MM_PER_KM
     cost = kind.fixed_cost + kilometres * kind.cost_per_km
-    busy = Counter({"truck": sum(_least_duration(problem, kind, trip) for trip in trips)})
+    busy = Counter({"truck": sum(_least_duration(problem, kind, trip) for trip in trips)
+                    + least_rest(kind, trips)})
     flights = [(trip, sortie) for trip in trips for sortie in trip.sorties]
     for trip, sortie in flights:
         drones = kind.drone_type(sortie.drone)
@@ -142,8 +224,8 @@ def _sum(legs: Matrix, path: Nodes) -> int:
     return sum([legs.item(origin, to) for origin, to in pairwise(path)])
 
 
-def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> float:
-    """Return what a route costs whose trips begin as late as costs nothing."""
+def _begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> Route:
+    """Return a route whose trips begin as late as costs nothing."""
     kind = problem.vehicle_types[decision.vehicle_type]
     for index in range(len(decision.trips)):
         first, end = soon.trips[index].stops[0].arrival, _end(soon)
@@ -158,9 +240,7 @@ def _cost_begun_late(problem: Problem, decision: RouteDecision, soon: Route) -> 
             if costs_nothing(problem, soon, late):
                 decision, soon = later, late
                 break
-    evaluation = check(problem, Solution((soon,)))
-    broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
-    return math.inf if broken else evaluation.cost.total
+    return soon
 
 
 def _begun(problem: Problem, decision: RouteDecision, index: int,
