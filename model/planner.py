@@ -212,7 +212,8 @@ def policy_begins(problem: Problem, options: PlanOptions) -> bool:
     number = problem.num_customers
     kind, *others = problem.vehicle_types
     if problem.other_nodes or any(each.flies for each in problem.vehicle_types):
-        # Policies know nothing of who belongs together, nor of what trips take in the air.
+        # From policies' plans of who belongs together a search came no further than from nothing;
+        # of what trips take in the air they know nothing.
         return False
     share = DECODING_SHARE
     if number <= MIXED_UP_TO and (others or kind.drones is not None):
