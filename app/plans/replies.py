@@ -172,13 +172,8 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
     place = (problem.depots[stop.node] if is_depot
              else problem.customers[stop.node - len(problem.depots)])
     kind: str = problem.depots[stop.node].kind if is_depot else "customer"
-    name = place.id
-    if stop.node in problem.shipment_at:
-        shipment = problem.shipment_at[stop.node]
-        kind, name = "pickup" if stop.node == shipment.pickup else "delivery", shipment.id
     return {
-        "kind": kind,
-        **({"id": name} if is_depot or kind != "customer" else place_reply(problem, stop.node)),
+        "kind": kind, **({"id": place.id} if is_depot else place_reply(problem, stop.node)),
         "arrival": stop.arrival / 1000,
         "service_start": stop.service_start / 1000,
         "departure": stop.departure / 1000,
@@ -192,6 +187,9 @@ def _stop(problem: Problem, stop: Stop, load: Sequence[int]) -> Data:
 def place_reply(problem: Problem, node: int) -> Data:
     """Return who is served at a node, and at which place if it isn't his own."""
     name, first = problem.customer_at(node).id, problem.first_place(node)
+    if node in problem.shipment_at:
+        shipment = problem.shipment_at[node]
+        return {"kind": "pickup" if node == shipment.pickup else "delivery", "id": shipment.id}
     if node == first:
         return {"id": name}
     own = problem.customer_at(first).id

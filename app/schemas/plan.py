@@ -37,6 +37,7 @@ Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT), READ_ANY_INST
 Number = Annotated[float | None, Field(description=NOT_READ)]
 Loads = Annotated[
     Annotated[list[float], Field(fail_fast=True)] | None, Field(description=NOT_READ)]
+VISIT_KIND_TEXT = "`delivery`: of a shipment. Left out where it is a customer."
 Line = Annotated[str | None, Field(
     description="Encoded polyline, which pictures draw where it leads from place to place.")]
 Details = Annotated[dict[str, Any] | None, Field(description=NOT_READ)]
@@ -51,7 +52,8 @@ class _Plan(BaseModel):
 class VisitInput(_Plan):
     """A customer served by a drone. Times in seconds since plan start."""
 
-    id: str = Field(description="Id of the customer.")
+    kind: Literal["delivery"] | None = Field(None, description=VISIT_KIND_TEXT)
+    id: str = Field(description="Id of the customer, or of the shipment.")
     alternative: str | None = Field(None, description=ALTERNATIVE_TEXT)
     arrival: Instant = Field(description="Arrival of the drone.")
     service_start: Instant = Field(description="Start of service.")
@@ -65,8 +67,10 @@ class VisitInput(_Plan):
 
     @model_validator(mode="after")
     def _name_place(self) -> Self:
-        """Name another place as the customer that it is."""
-        if self.alternative is not None:
+        """Name a shipment's end, or another place, as the customer that it is."""
+        if self.kind is not None:
+            self.__dict__ |= {"kind": None, "id": end_name(self.id, self.kind)}
+        elif self.alternative is not None:
             self.__dict__["id"] = place_of(self.id, self.alternative)
         return self
 

@@ -11,7 +11,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.hub import HubReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
-from app.schemas.plan import ALTERNATIVE_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, StopKind
+from app.schemas.plan import (
+    ALTERNATIVE_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
+)
 from app.schemas.replanned import ReplanReply
 from app.schemas.times import InstantReply, WordsReply
 
@@ -80,7 +82,8 @@ class StopReply(_Reply):
 class VisitReply(_Reply):
     """A customer served by a drone."""
 
-    id: str = Field(description="Id of the customer.")
+    kind: Literal["delivery"] | None = Field(None, description=VISIT_KIND_TEXT)
+    id: str = Field(description="Id of the customer, or of the shipment.")
     alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
     arrival: InstantReply = Field(description="Arrival of the drone.")
     service_start: InstantReply = Field(description="Start of service.")

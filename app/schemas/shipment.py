@@ -39,13 +39,23 @@ class ShipmentEndInput(Input):
     )
 
 
+class ShipmentDeliveryInput(ShipmentEndInput):
+    """Where a shipment is delivered."""
+
+    served_by: Literal["truck", "either"] = Field(
+        "truck",
+        description="Who delivers: the truck itself, or either it or a drone of it, launched "
+        "at a stop behind that of the pickup.",
+    )
+
+
 class ShipmentInput(Input):
     """A parcel that one vehicle fetches and brings on the same trip, aboard between."""
 
     id: Name = Field(description="Name of the shipment, unique among them.")
     amount: Demand = Field(description="What is aboard between, per dimension, as `demand`.")
     pickup: ShipmentEndInput = Field(description="Where it is fetched.")
-    delivery: ShipmentEndInput = Field(description="Where it is brought.")
+    delivery: ShipmentDeliveryInput = Field(description="Where it is brought.")
     max_time_between: Duration | None = Field(
         None,
         description="Longest time in seconds from the end of service at the pickup to the start "
@@ -79,9 +89,10 @@ class ShipmentInput(Input):
     def ends(self) -> Iterator[CustomerInput]:
         """Yield its ends as customers; only leaving out the first has a cost."""
         for kind, end in zip(ENDS, (self.pickup, self.delivery), strict=True):
+            own = {"served_by": "truck", **dict(end)}
             yield CustomerInput.model_construct(
-                None, **dict(end), id=end_name(self.id, kind), demand=self.amount, pickup=None,
-                served_by="truck", skills=self.skills, max_time_aboard=None, goods=self.goods,
+                None, **own, id=end_name(self.id, kind), demand=self.amount, pickup=None,
+                skills=self.skills, max_time_aboard=None, goods=self.goods,
                 release_time=0.0, vehicles=self.vehicles,
                 vehicle_costs=self.vehicle_costs if kind == "pickup" else {},
                 unassigned_cost=self.unassigned_cost if kind == "pickup" else 0.0)

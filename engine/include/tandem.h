@@ -312,7 +312,7 @@ typedef struct tandem_vehicle {
     int64_t launched;          /* on the trip before this stop */
     int64_t flying;            /* drones */
     int64_t given;             /* on the trip, over all dimensions */
-    int64_t picked;            /* likewise, before the stop here, and shipments on arrival if lifo */
+    int64_t picked;            /* likewise, before the stop here; and shipments if lifo */
     int64_t taken;             /* likewise, by now */
     int64_t stacked;           /* shipments aboard, if lifo */
     int64_t barred_on_trip;    /* goods that may not be added */
@@ -617,7 +617,7 @@ typedef struct tandem_move {
     int64_t sortie;
     int64_t type;
     int64_t halt;    /* the launch site */
-    int64_t landing; /* that where the drone is recovered, if there are two */
+    int64_t landing; /* that of recovery, if there are two; of a pair, the stop */
 } tandem_move;
 
 /* How many there are of each; the turn; the last stamp that was given. */

@@ -132,12 +132,12 @@ struct Flight {
 
     // What it leaves of a full battery if nothing waits.
     Int left() const {
-        const Int weight = weight_brought(place);
+        const Int weight = weight_flown_out(place);
         Int left = after_leg(type, battery_of(type), weight, out);
         if (hovers_at_customers(type)) {
             left = after_hovering(type, left, weight, place.service_duration());
         }
-        return after_leg(type, left, weight_taken(place), home);
+        return after_leg(type, left, weight_flown_back(place), home);
     }
 
     // When the drone takes off that can at `takeoff`: then, or held back.
@@ -145,7 +145,7 @@ struct Flight {
         Int limit = type.endurance;
         if (hovers_at_customers(type)) {
             limit = longest_hold(type, duration(), left(),
-                                 std::max(weight_brought(place), weight_taken(place)));
+                                 std::max(weight_flown_out(place), weight_flown_back(place)));
         }
         while (true) {
             Int held = held_until(earliest_back(place, takeoff + out, home), limit);
@@ -164,7 +164,8 @@ struct Flight {
 
     // Whether energy lasts for so long a wait to be recovered.
     bool can_wait(Int waiting) const {
-        return !is_limited(type) || after_hovering(type, left(), weight_taken(place), waiting) >= 0;
+        return !is_limited(type) ||
+               after_hovering(type, left(), weight_flown_back(place), waiting) >= 0;
     }
 
     // From when on the launch may begin of a drone that is charged aboard since then, with what it
@@ -180,9 +181,9 @@ struct Flight {
         Int rest = left();
         if (hovers_at_customers(type)) {
             const Int waited = served - place.service_duration() - takeoff - out;
-            rest = after_hovering(type, rest, weight_brought(place), waited);
+            rest = after_hovering(type, rest, weight_flown_out(place), waited);
         }
-        return after_hovering(type, rest, weight_taken(place), recovery_start - served - home);
+        return after_hovering(type, rest, weight_flown_back(place), recovery_start - served - home);
     }
 };
 

@@ -93,6 +93,13 @@ inline Int weight_brought(Windows place) { return place.node().demand[0]; }
 // What weighs of that which is picked up at a customer, likewise.
 inline Int weight_taken(Windows place) { return place.node().demand[1]; }
 
+// What a truck's drone brings to a customer weighs, and what it takes back. A shipment that it
+// delivers comes from the truck.
+inline Int weight_flown_out(Windows place) {
+    return weight_brought(place) - std::min(weight_taken(place), Int{0});
+}
+inline Int weight_flown_back(Windows place) { return std::max(weight_taken(place), Int{0}); }
+
 // What a vehicle of a type holds, in the first tier.
 inline Amount capacity_of(const VehicleType& type) { return amount_of(type.capacity); }
 

@@ -61,10 +61,23 @@ inline Int excess_between(View<const Int, 1> max_between, Int pickup, Int left, 
     return start - left - max_between[pickup];
 }
 
-// Whether the customers from `first` on, `behind` not among them, are whole shipments, each picked
-// up first; `node_at` tells who that is, -1 nobody. Those before `first` are another trip's.
+// Whether a shipment is picked up by a truck at a stop from `first` on, `behind` not among them,
+// and delivered by a drone; `node_at` tells who is served at each.
 template <class NodeAt>
-bool keeps_pairs(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt& node_at) {
+bool may_be_flown(View<const Pair, 1> pairs, Int delivery, Int first, Int behind,
+                  const NodeAt& node_at) {
+    for (Int p = first; p < behind; ++p) {
+        if (node_at(p) == pairs[delivery].partner) return true;
+    }
+    return false;
+}
+
+// Whether the customers from `first` on, `behind` not among them, are whole shipments, each picked
+// up first, but for so many that are `flown` to where they are delivered; `node_at` tells who that
+// is, -1 nobody. Those before `first` are another trip's.
+template <class NodeAt>
+bool keeps_pairs(View<const Pair, 1> pairs, Int first, Int behind, Int flown,
+                 const NodeAt& node_at) {
     Int aboard = 0;
     for (Int p = first; p < behind; ++p) {
         const Int node = node_at(p);
@@ -78,7 +91,7 @@ bool keeps_pairs(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt&
         if (q < first) return false;
         --aboard;
     }
-    return aboard == 0;
+    return aboard == flown;
 }
 
 // Whether each shipment is delivered before all that are picked up before it and not yet delivered:

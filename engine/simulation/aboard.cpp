@@ -17,7 +17,7 @@ Amount brought(const Setting& setting, const Vehicle& vehicle, View<const Drone,
     Amount amount = nothing;
     if (vehicle.flying == 0) return amount;
     for (const Drone& drone : drones) {
-        if (is_recovered(drone, place)) {
+        if (is_recovered(drone, place) && !is_delivery(setting.pair, drone.node)) {
             amount = plus(amount, picked_of(setting.amount, drone.node, number));
         }
     }
@@ -195,6 +195,9 @@ void load_flight(const Setting& setting, Vehicle& vehicle, Int node) {
     for (Int number = 0; number < num_tiers(setting.amount); ++number) {
         const Amount delivered = delivered_of(setting.amount, node, number);
         write_part(minus(part_of(vehicle.load, number), delivered), vehicle.load, number);
+        if (!is_delivery(setting.pair, node)) continue;
+        const Amount change = picked_of(setting.amount, node, number);
+        write_part(plus(part_of(vehicle.aboard, number), change), vehicle.aboard, number);
     }
 }
 

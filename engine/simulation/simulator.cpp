@@ -176,7 +176,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
                 is_held ? Verdict::unsure : judge_drive(open, earliest, node, outlooks[found]);
             add_if_legal(verdict, {node, false});
         }
-        if (room.sortie && instance.can_fly(b, k, node) && may_launch(setting, vehicle, node)) {
+        if (room.sortie && instance.can_fly(b, k, node) && may_launch(setting, vehicle, node) &&
+            !(is_delivery(setting.pair, node) && setting.pair[node].partner == here)) {
             const Verdict verdict = is_held || is_idle
                                         ? Verdict::unsure
                                         : judge_launch(open, *earliest, node, outlooks[found]);

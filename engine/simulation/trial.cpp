@@ -57,6 +57,9 @@ Order parcels_aboard(const Setting& setting, const VehicleLog& log) {
         if (is_pickup(setting.pair, node)) aboard.push_back(setting.pair[node].partner);
         if (is_delivery(setting.pair, node)) std::erase(aboard, node);
     }
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (is_delivery(setting.pair, sortie.node)) std::erase(aboard, sortie.node);
+    }
     return aboard;
 }
 

@@ -227,7 +227,12 @@ private:
     bool note_served(Int index, Int start) {
         const Int node = log_.stop[index].node;
         served_[static_cast<std::size_t>(index)] = start + setting_.node[node].service_duration();
-        if (writes || !is_delivery(setting_.pair, node)) return true;
+        return writes || is_brought_soon(node, index, start);
+    }
+
+    // Whether a shipment that is delivered was not under way too long, by the stops before `index`.
+    bool is_brought_soon(Int node, Int index, Int start) const {
+        if (!is_delivery(setting_.pair, node)) return true;
         const Int pickup = setting_.pair[node].partner;
         for (Int before = index - 1; before >= first_; --before) {
             if (log_.stop[before].node != pickup) continue;
@@ -281,6 +286,9 @@ private:
         } else {
             if (is_flying && served > sortie.ready) return std::nullopt;
             if (aboard_too_long(customer, std::min(departure_, takeoff), start)) {
+                return std::nullopt;
+            }
+            if (!served_.empty() && !is_brought_soon(customer, sortie.launch_stop, start)) {
                 return std::nullopt;
             }
         }
@@ -400,15 +408,20 @@ Int excess_of_parcels(const Setting& setting, const VehicleLog& log) {
 Int excess_of_pairs(const Setting& setting, const VehicleLog& log) {
     const Int first = log.trip[log.count.trips - 1].first_stop;
     Int most = -far;
-    for (Int index = first; index < log.count.stops; ++index) {
-        const LoggedStop& stop = log.stop[index];
-        if (!is_delivery(setting.pair, stop.node)) continue;
-        const Int pickup = setting.pair[stop.node].partner;
-        for (const LoggedStop& before : log.stop.first(index)) {
+    const auto deliver = [&](Int node, Int start, Int behind) {
+        if (!is_delivery(setting.pair, node)) return;
+        const Int pickup = setting.pair[node].partner;
+        for (const LoggedStop& before : log.stop.first(behind)) {
             if (before.node != pickup) continue;
             const Int left = before.start + setting.node[pickup].service_duration();
-            most = std::max(most, excess_between(setting.max_between, pickup, left, stop.start));
+            most = std::max(most, excess_between(setting.max_between, pickup, left, start));
         }
+    };
+    for (Int index = first; index < log.count.stops; ++index) {
+        deliver(log.stop[index].node, log.stop[index].start, index);
+    }
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (sortie.launch_stop >= first) deliver(sortie.node, sortie.start, sortie.launch_stop);
     }
     return most;
 }

@@ -242,13 +242,13 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
 
 
 def _pack_pairs(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind]) -> None:
-    """Write who belongs together; nobody serves one end alone, drones neither. In place."""
+    """Write who belongs together; nobody serves one end alone, no drone fetches. In place."""
     ends = write_pairs(problem, instance.pair[row])
     write_aboard(problem, instance.amount[row], DIMENSIONS_PER_TIER)
-    if problem.limits_time_between:
-        write_limits(problem, [kind for kind, _, _ in kinds], instance.max_between[row])
+    write_limits(problem, [kind for kind, _, _ in kinds], instance.max_between[row])
     instance.can_drive[row][:, ends] &= instance.can_drive[row][:, ends].all(axis=2)[..., None]
-    instance.can_fly[row][:, ends] = False
+    instance.can_fly[row][:, ends[:, 0]] = False
+    instance.can_fly[row][np.ix_(np.array([kind.lifo for kind, _, _ in kinds]), ends[:, 1])] = False
 
 
 def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:

@@ -24,4 +24,4 @@ def most_excess(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     halts: list[Stop | Visit] = [
         *trip.customer_stops, *(visit for sortie in trip.sorties for visit in sortie.visits)]
     return max([0, *(excess_aboard(problem, kind, trip, halt) for halt in halts),
-                *(excess for _, excess in times_between(problem, kind, trip))])
+                *(excess for _, _, excess in times_between(problem, kind, trip))])

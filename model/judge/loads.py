@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from model.judge.pairs import change_aboard
+from model.judge.pairs import change_aboard, flown_out
 from model.problem import Customer, Problem, VehicleType
 from model.solution import Sortie, Trip
 
@@ -47,11 +47,15 @@ def trip_loads(problem: Problem, kind: VehicleType, trip: Trip) -> list[Amount]:
 
 def _add_shipments(problem: Problem, trip: Trip, loads: list[Amount]) -> None:
     """Add what is aboard of shipments on leaving each stop. In place."""
+    served = [[stop.node] for stop in trip.stops]
+    for sortie in trip.sorties:
+        served[sortie.launch_stop] += [visit.node for visit in sortie.visits]
     aboard = (0,) * problem.num_dimensions
-    for index, stop in enumerate(trip.stops, 1):
-        change = change_aboard(problem, stop.node)
-        if change is not None:
-            aboard = _plus(aboard, change)
+    for index, nodes in enumerate(served, 1):
+        for node in nodes:
+            change = change_aboard(problem, node)
+            if change is not None:
+                aboard = _plus(aboard, change)
         loads[index] = _plus(loads[index], aboard)
 
 
@@ -80,7 +84,7 @@ def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
     load = (0,) * problem.num_dimensions
     loads = [load]
     for visit in reversed(sortie.visits):
-        load = _plus(load, problem.customer_at(visit.node).demand)
+        load = _plus(load, flown_out(problem, visit.node))
         loads.append(load)
     loads.reverse()
     taken = (0,) * problem.num_dimensions

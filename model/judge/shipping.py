@@ -18,16 +18,9 @@ def shipment_violations(problem: Problem, kind: VehicleType,
                             f"{path}{where}")
     if not problem.shipments:
         return
-    for index, message in parted(problem, trip):
-        yield Violation("PAIR", message, f"{path}.stops[{index}]")
-    for index, excess in times_between(problem, kind, trip):
+    for where, message in parted(problem, trip):
+        yield Violation("PAIR", message, f"{path}{where}")
+    for where, name, excess in times_between(problem, kind, trip):
         if excess > 0:
-            shipment = problem.shipment_at[trip.stops[index].node]
-            yield Violation("TIME_BETWEEN", f"shipment {shipment.id} is {seconds(excess)} too long "
-                            "under way", f"{path}.stops[{index}]")
-    for index, sortie in enumerate(trip.sorties):
-        for number, visit in enumerate(sortie.visits):
-            if visit.node in problem.shipment_at:
-                shipment = problem.shipment_at[visit.node]
-                yield Violation("PAIR", f"shipment {shipment.id} is served by drone",
-                                f"{path}.sorties[{index}].visits[{number}]")
+            yield Violation("TIME_BETWEEN", f"shipment {name} is {seconds(excess)} too long "
+                            "under way", f"{path}{where}")

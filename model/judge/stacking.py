@@ -26,5 +26,8 @@ def unstacked(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
             stack.append(each.delivery)
         if comes and stack:
             yield where, "what is picked up here stays on a shipment"
+    for number, sortie in enumerate(trip.sorties):
+        if any(visit.node in problem.shipment_at for visit in sortie.visits):
+            yield f".sorties[{number}]", "no drone takes a shipment from a stack"
     for where in comes_early(problem, trip):
         yield where, "what was picked up stays on a parcel that leaves later"

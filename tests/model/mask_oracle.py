@@ -322,7 +322,8 @@ def _aboard(problem: Problem, vehicle: Vehicle) -> list[int]:
     """Return the deliveries of the shipments aboard."""
     if vehicle.is_idle or not vehicle.trips:
         return []
-    seen = set(vehicle.trips[-1].nodes)
+    last = vehicle.trips[-1]
+    seen = {*last.nodes, *(flight.customer for flight in last.flights)}
     return [each.delivery for each in problem.shipments
             if each.pickup in seen and each.delivery not in seen]
 

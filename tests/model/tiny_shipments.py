@@ -39,3 +39,17 @@ def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) ->
     return replace(
         problem, customers=tuple(customers), shipments=tuple(shipments), vehicle_types=kinds,
         relations=tuple(each for each in problem.relations if taken.isdisjoint(each.nodes)))
+
+
+def with_flown_shipments(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem of shipments that drones may deliver, most of which can."""
+    problem = with_shipments(rng, problem, 2)
+    ends = problem.shipment_at.keys()
+    kinds = tuple(replace(kind, lifo=False, max_stops=None, capacity=tuple(
+        2 * amount + 3 for amount in kind.capacity), drones=kind.drones and replace(
+            kind.drones, endurance=60 * MINUTE)) for kind in problem.vehicle_types)
+    customers = [
+        replace(customer, served_by="either", latest=60 * MINUTE, skills=frozenset())
+        if problem.num_depots + place in ends else customer
+        for place, customer in enumerate(problem.customers)]
+    return replace(problem, customers=tuple(customers), vehicle_types=kinds)

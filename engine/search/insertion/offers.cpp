@@ -63,12 +63,6 @@ struct LeastCost {
     }
 };
 
-// From where to where a drone is wanted, in half stops: a stop to come is between two.
-struct Stretch {
-    Int launch;
-    Int recovery;
-};
-
 Stretch stretch_of(const Move& move) {
     const Int first = 2 * move.first, last = 2 * move.last;
     if (move.kind == by_halts) return {first + 1, last + 1};
@@ -77,10 +71,30 @@ Stretch stretch_of(const Move& move) {
     return {first, last};
 }
 
-// Returns a drone of a row that is aboard from launch to recovery; `nowhere`: there is none.
+// Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
 //
-// That which flies least from and to these stops, so that drones fly side by side; on the trip, if
-// drones are charged aboard.
+// In place: a sortie's drone.
+double price_offer(const ProblemData& data, const Searcher& searcher, Move& move, Int node,
+                   double least) {
+    const Fleet& now = searcher.now;
+    const Int kind = move.kind, slot = move.slot, p = move.first;
+    if (kind == by_sortie || uses_halt(move)) {
+        move.drone = free_drone(data, now, slot, stretch_of(move), move.type);
+        if (move.drone < 0) return infeasible;
+    } else if (kind == at_stop) {
+        if (stands_alone(data, now, slot, p, node)) {
+            const VehicleType& type = data.type[now.route[slot].type];
+            return price_stop(data, now, slot, p, newcomer_for(data, type, node));
+        }
+    } else if ((kind == new_trip || kind == trip_from || kind == trip_until) &&
+               is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
+        return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
+    }
+    return price_move(data, now, move, node);
+}
+
+}  // namespace
+
 Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Stretch stretch, Int row) {
     const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
     const View<const Stop, 1> stops = fleet.stop[slot];
@@ -113,30 +127,6 @@ Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Stretch st
     }
     return chosen;
 }
-
-// Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
-//
-// In place: a sortie's drone.
-double price_offer(const ProblemData& data, const Searcher& searcher, Move& move, Int node,
-                   double least) {
-    const Fleet& now = searcher.now;
-    const Int kind = move.kind, slot = move.slot, p = move.first;
-    if (kind == by_sortie || uses_halt(move)) {
-        move.drone = free_drone(data, now, slot, stretch_of(move), move.type);
-        if (move.drone < 0) return infeasible;
-    } else if (kind == at_stop) {
-        if (stands_alone(data, now, slot, p, node)) {
-            const VehicleType& type = data.type[now.route[slot].type];
-            return price_stop(data, now, slot, p, newcomer_for(data, type, node));
-        }
-    } else if ((kind == new_trip || kind == trip_from || kind == trip_until) &&
-               is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
-        return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
-    }
-    return price_move(data, now, move, node);
-}
-
-}  // namespace
 
 void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const auto [data, searcher, node, enlarge, found] = insertion;

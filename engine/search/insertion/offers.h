@@ -7,6 +7,18 @@
 
 namespace tandem {
 
+// From where to where a drone is wanted, in half stops: a stop to come is between two.
+struct Stretch {
+    Int launch;
+    Int recovery;
+};
+
+// Returns a drone of a row that is aboard from launch to recovery; `nowhere`: there is none.
+//
+// That which flies least from and to these stops, so that drones fly side by side; on the trip, if
+// drones are charged aboard.
+Int free_drone(const ProblemData& data, const Fleet& fleet, Int slot, Stretch stretch, Int row);
+
 constexpr Int max_span = 8;  // how many stops after its launch a sortie is recovered at most
 
 // How many insertions begin at a stop at most, a customer behind it and sorties from there.

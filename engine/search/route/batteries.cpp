@@ -13,7 +13,7 @@ void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward
             const VehicleType& type, Sortie& sortie, Int node) {
     sortie.taken = 0;
     for (Int index = 0; index < sortie.count; ++index) {
-        sortie.taken += weight_taken(places[sortie.nodes[index]]);
+        sortie.taken += weight_flown_back(places[sortie.nodes[index]]);
     }
     Int left = battery_of(type), aboard = sortie.taken, most = aboard, flown = 0;
     Int here = sortie.home;
@@ -23,7 +23,7 @@ void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward
         const TravelLegs& way = index == sortie.count - 1 ? homeward : legs;
         const Int flight = leg(way, before, here).duration, service = place.service_duration();
         left = after_leg(type, left, aboard, flight);
-        aboard += weight_brought(place) - weight_taken(place);
+        aboard += weight_flown_out(place) - weight_flown_back(place);
         most = std::max(most, aboard);
         if (hovers_at_customers(type)) left = after_hovering(type, left, aboard, service);
         flown += flight + service;
@@ -38,7 +38,7 @@ void hover(NodeTable places, const VehicleType& type, Sortie& sortie, BlockSums&
     Int aboard = sortie.taken;
     for (Int index = sortie.count - 1; index >= 0; --index) {
         const Windows place = places[sortie.nodes[index]];
-        aboard += weight_brought(place) - weight_taken(place);
+        aboard += weight_flown_out(place) - weight_flown_back(place);
         const Int waited = place.waiting(sortie.arrivals[index]);
         if (waited > 0) {
             sortie.left = after_hovering(type, sortie.left, aboard, waited);

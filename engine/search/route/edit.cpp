@@ -114,6 +114,10 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int 
             insert_stops(sequence, move.last + 1, {{partner, customer_stop}});
             insert_stops(sequence, behind, {served});
             break;
+        case by_truck_and_drone:
+            add_sortie(route, sorties, move.last, move.landing, move.drone, partner);
+            insert_stops(sequence, behind, {served});
+            break;
         case pair_trip:
             insert_stops(sequence, behind, {start, served, {partner, customer_stop}, end});
             break;
@@ -151,6 +155,7 @@ void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Remov
         if (stops[p].kind == halt_stop) node = halt_after[node];
         return has_window(stops[p]) && node >= 0 && removed.marked[node];
     };
+    const Int before = removed.count;
     Int kept = 0;
     for (Sortie& sortie : sorties.first(route.sorties)) {
         const bool grounded = is_removed(sortie.launch) || is_removed(sortie.recovery);
@@ -164,6 +169,10 @@ void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Remov
         if (left > 0) sorties[kept++] = sortie;
     }
     route.sorties = kept;
+    // Where a shipment isn't flown any more, others may have been launched at its pickup.
+    if (some_paired(removed.pair) && removed.count > before) {
+        keep_sorties(sequence, halt_after, removed);
+    }
 }
 
 void close_ranks(const Sequence& sequence, View<const bool, 1> marked, View<Int, 1> moved) {

@@ -40,6 +40,8 @@ constexpr Int by_halts = 11;  // on a sortie from a stop at a launch site behind
 constexpr Int both_ends = 12;  // both ends of a shipment: the pickup behind stop `first`, the
                                // delivery behind the pickup or the former stop `last`
 constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`
+constexpr Int by_truck_and_drone = 15;  // the pickup behind stop `first`, the delivery on a sortie
+                                        // from the former stop `last` to `landing`
 constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
                                // site and back there
 

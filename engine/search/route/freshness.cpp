@@ -39,18 +39,27 @@ Int excess_of_parcels(const ProblemData& data, const Route& route, View<const St
 
 // Return by how much a shipment is too long under way on a timed trip; at most 0 if none is.
 Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                    const Trip& trip) {
+                    const Trip& trip, View<const Sortie, 1> sorties) {
     const View<const Int, 1> limits = data.max_between[route.type];
     const NodeTable places = data.place.by_truck(data.type[route.type]);
     Int most = -far;
-    for (Int p = trip.first; p <= trip.last; ++p) {
-        if (stops[p].kind != customer_stop || !is_delivery(data.pair, stops[p].node)) continue;
-        const Int pickup = data.pair[stops[p].node].partner;
-        for (Int q = p - 1; q > trip.first; --q) {
+    const auto deliver = [&](Int node, Int arrival, Int behind) {
+        if (!is_delivery(data.pair, node)) return;
+        const Int pickup = data.pair[node].partner;
+        for (Int q = behind - 1; q > trip.first; --q) {
             if (stops[q].kind != customer_stop || stops[q].node != pickup) continue;
             const Int left = places[pickup].end_of_service(stops[q].arrival);
-            const Int start = places[stops[p].node].start_of_service(stops[p].arrival);
+            const Int start = places[node].start_of_service(arrival);
             most = std::max(most, excess_between(limits, pickup, left, start));
+        }
+    };
+    for (Int p = trip.first; p <= trip.last; ++p) {
+        if (stops[p].kind == customer_stop) deliver(stops[p].node, stops[p].arrival, p);
+    }
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            deliver(sortie.nodes[visit], sortie.arrivals[visit], sortie.launch);
         }
     }
     return most;
@@ -63,7 +72,7 @@ Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1>
     Int most = -far;
     if (time_aboard_counts(data)) most = excess_of_parcels(data, route, stops, trip, sorties);
     if (!data.max_between.empty()) {
-        most = std::max(most, excess_of_pairs(data, route, stops, trip));
+        most = std::max(most, excess_of_pairs(data, route, stops, trip, sorties));
     }
     if (lags_count(data)) {
         most = std::max(most, most_lag_excess(data, route, stops, trip, sorties));

@@ -128,16 +128,39 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
     return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
 }
 
+// Count the shipments that drones deliver on a trip; `nowhere` if one isn't aboard on arrival where
+// its drone is launched.
+template <class NodeAt>
+Int count_flown(const ProblemData& data, View<const Sortie, 1> sorties, const Trip& trip,
+                const NodeAt& node_at) {
+    Int flown = 0;
+    for (const Sortie& sortie : sorties) {
+        if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            const Int node = sortie.nodes[visit];
+            if (!is_paired(data.pair, node)) continue;
+            if (!is_delivery(data.pair, node) ||
+                !may_be_flown(data.pair, node, trip.first + 1, sortie.launch, node_at)) {
+                return nowhere;
+            }
+            ++flown;
+        }
+    }
+    return flown;
+}
+
 // Tell whether each trip serves whole shipments, each picked up first, and unloads from a stack
 // what lies on it.
 bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                View<const Trip, 1> trips) {
+                View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
     const View<const Trip, 1> made = trips.first(route.trips);
     const auto node_at = [&](Int p) {
         return stops[p].kind == customer_stop ? stops[p].node : nowhere;
     };
     return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
-        return keeps_pairs(data.pair, trip.first + 1, trip.last, node_at) &&
+        const Int flown = count_flown(data, sorties.first(route.sorties), trip, node_at);
+        return flown != nowhere &&
+               keeps_pairs(data.pair, trip.first + 1, trip.last, flown, node_at) &&
                (!is_stack(data.type[route.type]) ||
                 keeps_stack(data.pair, trip.first + 1, trip.last, node_at));
     });
@@ -247,7 +270,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     if (!load_trips(data, route, stops, trips, sorties)) return false;
     if (orders_cross(data)) note_spans(data, fleet, slot);
-    if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips)) return false;
+    if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips, sorties)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     return has_breaks(data.type[route.type]) ? price_later(data, fleet, slot, settled)

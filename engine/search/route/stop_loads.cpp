@@ -15,6 +15,25 @@ struct Flown {
     bool may;
 };
 
+// Return the cargo of serving a customer by drone; a shipment that is delivered was aboard.
+Cargo cargo_flown(const ProblemData& data, Int node, Int tier) {
+    if (!is_delivery(data.pair, node)) return cargo_for(data.amount, node, tier);
+    Cargo cargo = no_cargo;
+    cargo.delivered = cargo.most = minus(nothing, picked_of(data.amount, node, tier));
+    return cargo;
+}
+
+// Let shipments that a sortie delivers leave the truck where it is launched. In place.
+void unload_shipments(const ProblemData& data, const Sortie& sortie, StopLoad& launch, Int tier) {
+    for (Int visit = 0; visit < sortie.count; ++visit) {
+        if (!is_delivery(data.pair, sortie.nodes[visit])) continue;
+        // They didn't come from the depot.
+        const Amount change = picked_of(data.amount, sortie.nodes[visit], tier);
+        add_left(launch, change, 0);
+        add_come(launch, change, 0);
+    }
+}
+
 // Return the cargo of a sortie that serves a customer more before its number `place`.
 //
 // And whether a drone of a row `k` may carry it. `nowhere`: nobody more.
@@ -23,7 +42,7 @@ Flown flown(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int
     Cargo cargo = no_cargo;
     bool in_order = true;
     const auto visit = [&](Int next) {
-        const Cargo more = cargo_for(data.amount, next, tier);
+        const Cargo more = cargo_flown(data, next, tier);
         in_order = in_order && may_follow(type, cargo, more);
         cargo = followed(cargo, more);
     };
@@ -59,6 +78,9 @@ bool note_amounts(const ProblemData& data, const Fleet& fleet, Int slot, Int tie
         allowed = allowed && may;
         add_left(stop_loads[sortie.launch], cargo.delivered, cargo.total_delivered);
         add_come(stop_loads[sortie.recovery], cargo.picked, cargo.total_picked);
+        if (some_paired(data.pair)) {
+            unload_shipments(data, sortie, stop_loads[sortie.launch], tier);
+        }
     }
     return allowed;
 }

@@ -87,6 +87,51 @@ def test_how_long_a_shipment_is_under_way_is_limited(searching: httpx.Client,
     assert stops[stops.index(("pickup", "s1")) + 1] == ("delivery", "s1")
 
 
+def test_a_drone_delivers_what_its_truck_has_picked_up(searching: httpx.Client,
+                                                       paired: Request) -> None:
+    paired["customers"] = [{"id": "A", "location": [4, 0], "demand": [1], "served_by": "truck"}]
+    paired["shipments"] = [{
+        "id": "s1", "amount": [1], "pickup": {"location": [2, 0]},
+        "delivery": {"location": [4, 9], "served_by": "either", "info": {"notes": "roof"}}}]
+    paired["fleet"][0] |= {"capacity": [9], "count": 1, "max_trips": 1, "drones": {
+        "count": 1, "capacity": [1], "endurance": 36000, "costs": {"per_km": 0.01}}}
+    plan = searching.post("/plan", json=paired).json()
+    PlanReply.model_validate(plan)
+    [trip] = plan["routes"][0]["trips"]
+    [[visit]] = [sortie["customers"] for sortie in trip["sorties"]]
+    assert (visit["kind"], visit["id"], visit["info"]) == ("delivery", "s1", {"notes": "roof"})
+    checked = searching.post("/check", json={"problem": paired, "plan": plan}).json()
+    assert checked["feasible"]
+    assert checked["summary"] == plan["summary"]
+    for terms in {"plan": plan}, {"plan": plan, "freeze_before": trip["sorties"][0]["launch_time"]}:
+        again = searching.post("/plan", json=paired | {"replan": terms}).json()
+        assert again["cost"]["total"] == pytest.approx(plan["cost"]["total"]), again
+    for name in ("A", "s1/pickup", "s1/delivery"):
+        reply = searching.post("/explain", json={"problem": paired, "plan": plan, "customer": name})
+        assert reply.status_code == 200, reply.text
+    paired["shipments"][0]["pickup"]["served_by"] = "drone"
+    refused = searching.post("/plan", json=paired)
+    assert refused.status_code == 422
+    assert refused.json()["errors"][0]["path"] == "$.shipments[0].pickup.served_by"
+
+
+def test_flights_bring_shipments(searching: httpx.Client, paired: Request) -> None:
+    paired |= {"coordinate_system": "geographic", "customers": [
+        {"id": "A", "location": [0.004, 0], "demand": [1], "served_by": "truck"}]}
+    paired.pop("planar_unit", None)
+    paired["depots"][0]["location"] = [0, 0]
+    paired["shipments"] = [{
+        "id": "s1", "amount": [1], "pickup": {"location": [0.002, 0]},
+        "delivery": {"location": [0.004, 0.009], "served_by": "either"}}]
+    paired["fleet"][0] |= {"capacity": [9], "count": 1, "max_trips": 1, "drones": {
+        "count": 1, "capacity": [1], "endurance": 36000, "costs": {"per_km": 0.01}}}
+    plan = searching.post("/plan", json=paired).json()
+    assert any(trip["sorties"] for route in plan["routes"] for trip in route["trips"]), plan
+    reply = searching.post("/flights", json={
+        "problem": paired, "plan": plan, "format": "geojson", "per": "sortie"})
+    assert reply.status_code == 200, reply.text
+
+
 def test_a_stack_is_unloaded_from_its_top(searching: httpx.Client, paired: Request) -> None:
     paired["customers"] = []
     paired["shipments"] = [{"id": name, "amount": [1], "pickup": {"location": [place, 1]},

@@ -8,6 +8,7 @@ from model.judge.timing import SortieDecision, TripDecision
 from model.problem import Shipment
 from tests.model.judge.test_loads import codes, judged
 
+FLOWN = (Shipment("x", 1, 3, (1000,)),)
 DIRECT = (Shipment("x", 1, 2, (1000,)), Shipment("y", 3, 4, (1000,)))
 C_FROM_A = SortieDecision((3,), 1, 2)
 
@@ -59,3 +60,28 @@ def test_drones_parcels_are_on_their_trucks_stack(tiny_problem, customers, truck
                           shipments=(Shipment("x", 1, 4, (1000,)),))
         flown = SortieDecision((3,), 2, 2)
         assert codes(judged(problem, TripDecision((0, 1, 2, 4, 0), (flown,), start=0))) == ["LIFO"]
+
+
+@pytest.mark.parametrize(("nodes", "sortie", "broken"), [
+    ((0, 1, 2, 0), SortieDecision((3,), 2, 2), []), ((0, 1, 2, 0), SortieDecision((3,), 2, 3), []),
+    ((0, 1, 2, 0), SortieDecision((3,), 1, 2), ["PAIR"]),  # not yet aboard
+    ((0, 2, 1, 0), SortieDecision((3,), 1, 2), ["PAIR"]),
+    ((0, 2, 0), SortieDecision((3,), 1, 2), ["PAIR"]),  # never
+    ((0, 2, 3, 0), SortieDecision((1,), 1, 2), ["PAIR"])])
+def test_drones_deliver_what_is_aboard(tiny_problem, customers, truck, drones, nodes, sortie,
+                                       broken):
+    a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
+    problem = replace(tiny_problem(a, b, c, truck=replace(truck, drones=drones)), shipments=FLOWN)
+    trip = TripDecision(nodes, (sortie,), start=0)
+    evaluation = judged(problem, trip)
+    assert sorted({code for code in codes(evaluation) if code == "PAIR"}) == broken
+    if not broken:
+        measured = evaluation.routes[0].trips[0]
+        assert codes(evaluation) == []
+        assert measured.stop_loads == ((0,), (1000,), (0,), (0,))
+        assert measured.sorties[0].loads == ((1000,), (0,))
+        weak = replace(drones, capacity=(999,))
+        few = tiny_problem(a, b, c, truck=replace(truck, drones=weak))
+        assert codes(judged(replace(few, shipments=FLOWN), trip)) == ["PAYLOAD"]
+        timed = (replace(FLOWN[0], max_time_between=1),)
+        assert codes(judged(replace(problem, shipments=timed), trip)) == ["TIME_BETWEEN"]

@@ -1,0 +1,32 @@
+"""Shipments that drones deliver, searched for and tried one by one."""
+
+import numpy as np
+
+from model.engine.instance import pack
+from model.judge.check import check
+from model.problem import Problem
+from model.search.improve import SearchConfig, improve
+from model.solution import Solution
+from tests.model.search.test_optimum import missed_seeds, one_drone
+from tests.model.tiny_shipments import with_flown_shipments
+
+
+def drawn_problem(rng: np.random.Generator) -> Problem:
+    return with_flown_shipments(rng, one_drone(rng))
+
+
+def test_search_finds_the_cheapest_way_to_fly_shipments() -> None:
+    assert missed_seeds(drawn_problem, range(2)) == []
+
+
+def test_drones_deliver_what_their_trucks_have_picked_up() -> None:
+    flown = 0
+    for seed in range(8):
+        problem = drawn_problem(np.random.default_rng(seed))
+        found = improve(problem, pack([problem]), Solution((), problem.left_out(())),
+                        SearchConfig(turns=150)).solution
+        assert check(problem, found).violations == ()
+        served = {visit.node for route in found.routes for trip in route.trips
+                  for sortie in trip.sorties for visit in sortie.visits}
+        flown += any(each.delivery in served for each in problem.shipments)
+    assert flown >= 2

@@ -1,0 +1,22 @@
+"""Which shipments drones may deliver, held to the checker."""
+
+import numpy as np
+
+from model.simulation.actions import LAUNCH, encode_action
+from tests.model.search.test_optimum import one_drone
+from tests.model.simulation.test_simulator import assert_exact, flown_both_ways, walk
+from tests.model.tiny import draw_tiny
+from tests.model.tiny_shipments import with_flown_shipments
+
+
+def test_drones_deliver_exactly_what_is_aboard() -> None:
+    launched = 0
+    for seed in range(60):
+        rng = np.random.default_rng((seed, 9))
+        problem = one_drone(rng) if seed % 3 else flown_both_ways(rng, draw_tiny(rng))
+        problem = with_flown_shipments(rng, problem)
+        assert_exact(problem, rng, seed)
+        launched += sum(encode_action(LAUNCH, each.delivery) in codes
+                        for codes, _ in walk(problem, np.random.default_rng(seed))
+                        for each in problem.shipments)
+    assert launched > 5
