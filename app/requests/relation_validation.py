@@ -49,12 +49,6 @@ def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
                        f"At most {MOST_IN_ORDER} customers are served in an order: name fewer.")
     if not relation.same_vehicle:
         yield from _across_errors(draft, relation, path)
-    several = {customer.id for _, customer in draft.known_customers() if customer.alternatives}
-    for place, name in enumerate(relation.customers):
-        if name in several:
-            yield error_at("RELATION_WITH", (*path, "customers", place),
-                           f"{name!r} may be served at one of several places, which can't be put "
-                           "in order yet: leave alternatives out, or name others.")
     if draft.replan is not None:
         yield error_at("RELATION_WITH", (*path, "kind"),
                        "What has been served isn't put in order with what is left yet: leave "

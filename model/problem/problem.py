@@ -338,7 +338,8 @@ class Problem:
     def lags(self) -> dict[int, tuple[Lag, ...]]:
         """How much later than others each customer is served behind whom there are some."""
         found: dict[int, tuple[Lag, ...]] = {}
-        for node, lag in chain.from_iterable([each.lags() for each in self.relations]):
+        for node, lag in chain.from_iterable([
+                each.lags(self.first_place) for each in self.relations]):
             found[node] = (*found.get(node, ()), lag)
         return found
 
@@ -346,7 +347,8 @@ class Problem:
     def lags_across(self) -> dict[int, tuple[Lag, ...]]:
         """How much later or sooner than others, on any vehicles, customers of orders are served."""
         found: dict[int, tuple[Lag, ...]] = {}
-        for node, lag in chain.from_iterable([each.lags_across() for each in self.relations]):
+        for node, lag in chain.from_iterable([
+                each.lags_across(self.first_place) for each in self.relations]):
             found[node] = (*found.get(node, ()), lag)
         return found
 

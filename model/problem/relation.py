@@ -1,6 +1,6 @@
 """Who goes with whom, who doesn't, and who is served before whom."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal, NamedTuple
@@ -12,6 +12,9 @@ MOST_RELATIONS = 62
 
 MOST_IN_ORDER = 20
 """Most customers who are served one before another by one relation."""
+
+MOST_PLACES = 9
+"""Most places of a customer."""
 
 RelationKind = Literal["together", "apart", "before"]
 
@@ -47,7 +50,8 @@ class Relation:
                 f"{name} min_lag", self.min_lag)
         require(max(self.min_lag, self.max_lag or 0) <= MAX_QUANTITY, f"{name} max_lag",
                 self.max_lag)
-        require(self.kind != "before" or len(self.nodes) <= MOST_IN_ORDER, name, self.nodes)
+        require(self.kind != "before" or len(self.nodes) <= MOST_IN_ORDER * MOST_PLACES, name,
+                self.nodes)
         require(not self.across or (self.kind, self.scope) == ("before", "vehicle"), name,
                 self.across)
 
@@ -56,18 +60,19 @@ class Relation:
         """Tell whether one vehicle serves all of those who are served."""
         return self.kind != "apart" and not self.across
 
-    def lags(self) -> Iterator[tuple[int, Lag]]:
-        """Yield who is served behind whom, and how much later."""
-        if self.kind == "before":
-            for (place, one), (other_place, other) in combinations(enumerate(self.nodes), 2):
-                is_next = other_place == place + 1
-                most = UNLIMITED if self.max_lag is None or not is_next else self.max_lag
+    def lags(self, customer: Callable[[int], int]) -> Iterator[tuple[int, Lag]]:
+        """Yield who is served behind whom, and how much later, whose `customer` any node is."""
+        rank = {each: index for index, each in enumerate(dict.fromkeys(map(customer, self.nodes)))}
+        for one, other in combinations(self.nodes if self.kind == "before" else (), 2):
+            later = rank[customer(other)] - rank[customer(one)]
+            if later > 0:
+                most = UNLIMITED if self.max_lag is None or later > 1 else self.max_lag
                 yield other, Lag(one, self.min_lag, most)
 
-    def lags_across(self) -> Iterator[tuple[int, Lag]]:
+    def lags_across(self, customer: Callable[[int], int]) -> Iterator[tuple[int, Lag]]:
         """Yield for both of any two how much later than the other one is served, or less if before.
         """
-        for node, lag in self.lags() if self.across else ():
+        for node, lag in self.lags(customer) if self.across else ():
             yield node, lag
             yield lag.node, Lag(node, -lag.most, -lag.least)
 

@@ -27,7 +27,8 @@ def with_choices(rng: np.random.Generator, problem: Problem) -> Problem:
                 release_time=own.release_time, skills=own.skills, unassigned_cost=0.0)
     problem = replace(problem, customers=tuple(customers), choices=tuple(choices))
     problem = replace(problem, relations=tuple([
-        replace(each, nodes=tuple(sorted(problem.all_places(each.nodes))))
+        replace(each, nodes=tuple(dict.fromkeys([
+            place for node in each.nodes for place in problem.places_of(node)])))
         for each in problem.relations]))
     return with_vehicle_costs(rng, problem) if rng.random() < 0.3 else problem
 

@@ -96,7 +96,11 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
-    if (orders_cross(data)) keep_starts(data, route, stops);
+    if (orders_cross(data)) {
+        load_trips(data, route, stops, trips, sorties);
+        keep_starts(data, route, stops);
+        return drive_forward(data, route, stops, sorties);
+    }
     if (has_breaks(data.type[route.type])) {
         bool settled = false;
         return price_as_is(data, fleet, slot, settled) &&

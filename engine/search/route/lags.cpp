@@ -80,15 +80,20 @@ void note_spans(const ProblemData& data, const Fleet& fleet, Int slot) {
     }
 }
 
-void keep_starts(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    for (const Stop& stop : stops.first(route.length)) {
+void keep_starts(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
+    for (Stop& stop : stops.first(route.length)) {
+        if (stop.kind == start_stop) stop.hold = stop.free_start;
         if (stop.kind != customer_stop || !is_bound(data.across, stop.node)) continue;
         data.span[stop.node] = {stop.free_start, stop.free_start};
     }
 }
 
 void plan_starts(const Route& route, View<Stop, 1> stops) {
-    for (Stop& stop : stops.first(route.length)) stop.free_start = stop.start;
+    for (Stop& stop : stops.first(route.length)) {
+        stop.free_start = stop.kind == start_stop
+                              ? std::max({stop.arrival, stop.release, stop.hold})
+                              : stop.start;
+    }
 }
 
 Int await_others(const Truck& truck, View<Stop, 1> stops, View<const Sortie, 1> sorties, Int p,

@@ -17,10 +17,10 @@ inline bool orders_cross(const ProblemData& data) { return !data.across.empty();
 // planned. In place: `data.span`.
 void note_spans(const ProblemData& data, const Fleet& fleet, Int slot);
 
-// Write likewise that they are served as the route is planned. In place.
-void keep_starts(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
+// Write likewise that they are served as the route is planned, whose trips begin so. In place.
+void keep_starts(const ProblemData& data, const Route& route, View<Stop, 1> stops);
 
-// Write that a route's stops are planned as they are timed. In place.
+// Write that a route's trips begin, and its stops are served, as they are timed. In place.
 void plan_starts(const Route& route, View<Stop, 1> stops);
 
 // The arrival at a timed stop of whoever would be served then without waiting for others.

@@ -96,8 +96,6 @@ def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(service: httpx.Cli
      [("RELATION_WITH", "$.relations[0].scope")]),
     ([{"kind": "before", "customers": ["A", "F"], "same_vehicle": False}],
      [("RELATION_WITH", "$.relations[0].customers[1]")]),
-    ([{"kind": "before", "customers": ["A", "E"]}],
-     [("RELATION_WITH", "$.relations[0].customers[1]")]),
     ([{"kind": "apart", "customers": ["A", "B"], "min_lag": 5}],
      [("RELATION_WITH", "$.relations[0].min_lag")]),
     ([{"kind": "apart", "customers": ["A", "B"]}] * 63, [("WRONG_LENGTH", "$.relations")]),
@@ -167,6 +165,26 @@ def test_any_vehicles_serve_an_order_and_wait_for_each_other(
         related["relations"] = [order | change]
         checked = service.post("/check", json={"problem": related, "plan": plan}).json()
         assert [each["code"] for each in checked["violations"]] == [code]
+
+
+@pytest.mark.parametrize("same_vehicle", [True, False])
+def test_an_order_holds_wherever_customers_are_served(
+        service: httpx.Client, related: Request, same_vehicle: bool) -> None:
+    related["customers"][3]["alternatives"] = [{"id": "locker", "location": [-8, 1]}]
+    related["relations"] = [{"kind": "before", "customers": ["D", "B"], "min_lag": 3600,
+                             "same_vehicle": same_vehicle}]
+    plan = service.post("/plan", json=related).json()
+    assert plan["unassigned"] == []
+    served = {stop["id"]: stop for route in plan["routes"] for trip in route["trips"]
+              for stop in trip["stops"]}
+    # Where any truck may, one that serves C does, too.
+    assert ("alternative" in served["D"]) == same_vehicle
+    assert served["B"]["service_start"] - served["D"]["service_start"] >= 3600
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+    assert checked["feasible"], checked
+    related["relations"][0]["customers"] = ["B", "D"]
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+    assert {each["code"] for each in checked["violations"]} >= {"RELATION"}
 
 
 def test_whom_others_keep_from_his_place_in_an_order_is_told_so(
