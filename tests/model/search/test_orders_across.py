@@ -12,7 +12,7 @@ from model.problem import MM_PER_KM, Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.tiny_company import with_order_across
-from tests.model.tiny_streets import draw_streets
+from tests.model.tiny_streets import draw_streets, draw_town
 
 pytestmark = pytest.mark.slow
 
@@ -88,3 +88,14 @@ def test_the_search_finds_the_cheapest_plan_of_orders_across_vehicles() -> None:
                       > 1 for each in problem.relations)
     assert across > 10
     assert bound > 10
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_trucks_with_drones_wait_for_each_other_as_they_were_priced(seed: int) -> None:
+    problem = draw_town(np.random.default_rng(seed))
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, problem.num_nodes))),
+                    SearchConfig(seed, turns=120))
+    evaluation = check(problem, found.solution)
+    assert evaluation.violations == ()
+    assert found.cost == pytest.approx(evaluation.cost.total)
+    assert any(trip.sorties for route in found.solution.routes for trip in route.trips)
