@@ -35,6 +35,10 @@ class Reason:
     other_remedy: str | None = None  # another one
 
 
+POSSIBLE = frozenset({"BATTERIES", "CHARGERS", "COST", "FLEET_EXHAUSTED", "SEARCH"})
+"""Reasons why somebody is left out whom a vehicle could serve."""
+
+
 def explain(problem: Problem, solution: Solution, node: int,
             until: float = math.inf) -> tuple[Reason, ...]:
     """Return one reason per vehicle type why the customer at `node` is unassigned.
@@ -49,7 +53,26 @@ def explain(problem: Problem, solution: Solution, node: int,
 
 def explain_type(problem: Problem, solution: Solution, index: int, node: int,
                  until: float = math.inf) -> Reason:
-    """Return why no vehicle of a type serves the customer at `node`. As `explain`."""
+    """Return why no vehicle of a type serves the customer at `node`. As `explain`.
+
+    Of several places that is of his own, unless he could be served at another.
+    """
+    own = _explain_at(problem, solution, index, node, until)
+    if own.code in POSSIBLE:
+        return own
+    for place in problem.places_of(node)[1:]:
+        reason = _explain_at(problem, solution, index, place, until)
+        if reason.code in POSSIBLE:
+            message = reason.message[0].lower() + reason.message[1:]
+            if reason.message.startswith(problem.vehicle_types[index].id):
+                message = reason.message
+            return replace(reason, message=f"At {problem.customer_at(place).id} {message}")
+    return own
+
+
+def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
+                until: float) -> Reason:
+    """Return the same of one place alone."""
     vehicle_type = problem.vehicle_types[index]
     if time.perf_counter() >= until:
         return _unknown(index, vehicle_type.id)
@@ -67,7 +90,7 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
     for attempt in chain((first,), tried):
         if not attempt.codes:
             return _in_company(problem, solution, index, node) or _unused(
-                problem, solution, index, attempt)
+                problem, solution, index, node, attempt)
         if time.perf_counter() >= until:
             return _unknown(index, vehicle_type.id)
     if first.codes <= BY_LEGS:
@@ -117,7 +140,7 @@ def _by_way_of_others(problem: Problem, solution: Solution, passage: Passage,
     way = f"{vehicle_type.id} could serve it together with {others}"
     cost = passage.timed.judged.cost.total
     absent = [node, *[each for each in passage.others if each in solution.unassigned]]
-    left_out = unassigned_cost(problem, absent)
+    left_out = unassigned_cost(problem, [problem.first_place(each) for each in absent])
     if cost >= left_out:
         price = ceil(cost * 100) / 100
         return Reason(index, "COST", f"{way} at a cost of {price:.2f}; leaving those out who are "
@@ -145,7 +168,8 @@ def _unknown(index: int, name: str) -> Reason:
                   "left to find out whether there could be any.")
 
 
-def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) -> Reason:
+def _unused(problem: Problem, solution: Solution, index: int, node: int,
+            attempt: Attempt) -> Reason:
     """Say why an attempt that keeps all rules is not in the plan."""
     vehicle_type, cost = problem.vehicle_types[index], attempt.evaluation.cost.total
     *hosts, _ = attempt.problem.customers
@@ -158,7 +182,8 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
     lacking = _lacking_at_hub(problem, solution, index, used)
     if lacking is not None:
         return replace(lacking, message=f"{way}, but {lacking.message}")
-    left_out = problem.cost_of_leaving_out(attempt.customer)
+    customer = problem.customer_at(problem.first_place(node))
+    left_out = problem.cost_of_leaving_out(customer)
     is_dear = not hosts and cost >= left_out
     price = f"{ceil(cost * 100) / 100:.2f}"
     at_price = f"{way} at a cost of {price}; leaving it out costs {left_out:.2f}"
@@ -170,7 +195,7 @@ def _unused(problem: Problem, solution: Solution, index: int, attempt: Attempt) 
         return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.",
                       "fits with one more vehicle" if would_do else None)
     if is_dear:
-        whose = "" if attempt.customer.unassigned_cost is None else "its "
+        whose = "" if customer.unassigned_cost is None else "its "
         remedy = (f"served if {whose}unassigned_cost were above {price}" if cost < MAX_MONEY
                   else None)
         return Reason(index, "COST", f"{at_price}.", remedy)

@@ -78,6 +78,16 @@ def test_who_is_out_of_reach_at_all_places_is_left_out_once(searching: httpx.Cli
     assert checked["feasible"], checked
 
 
+def test_who_could_be_served_at_another_place_is_told_so(searching: httpx.Client,
+                                                         lockers: Request) -> None:
+    lockers["customers"][0] |= {"time_window": {"latest": 10}, "unassigned_cost": 3}
+    (left,) = searching.post("/plan", json=lockers).json()["unassigned"]
+    (reason,) = left["reasons"]
+    assert (left["id"], reason["code"]) == ("A", "COST")
+    assert reason["message"].startswith("At A/locker van could serve it alone at a cost of 4.00; "
+                                        "leaving it out costs 3.00")
+
+
 def test_a_plan_goes_on_to_another_place(searching: httpx.Client, lockers: Request) -> None:
     lockers["customers"][1]["time_window"] = {"latest": 300}
     plan = searching.post("/plan", json=lockers).json()

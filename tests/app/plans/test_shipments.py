@@ -41,6 +41,20 @@ def test_a_shipment_is_fetched_before_it_is_brought(searching: httpx.Client,
     assert checked["summary"] == plan["summary"]
 
 
+def test_an_end_fits_on_the_trip_of_the_other_alone(searching: httpx.Client,
+                                                    paired: Request) -> None:
+    paired["fleet"][0]["count"] = 2
+    plan = searching.post("/plan", json=paired).json()
+    ask = {"problem": paired, "plan": plan, "customer": "s1/pickup"}
+    fits = searching.post("/fit", json=ask).json()
+    (vehicle,) = {each["vehicle"] for each in fits["places"]}
+    assert ("pickup", "s1") in [(stop["kind"], stop["id"]) for route in plan["routes"]
+                                if route["vehicle"] == vehicle
+                                for trip in route["trips"] for stop in trip["stops"]]
+    assert all({"PAIR"} <= {reason["code"] for reason in each["reasons"]}
+               for each in fits["others"])
+
+
 def test_ways_to_both_ends_are_told(searching: httpx.Client, paired: Request) -> None:
     paired["options"]["geometry"] = True
     plan = searching.post("/plan", json=paired).json()

@@ -105,3 +105,23 @@ def _few_by_truck(rng: np.random.Generator) -> Problem:
         if problem.num_customers > 3 and not any(kind.speed_profile
                                                  for kind in problem.vehicle_types):
             return replace(problem, vehicle_types=tuple(map(_one_trip, problem.vehicle_types)))
+
+
+def stated_in(problem: Problem) -> set[str]:
+    """Return the names of the rules of a day that a problem states."""
+    kinds, stated = problem.vehicle_types, {each.kind for each in problem.relations}
+    return {*stated, *(name for name, is_stated in (
+        ("shipments", problem.shipments), ("alternatives", problem.choices),
+        ("breaks", any(kind.breaks for kind in kinds)),
+        ("driving_rules", any(kind.driving for kind in kinds)),
+        ("max_travel_duration", any(kind.max_travel_duration is not None for kind in kinds)),
+        ("vehicle_costs", problem.vehicle_costs is not None),
+        ("fairness", problem.fairness.is_stated),
+        ("depot_hours", any(depot.earliest > 0 for depot in problem.depots)),
+        ("missing_legs", problem.travel[0].longest()[0] >= MAX_QUANTITY),
+        ("several_windows", any(customer.gaps for customer in problem.customers)),
+        ("overtime", any(kind.overtime for kind in kinds)),
+        ("goods", problem.incompatible_goods), ("drones", any(kind.drones for kind in kinds)),
+        ("pickups", any(customer.pickup for customer in problem.customers)),
+        ("setups", any(customer.setup_duration for customer in problem.customers)),
+        ("trips", any(kind.max_trips > 1 for kind in kinds))) if is_stated)}
