@@ -4,7 +4,7 @@
 
 #include "randomness.h"
 #include "rules/launch_place.h"
-#include "search/moves/two_opt_star.h"
+#include "search/moves/rewrite.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
@@ -160,23 +160,14 @@ unsigned BestPart::needed(Int slot, const Part& part, const PartToPlan& read, In
 // Write the operations in place of a part. In place; false if that breaks a rule.
 bool BestPart::write(Int slot, const Part& part, const BestOperations& best) {
     const Fleet& now = searcher_.now;
-    const Int spare = now.route.size() - 2;
     touch(searcher_, slot);
-    keep_aside(now, slot, spare);
-    Route& route = now.route[slot];
-    route.length = route.sorties = route.trips = 0;
-    append(now, spare, 0, part.first, slot);
-    const Stop& first = now.stop(spare, part.first);
-    put(now.stop[slot], route.length, first.node, first.kind);
-    for (Int number = 0; number < best.count(); ++number) {
-        write_operation(slot, best, best.operation(number));
-    }
-    append(now, spare, part.last, now.route[spare].length, slot);
-    // Where ways by a launch site are shorter, the truck may have come by for nothing.
-    close_ranks(sequence_in(now, slot), searcher_.marked, searcher_.scratch->moved);
-    const bool done = refresh(data_, now, slot);
-    locate(now, slot);
-    return done;
+    keep_aside(now, slot, now.route.size() - 2);
+    return rewrite(data_, searcher_, slot, part.first, part.last, [&](const Stop& first) {
+        put(now.stop[slot], now.route[slot].length, first.node, first.kind);
+        for (Int number = 0; number < best.count(); ++number) {
+            write_operation(slot, best, best.operation(number));
+        }
+    });
 }
 
 // Write an operation behind the last stop of a route, but not the part's last stop. In place.

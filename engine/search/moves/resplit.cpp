@@ -8,9 +8,9 @@
 #include "rules/shift.h"
 #include "search/moves/halting.h"
 #include "search/moves/operations.h"
+#include "search/moves/rewrite.h"
 #include "search/moves/split.h"
 #include "search/moves/splitter.h"
-#include "search/moves/two_opt_star.h"
 #include "search/route/edit.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -351,7 +351,6 @@ double Resplit::split_between(Int begin, Int end) const {
 // false if that breaks a rule.
 bool Resplit::write_between(Int slot, Int begin, Int end) const {
     const Fleet& now = searcher_.now;
-    const Int spare = now.route.size() - 2;
     Route& route = now.route[slot];
     if (route.length > 0) --now.used[type_];
     route.length = route.sorties = route.trips = 0;
@@ -359,16 +358,11 @@ bool Resplit::write_between(Int slot, Int begin, Int end) const {
     if (are_idle(data_, searcher_.scratch->line, begin, end)) return true;
     route.type = type_;
     ++now.used[type_];
-    append(now, spare, 0, part_.first, slot);
-    write_operations(data_, sequence_in(now, slot), behind(searcher_.scratch->line.view(), begin),
-                     end - begin + 1, now.stop(spare, part_.first).kind);
-    append(now, spare, part_.last, now.route[spare].length, slot);
-    if (has_halts(data_)) {
-        close_ranks(sequence_in(now, slot), searcher_.marked, searcher_.scratch->moved);
-    }
-    const bool done = refresh(data_, now, slot);
-    locate(now, slot);
-    return done;
+    return rewrite(data_, searcher_, slot, part_.first, part_.last, [&](const Stop& first) {
+        write_operations(data_, sequence_in(now, slot),
+                         behind(searcher_.scratch->line.view(), begin), end - begin + 1,
+                         first.kind);
+    });
 }
 
 // Write what the line says into the part, and into the other route, if any, which begins at place

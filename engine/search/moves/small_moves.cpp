@@ -5,7 +5,7 @@
 
 #include "rules/shift.h"
 #include "search/moves/operations.h"
-#include "search/moves/two_opt_star.h"
+#include "search/moves/rewrite.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 #include "search/route/resting.h"
@@ -486,27 +486,20 @@ bool SmallMoves::write() const {
 // Write a trip into its route. In place; false if that breaks a rule.
 bool SmallMoves::write(const Changing& trip, const OperationRow& row) const {
     const Fleet& now = searcher_.now;
-    const Int spare = now.route.size() - 2;
-    keep_aside(now, trip.slot, spare);
-    Route& route = now.route[trip.slot];
-    const View<Stop, 1> stops = now.stop[trip.slot];
-    const View<Sortie, 1> sorties = now.sortie[trip.slot];
-    route.length = route.sorties = route.trips = 0;
-    append(now, spare, 0, trip.first, trip.slot);
-    for (Int place = 0; place < row.length() - 1; ++place) {
-        const OperationStop& stop = row[place];
-        const Int p = route.length++;
-        put(stops, p, stop.node, place > 0 ? customer_stop : now.stop(spare, trip.first).kind);
-        if (stop.flown == nobody) continue;
-        const Int end = row.end_behind(place);
-        const auto [across, waiting] = costs(trip.type, row, place, end);
-        const Int to = waiting < across ? p : p + end - place;
-        add_sortie(route, sorties, p, to, 0, stop.flown);
-    }
-    append(now, spare, trip.last, now.route[spare].length, trip.slot);
-    const bool done = refresh(data_, now, trip.slot);
-    locate(now, trip.slot);
-    return done;
+    keep_aside(now, trip.slot, now.route.size() - 2);
+    return rewrite(data_, searcher_, trip.slot, trip.first, trip.last, [&](const Stop& first) {
+        Route& route = now.route[trip.slot];
+        for (Int place = 0; place < row.length() - 1; ++place) {
+            const OperationStop& stop = row[place];
+            const Int p = route.length++;
+            put(now.stop[trip.slot], p, stop.node, place > 0 ? customer_stop : first.kind);
+            if (stop.flown == nobody) continue;
+            const Int end = row.end_behind(place);
+            const auto [across, waiting] = costs(trip.type, row, place, end);
+            const Int to = waiting < across ? p : p + end - place;
+            add_sortie(route, now.sortie[trip.slot], p, to, 0, stop.flown);
+        }
+    });
 }
 
 }  // namespace tandem
