@@ -28,7 +28,7 @@ from model.search.problem_data import are_timed, can_be_linked, make_data, only_
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
-from model.search.starts import Starts
+from model.search.starts import Starting, Starts, starting_of
 from model.search.strategy import ALL_MOVES, Moves
 from model.search.temperature import Heat
 from model.search.worker import Worker
@@ -72,16 +72,6 @@ STAY = 200
 
 Reading = Callable[[int, int], float]
 """Seconds that a plan of so many routes and sorties takes to read."""
-
-STARTS_SHARE = 0.4
-"""Share of the search in which each thread begins several times anew, where that pays."""
-
-START_TURNS, START_TURNS_BY_TYPES = 100, 12
-"""Turns for each customer that such a start has at least, with vehicles of one type and of several:
-which of them drive is settled soon, and rarely well."""
-
-MOST_STARTS, MOST_STARTS_BY_TYPES = 5, 24
-"""How often a thread begins anew at most."""
 
 REHEAT = 0.3
 """First temperature of what follows from the best of them, by that of a start."""
@@ -161,11 +151,9 @@ class _Team:
         """Return how many turns for each customer there are in all, as far as is known."""
         return min(worker.expected() for worker in self.workers)
 
-    def num_starts(self) -> int:
-        """Return how often to begin anew, by how many turns there is time for."""
-        least, most = ((START_TURNS, MOST_STARTS) if self.workers[0].heat.types == 1
-                       else (START_TURNS_BY_TYPES, MOST_STARTS_BY_TYPES))
-        return min(most, int(STARTS_SHARE * self._expected_turns() / least))
+    def num_starts(self, starting: Starting) -> int:
+        """Return how often to begin, by how many turns there is time for."""
+        return min(starting.most, int(starting.share * self._expected_turns() / starting.turns))
 
 
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
@@ -324,25 +312,24 @@ def _search(team: _Team, data: ProblemData, crew: Crew,
             seeds: list[np.random.SeedSequence]) -> None:
     """Search until the end. In place.
 
-    Where there is time, threads begin several times anew, and the search goes on from the best:
-    which plans it can reach is settled while it is hot, however slowly it cools. Where drones fly,
-    one long search came further; in large problems the parts of a plan differ, not the whole.
+    Where there is time, threads begin several times, and the search goes on from the best: which
+    plans it can reach is settled while it is hot, however slowly it cools. In large problems the
+    parts of a plan differ, not the whole.
     """
     whole, first = team.whole, team.workers[0]
     if first.heat.vehicles_first:
         _search_by_fewer(team, data, crew)
         return
-    starts = None
-    if data.strategy.scan_all and not first.heat.drones and first.cooled == 0.0:
-        starts = Starts(data, whole, seeds, first.linked)
+    starting = None if first.cooled > 0.0 else starting_of(data, first.heat)
+    rest = WHOLE
+    starts = None if starting is None else Starts(data, whole, seeds, first.linked)
     team.search(crew, WHOLE, rounds=1)
-    count, rest = team.num_starts(), WHOLE
-    if starts is not None and count > 1:
-        ends = np.linspace(team.limits.share(first.turns), STARTS_SHARE, count + 1)
+    if starting is not None and starts is not None and (count := team.num_starts(starting)) > 1:
+        ends = np.linspace(team.limits.share(first.turns), starting.share, count + 1)
         for number, end in enumerate(ends[1:].tolist()):
             span = Span(team.limits.share(first.turns), end, 1.0)
             if not team.over(span):
-                starts.begin(number > 0)
+                starts.begin(starting.anew and number > 0)
                 team.search(starts, span)
         go_on_from_best(data, whole)
         rest = Span(team.limits.share(first.turns), 1.0, REHEAT)

@@ -1,5 +1,7 @@
 """Several searches that begin anew, and the best of them."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from model.search.beginning.construct import begin_again
@@ -7,6 +9,36 @@ from model.search.linked.layout import Linked
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import keep_best_of, make_rooms, take_all
+from model.search.temperature import Heat
+
+
+@dataclass(frozen=True)
+class Starting:
+    """How often each thread begins, before the search goes on from the best of all."""
+
+    share: float  # of the search that these starts take
+    turns: int  # for each customer that one has at least
+    most: int
+    anew: bool  # from a plan of its own, but for the first
+
+
+BY_ONE_TYPE = Starting(0.4, 100, 5, True)
+
+BY_TYPES = Starting(0.4, 12, 24, True)
+"""Which of several types drive is settled soon, and rarely well."""
+
+WITH_ONE_DRONE = Starting(1.0, 100, 5, False)
+"""Where trips are split between truck and drone: who flies is settled while it is hot, and the way
+of the truck, with which all begin, is not."""
+
+
+def starting_of(data: ProblemData, heat: Heat) -> Starting | None:
+    """Return how a search begins several times; None if one long search comes further."""
+    if not data.strategy.scan_all:
+        return None
+    if heat.drones:
+        return WITH_ONE_DRONE if heat.single_drones or heat.small_moves else None
+    return BY_ONE_TYPE if heat.types == 1 else BY_TYPES
 
 
 class Starts:

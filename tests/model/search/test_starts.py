@@ -1,5 +1,7 @@
 """Searches that begin anew several times."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,15 +10,12 @@ from model.engine.instance import pack
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew, insert_missing
 from model.search.beginning.translate import make_searcher
-from model.search.improve import (
-    MOST_STARTS, MOST_STARTS_BY_TYPES, START_TURNS, START_TURNS_BY_TYPES, STARTS_SHARE,
-    SearchConfig, improve,
-)
+from model.search.improve import SearchConfig, improve
 from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best
-from model.search.starts import Starts
+from model.search.starts import BY_ONE_TYPE, BY_TYPES, WITH_ONE_DRONE, Starting, Starts
 from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import VARIANTS, generate
@@ -98,28 +97,35 @@ def test_the_whole_goes_on_from_the_best_of_all(variant: str) -> None:
     assert evaluation.cost.total <= whole.value.best * (1 + 1e-9)
 
 
-@pytest.mark.parametrize(("variant", "least", "most"), [
-    ("vrptw", START_TURNS, MOST_STARTS),
-    ("hetero", START_TURNS_BY_TYPES, MOST_STARTS_BY_TYPES), ("drone", START_TURNS, 0)])
+def with_drones(problem: Problem, count: int) -> Problem:
+    """Return a problem whose trucks have so many drones each, if they have any."""
+    return replace(problem, vehicle_types=tuple([
+        replace(kind, drones=kind.drones and replace(kind.drones, count=count))
+        for kind in problem.vehicle_types]))
+
+
+@pytest.mark.parametrize(("variant", "drones", "starting"), [
+    ("vrptw", 0, BY_ONE_TYPE), ("hetero", 0, BY_TYPES), ("drone", 1, WITH_ONE_DRONE),
+    ("drone", 2, replace(WITH_ONE_DRONE, most=0))])
 @pytest.mark.parametrize("threads", [1, 2])
 def test_search_begins_anew_as_often_as_there_is_time(
-    variant: str, least: int, most: int, threads: int, begins: list[bool]
+    variant: str, drones: int, starting: Starting, threads: int, begins: list[bool]
 ) -> None:
-    problem = generate(np.random.default_rng(9), 10, variant)
+    problem = with_drones(generate(np.random.default_rng(9), 10, variant), drones)
     nobody = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     for count in (1, 2, 30):
         begins.clear()
-        turns = int((count + 0.5) * least / STARTS_SHARE) * 10 * threads
+        turns = int((count + 0.5) * starting.turns / starting.share) * 10 * threads
         found = improve(problem, pack([problem]), nobody,
                         SearchConfig(turns=turns, threads=threads))
         assert found.turns == turns
         assert check(problem, found.solution).violations == ()
-        expected = min(count, most) if count > 1 else 0
-        assert begins == [number > 0 for number in range(expected)]
+        expected = min(count, starting.most) if count > 1 else 0
+        assert begins == [starting.anew and number > 0 for number in range(expected)]
 
 
 def test_searches_that_begin_anew_are_repeated_exactly() -> None:
     problem = generate(np.random.default_rng(7), 20, "vrptw")
-    config = SearchConfig(seed=4, threads=2, turns=12 * START_TURNS * 20)
+    config = SearchConfig(seed=4, threads=2, turns=12 * BY_ONE_TYPE.turns * 20)
     found, again = (improve(problem, pack([problem]), Solution((), ()), config) for _ in range(2))
     assert found.solution == again.solution
