@@ -116,7 +116,7 @@ def who_waits(problem: Problem, solution: Solution, node: int) -> tuple[str, Pro
     names = " and ".join(dict.fromkeys([problem.customer_at(lag.node).id for lag in lags]))
     customer = problem.customer_at(node)
     soonest = max([customer.earliest, *(starts[lag.node] + lag.least for lag in lags)])
-    latest = min([starts[lag.node] + lag.most for lag in lags], default=UNLIMITED)
+    latest = min([UNLIMITED, *(starts[lag.node] + lag.most for lag in lags)])
     if customer.late_cost_per_hour is None:
         latest = min(latest, customer.latest)
     for closes, opens in customer.gaps:

@@ -194,8 +194,12 @@ def test_whom_others_keep_from_his_place_in_an_order_is_told_so(
     related["customers"][0]["unassigned_cost"] = 9000
     related["customers"][3] |= {"time_window": {"earliest": 0, "latest": 7200},
                                 "unassigned_cost": 100}
+    # Where being late costs, whoever is served anyhow isn't bound by any end.
+    related["customers"][1] |= {"time_window": {"latest": 60, "late_cost_per_hour": 1},
+                                "unassigned_cost": 0.01}
+    related["relations"].append({"kind": "before", "customers": ["C", "B"], "same_vehicle": False})
     plan = service.post("/plan", json=related).json()
-    left, = plan["unassigned"]
+    left = plan["unassigned"][-1]
     assert left["id"] == "D"
     assert [(each["code"], each["message"]) for each in left["reasons"]] == [
         ("RELATION", "truck can't serve it in its order with A, as the plan serves these.")]

@@ -75,9 +75,10 @@ class Office:
     told: list[float] = field(default_factory=list)
     now: float = 0.0
 
-    def job(self, seconds: float = 3.0, customers: int = NUM_CUSTOMERS, **options: Any) -> str:
+    def job(self, seconds: float = 3.0, customers: int = NUM_CUSTOMERS,
+            relations: Sequence[Any] = (), **options: Any) -> str:
         """Add a job and return its id."""
-        request = request_of(seconds, **options)
+        request = request_of(seconds, **options) | {"relations": relations}
         request["customers"] = [{"id": f"c{number}", "location": [number, 0], "demand": [1]}
                                 for number in range(1, customers + 1)]
         request["fleet"] = [{"id": "truck", "count": customers, "capacity": [customers]}]

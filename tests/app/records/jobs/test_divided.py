@@ -248,7 +248,8 @@ def test_keeper_takes_no_place_of_a_plan(office: Office) -> None:
 
 @pytest.mark.parametrize(("seconds", "customers", "options"), [
     (1.0, NUM_CUSTOMERS, {}), (30.0, NUM_CUSTOMERS - 1, {}),
-    (30.0, NUM_CUSTOMERS, {"search_iterations": 5})])
+    (30.0, NUM_CUSTOMERS, {"search_iterations": 5}), (30.0, NUM_CUSTOMERS, {"relations": [
+        {"kind": "before", "customers": ["c1", "c2"], "same_vehicle": False}]})])
 def test_other_jobs_are_planned_whole(office: Office, seconds: float, customers: int,
                                       options: dict[str, Any]) -> None:
     job = office.job(seconds, customers, **options)
