@@ -20,7 +20,8 @@ MOST_WINDOWS = 8
 LONGEST_NAME = 200
 
 SAME = ("time_window", "time_windows", "served_by", "skills", "vehicles", "release_time")
-"""What rows must agree on to be one stop."""
+SAME_CELLS = ("preferred_vehicles", "preference_cost", "together", "apart")
+"""What rows must agree on to be one stop, of customers and as cells say it."""
 
 CARRIED = ("phone", "email", "contact", "notes", "priority")
 
@@ -70,6 +71,7 @@ def together(entries: Sequence[Entry],
     for number, entry in enumerate(entries):
         customer = entry.customer
         alike = [repr(customer.get(field)) for field in SAME]
+        alike += [repr(entry.rows[0].get(meaning)) for meaning in SAME_CELLS]
         # Numbers whose last digits are lost are alike without being one.
         apart = number if same_place == "apart" or is_damaged(customer["id"]) else -1
         groups[customer["id"].casefold(), repr(customer["location"]), apart, *alike].append(entry)

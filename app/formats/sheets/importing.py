@@ -22,6 +22,7 @@ from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.questions import Asking, Question
 from app.formats.sheets.readers import read
 from app.formats.sheets.rejoining import rejoined
+from app.formats.sheets.related import relations_of
 from app.formats.sheets.replies import reply_of
 from app.formats.sheets.request import look_over, request_of, stated_depot
 from app.formats.sheets.rows import Row, days_in, rows_of, sums_in
@@ -135,7 +136,10 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: Imp
     except Incomplete as incomplete:
         work.errors.append(incomplete.error)
         return
-    work.doubts += doubts
+    relations, alone = relations_of(work.stops, work.asking)
+    if relations:
+        request["relations"] = relations
+    work.doubts += doubts + alone
     day = work.style.day
     if day is not None and settings.time_zone is not None:
         request = on_day(request, day, settings.time_zone)

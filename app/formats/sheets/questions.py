@@ -7,7 +7,7 @@ from typing import Literal
 from app.formats.sheets.cells import CellError
 
 QuestionKind = Literal["column", "sheet", "hidden_rows", "status", "order_kind", "total_rows",
-                       "day", "same_rows"]
+                       "day", "same_rows", "related"]
 
 LONGEST_ID = 500
 

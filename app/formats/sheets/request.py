@@ -13,6 +13,7 @@ from app.formats.sheets.customers import Entry, placed
 from app.formats.sheets.fleet import Incomplete, fleet_of
 from app.formats.sheets.geography import Ground, Pair, depot_pair, on_globe
 from app.formats.sheets.headings import without_unit
+from app.formats.sheets.related import price_others
 from app.formats.sheets.rows import Row
 from app.formats.sheets.schemas import ImportSettings
 from app.formats.sheets.vans import Van
@@ -24,9 +25,11 @@ from app.schemas.errors import InputError, InvalidRequestError
 CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "demand": ("demand",),
          "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
          "service_duration": ("service",), "release_time": ("ready",), "skills": ("skills",),
-         "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",)}
+         "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",),
+         "vehicle_costs": ("preference_cost", "preferred_vehicles")}
 """Meanings of the columns that fields of a customer come from."""
 
+_RELATION = re.compile(r"\$\.relations\[(\d+)\]")
 _PATH = re.compile(r"\$\.customers\[(\d+)\]\.?(\w*)")
 
 LONGEST_NAME, LONGEST_UNIT = 200, 50
@@ -47,6 +50,7 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
     """
     depot, doubts = _depots(stops, depots, ground, settings)
     fleet, assumed = fleet_of(stops, columns, settings, vans)
+    assumed += price_others(stops, fleet, vans)
     unit: Data = {}
     if not ground.is_geographic:
         in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)
@@ -77,7 +81,7 @@ def look_over(request: Data, stops: Sequence[Entry], road_profiles: Collection[s
     try:
         read = read_request(to_json(request), policies=None)
     except InvalidRequestError as error:
-        return [_at_cell(item, stops) for item in error.errors], ()
+        return [_at_cell(item, stops, request) for item in error.errors], ()
     return [], warnings_of(read, road_profiles)
 
 
@@ -97,7 +101,13 @@ def stated_depot(settings: ImportSettings) -> Pair | None:
         raise Incomplete("DEPOT", f"The depot can't be read: {error}.") from error
 
 
-def _at_cell(error: InputError, stops: Sequence[Entry]) -> CellError:
+def _at_cell(error: InputError, stops: Sequence[Entry], request: Data) -> CellError:
+    if related := _RELATION.match(error.path):
+        relation = request["relations"][int(related[1])]
+        row = next(stop.rows[0] for stop in stops
+                   if stop.customer["id"] in relation["customers"]
+                   and any(stop.rows[0].get(relation["kind"]) or ()))
+        return CellError(error.code, error.message, row.cell(relation["kind"]))
     found = _PATH.match(error.path)
     if found is None:
         return CellError(error.code, error.message)

@@ -63,6 +63,7 @@ class Van:
     values: dict[str, float] = field(default_factory=dict)
     shift: tuple[float | None, float | None] | None = None
     skills: list[str] = field(default_factory=list)
+    driver: str = ""
 
 
 def lists_vans(sheet: Sheet) -> bool:
@@ -130,6 +131,7 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
             continue
         if meaning in ("name", "driver"):
             van.name = str(value) if meaning == "name" or not van.name else van.name
+            van.driver = str(value) if meaning == "driver" else van.driver
         elif meaning == "capacity":
             heading = table.headings[column]
             van.capacities.append((heading, _unit_of(heading, table.cell(row, column)), value))

@@ -5,6 +5,7 @@ Simple: lower case, no accents, `ss` for the sharp s of German.
 """
 
 from app.formats.sheets.order_words import ORDER_WORDS
+from app.formats.sheets.rule_words import RULE_WORDS
 
 WINDOW = {
     "en": "time window|window|delivery window|delivery time|time slot|slot|opening hours|tw|"
@@ -370,6 +371,7 @@ WORDS: dict[str, dict[str, str]] = {
         "pt": "prioridade",
     },
     **ORDER_WORDS,
+    **RULE_WORDS,
     "window": WINDOW,
     "earliest": BEGIN,
     "latest": END,

@@ -1,0 +1,141 @@
+"""Columns of preferred vehicles, and of who goes with whom, become rules of the request."""
+
+from typing import Any
+
+import httpx
+import pytest
+import xlsxwriter
+
+from app.formats.sheets.importing import import_file
+from app.formats.sheets.schemas import ImportReply, ImportSettings
+from tests.app.formats.sheets.makes import workbook
+
+pytestmark = pytest.mark.slow
+
+ROWS = ("1;Anna;48,10;11,50;5", "2;Ben;48,20;11,60;7", "3;Cleo;48,15;11,55;3",
+        "4;Dora;48,16;11,51;2")
+VANS = (("Fahrzeug", "Fahrer", "Anzahl", "Kapazität"), ("Nord", "Meier", 2, 40),
+        ("Süd", "Huber", 1, 40))
+
+
+def content(head: str, *ends: str) -> bytes:
+    lines = [f"Nr;Name;Breite;Länge;Menge;{head}",
+             *(f"{row};{end}" for row, end in zip(ROWS, ends, strict=True))]
+    return "\n".join(lines).encode()
+
+
+def read(head: str, *ends: str, **answers: str) -> ImportReply:
+    """Import four customers with further columns."""
+    stated = {f"related:{kind}": answer for kind, answer in answers.items()}
+    settings = ImportSettings.model_validate({"vehicles": 2, "mapping": {"answers": stated}})
+    return import_file(content(head, *ends), settings)
+
+
+def related(reply: ImportReply) -> list[tuple[str, list[str]]]:
+    assert reply.request is not None, reply.errors
+    return [(relation["kind"], relation["customers"])
+            for relation in reply.request.get("relations", ())]
+
+
+def told(reply: ImportReply, code: str) -> list[str | None]:
+    return [doubt.cell for doubt in reply.doubts if doubt.code == code]
+
+
+@pytest.mark.parametrize(("heading", "meaning"), [
+    ("Goes with", "together"), ("Zusammen mit", "together"), ("Samen met", "together"),
+    ("Not with", "apart"), ("Nicht zusammen mit", "apart"), ("Non con", "apart"),
+    ("Ne pas livrer avec", "apart"), ("Preferred vehicle", "preferred_vehicles"),
+    ("Stammfahrer", "preferred_vehicles"), ("Regular driver", "preferred_vehicles"),
+    ("Cost of other vehicle", "preference_cost"), ("Nicht mit", "forbidden_vehicles"),
+    ("Vehicle", "vehicles")])
+def test_headings_of_rules_are_known(heading: str, meaning: str) -> None:
+    reply = read(heading, "7", "7", "7", "7")
+    assert reply.columns[-1].meaning == meaning
+
+
+def test_rows_that_share_a_name_are_a_group() -> None:
+    reply = read("Zusammen mit;Not with;Not with", "A;x;", "a;y;", ";Z;X", "b, A;;z")
+    assert related(reply) == [("together", ["Anna", "Ben", "Dora"]), ("apart", ["Anna", "Cleo"]),
+                              ("apart", ["Cleo", "Dora"])]
+    assert not [question for question in reply.questions if question.kind == "related"]
+    assert told(reply, "RELATED_TO_NOBODY") == ["F5", "G3"]
+
+
+def test_a_cell_may_name_another_customer_or_its_order() -> None:
+    reply = read("Goes with;Not with", "Cleo;ben", ";Anna", ";", ";3")
+    assert related(reply) == [("together", ["Cleo", "Anna"]), ("apart", ["Anna", "Ben"]),
+                              ("apart", ["Cleo", "Dora"])]
+
+
+def test_who_is_named_by_several_is_kept_from_each_of_them() -> None:
+    rows = ("", "Anna", "Anna", "")
+    reply = read("Not with", *rows)
+    [question] = [question for question in reply.questions if question.kind == "related"]
+    assert (question.id, question.answer, question.cell) == ("related:apart", "customers", "F3")
+    assert related(reply) == [("apart", ["Anna", "Ben"]), ("apart", ["Anna", "Cleo"])]
+    assert related(read("Not with", *rows, apart="groups")) == [("apart", ["Ben", "Cleo"])]
+
+
+def test_numbers_of_groups_are_no_order_numbers_unless_somebody_says_so() -> None:
+    rows = ("3", "", "", "3")
+    assert related(read("Goes with", *rows)) == [("together", ["Anna", "Dora"])]
+    assert related(read("Goes with", *rows, together="customers")) == [
+        ("together", ["Cleo", "Anna", "Dora"])]
+
+
+def test_who_is_both_together_and_apart_is_refused_at_a_cell() -> None:
+    reply = read("Goes with;Not with", ";", "a;b", ";", "a;b")
+    assert [(error.code, error.cell) for error in reply.errors] == [("CONTRADICTION", "F3")]
+
+
+def test_rows_of_one_stop_with_other_rules_stay_apart() -> None:
+    line = "Anna;48,1;11,5;1"
+    file = f"Name;Breite;Länge;Menge;Zusammen mit\n{line};A\n{line};A\n{line};\n"
+    reply = import_file(file.encode(), ImportSettings())
+    assert reply.request is not None
+    assert [customer["demand"] for customer in reply.request["customers"]] == [[2], [1]]
+
+
+def test_another_vehicle_than_the_preferred_one_costs() -> None:
+    reply = read("Preferred vehicle;Cost of other vehicle", "vehicle-2;4,5", "vehicle;3",
+                 "Vehicle 1;", "Zeppelin;2")
+    assert reply.request is not None
+    assert [customer.get("vehicle_costs") for customer in reply.request["customers"]] == [
+        {"vehicle": 4.5, "vehicle-2": 0}, None, {"vehicle": 7.5, "vehicle-1": 0}, None]
+    assert told(reply, "PREFERENCE_ASSUMED") == ["F4"]
+    assert told(reply, "PREFERENCE_UNKNOWN") == ["F5"]
+
+
+def test_a_price_below_nothing_is_refused_at_its_cell() -> None:
+    reply = read("Preferred vehicle;Cost of other vehicle", "vehicle-2;-1", ";", ";", ";")
+    assert [error.cell for error in reply.errors] == ["G2"]
+
+
+def test_regular_drivers_are_those_of_the_sheet_of_vehicles() -> None:
+    def fill(book: xlsxwriter.Workbook) -> None:
+        for name, rows in (("Kunden", (("Name", "Breite", "Länge", "Stammfahrer"),
+                                       ("Anna", 48.1, 11.5, "Meier"), ("Ben", 48.2, 11.6, "nord-2"),
+                                       ("Cleo", 48.15, 11.55, "Huber; Meier"))),
+                           ("Fahrzeuge", VANS)):
+            sheet = book.add_worksheet(name)
+            for number, row in enumerate(rows):
+                sheet.write_row(number, 0, row)
+
+    reply = import_file(workbook(fill), ImportSettings(per_hour=40))
+    assert reply.request is not None
+    assert [customer.get("vehicle_costs") for customer in reply.request["customers"]] == [
+        {"Süd": 10}, {"Nord": 10, "Süd": 10, "Nord-2": 0}, None]
+
+
+def test_what_a_sheet_says_is_planned(client: httpx.Client) -> None:
+    file = content("Goes with;Not with;Preferred vehicle", "A;;vehicle-2", "A;;", ";Anna;", ";;")
+    reply = client.post("/import", content=file, headers={"Content-Type": "text/csv"},
+                        params={"settings": '{"vehicles": 2, "max_trips": 1}'})
+    request = reply.json()["request"]
+    plan = client.post("/plan", json=request)
+    assert plan.status_code == 200, plan.text
+    serving: dict[str, Any] = {stop["id"]: route["vehicle"] for route in plan.json()["routes"]
+                               for trip in route["trips"] for stop in trip["stops"]
+                               if stop["kind"] == "customer"}
+    assert serving["Anna"] == serving["Ben"] != serving["Cleo"]
+    assert plan.json()["cost"]["stops"] == (0 if serving["Anna"] == "vehicle-2" else 7.5)
