@@ -24,6 +24,11 @@ BY_CELLS = ("window", "earliest", "latest", "point", "date", "demand", "service"
 
 MOST_BY_CELLS = 4
 
+GROUPING = ("together", "apart")
+GROUP_WORDS = frozenset((
+    "group", "groups", "gruppe", "gruppen", "groupe", "grupo", "gruppo", "groep", "grupa"))
+"""Words of headings that may say who goes together, or who doesn't."""
+
 IGNORED, INFO = "ignored", "info"
 
 
@@ -69,7 +74,8 @@ def _choices(column: Column, cells: Sequence[Raw], style: Style) -> dict[str, st
     by_heading = [guess.meaning for guess in guesses(column.heading)
                   if guess.score >= LIKELY][:MOST_BY_HEADING]
     by_cells = [meaning for meaning in BY_CELLS if _all_say(cells, meaning, style)][:MOST_BY_CELLS]
-    listed = dict.fromkeys([*by_heading, *by_cells, INFO, IGNORED])
+    groups = GROUPING if GROUP_WORDS & set(simple(column.heading).split()) else ()
+    listed = dict.fromkeys([*by_heading, *groups, *by_cells, INFO, IGNORED])
     return {meaning: MEANINGS[meaning].title for meaning in listed}
 
 

@@ -53,6 +53,16 @@ def test_headings_of_rules_are_known(heading: str, meaning: str) -> None:
     assert reply.columns[-1].meaning == meaning
 
 
+def test_groups_of_no_known_kind_are_asked_about() -> None:
+    reply = read("Gruppe", "A", "A", "B", "B")
+    [question] = [question for question in reply.questions if question.kind == "column"]
+    assert {"together", "apart"} < {choice.answer for choice in question.choices}
+    assert question.answer == "ignored"
+    assert not related(reply)
+    alone = read("Klasse", "A", "B", "C", "D")
+    assert "together" not in {choice.answer for choice in alone.questions[0].choices}
+
+
 def test_rows_that_share_a_name_are_a_group() -> None:
     reply = read("Zusammen mit;Not with;Not with", "A;x;", "a;y;", ";Z;X", "b, A;;z")
     assert related(reply) == [("together", ["Anna", "Ben", "Dora"]), ("apart", ["Anna", "Cleo"]),
