@@ -14,7 +14,7 @@ from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, DroneType, Problem, VehicleType
-from model.solution import Solution, Trip
+from model.solution import Route, Solution, Trip
 
 BY_TRUCK: tuple[Means, ...] = ("truck",)
 ANYHOW: tuple[Means, ...] = ("truck", "drone")
@@ -77,9 +77,9 @@ class Screen:
         Beside those in use, one more vehicle of each type that has more.
         """
         found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
-        trips = self._num_trips()
-        for route in self._solution.routes:
-            vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        routes = self._routes()
+        trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
+        for vehicle, route in routes.items():
             known = self._past.trips.get(vehicle, ())
             for number, trip in enumerate(route.trips):
                 if number < len(known) - 1 or (
@@ -101,9 +101,12 @@ class Screen:
             guesses.sort(key=lambda guess: guess.rank)
         return found
 
-    def _num_trips(self) -> dict[Vehicle, int]:
-        return {Vehicle(route.vehicle_type, route.vehicle): len(route.trips)
-                for route in self._solution.routes}
+    def _routes(self) -> dict[Vehicle, Route]:
+        """Return the route of each vehicle; the first, where a plan wrongly states several."""
+        routes: dict[Vehicle, Route] = {}
+        for route in self._solution.routes:
+            routes.setdefault(Vehicle(route.vehicle_type, route.vehicle), route)
+        return routes
 
     def _own_trips(self, trips: dict[Vehicle, int]) -> Iterator[tuple[Vehicle, int]]:
         """Yield vehicles that may make a trip for the customer alone, and its index."""

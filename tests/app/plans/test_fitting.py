@@ -238,3 +238,15 @@ def test_what_has_happened_is_told_where_it_is_changed(client: httpx.Client,
     codes = {item["code"] for item in judged(client, problem, untimed(plan))["violations"]}
     assert {"FROZEN", "MISSING"} <= codes
     assert "TIME_MISMATCH" not in codes
+
+
+def test_vehicle_that_a_plan_states_twice_goes_on_with_its_first_route(
+        client: httpx.Client) -> None:
+    whole = problem_of(0)
+    whole["customers"][0] |= {"max_time_aboard": 3600}
+    plan = {"routes": [{"vehicle": "truck-1", "type": "truck", "trips": [{"stops": [
+        {"kind": kind, "id": name} for kind, name in (
+            ("depot", "hub"), *(("customer", each) for each in names), ("depot", "hub"))],
+        "sorties": []}]} for names in ("1", "2345")], "unassigned": [{"id": "0"}]}
+    found = fitted(client, {"problem": whole, "plan": plan, "customer": "0"})
+    assert {each["vehicle"] for each in found["places"]} <= {"truck-1", "truck-2"}
