@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from model.problem import (
-    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Fairness, Travel,
-    VehicleType,
+    FULL_SPEED, MM_PER_KM, MS_PER_HOUR, UNLIMITED, USUAL_DECIMALS, Customer, Fairness, Relation,
+    Travel, VehicleType,
 )
 
 DETOURS_PER_CUSTOMER = 10
@@ -14,17 +14,19 @@ DETOURS_PER_CUSTOMER = 10
 def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequence[VehicleType],
                             travels: Sequence[Travel],
                             decimals: Sequence[int] = (USUAL_DECIMALS,),
-                            fairness: Fairness | None = None) -> float:
+                            fairness: Fairness | None = None,
+                            relations: Sequence[Relation] = ()) -> float:
     """Return a cost larger than any detour: that of many vehicles used for one customer each.
 
     Each drives the longest leg there and back, full, serves longest, and works and is late or early
-    as long as the latest time that the problem states. Leaving out all who state a price of their
-    own costs less, too. Amounts have so many `decimals`.
+    as long as the latest time that the problem states, and all lags. Leaving out all who state a
+    price of their own costs less, too. Amounts have so many `decimals`.
     """
     stated = [time for customer in customers
               for time in (*customer.openings, customer.latest, customer.release_time)]
     stated += [kind.latest for kind in vehicle_types]
-    horizon = max([time for time in stated if time < UNLIMITED], default=0) / MS_PER_HOUR
+    waits = sum([each.min_lag * len(each.nodes) for each in relations])
+    horizon = (max([time for time in stated if time < UNLIMITED], default=0) + waits) / MS_PER_HOUR
     served = [customer.service_duration for customer in customers]
     for kind in vehicle_types:
         served += kind.service_durations.values()

@@ -53,7 +53,7 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         vehicle_types = tuple([part_of(vehicle_types[group.type], group) for group in groups])
     fairness = _fairness(request)
     unassigned_cost, fairness = _large_prices(request, fairness, lambda: default_unassigned_cost(
-        customers, vehicle_types, travels.built(), decimals, fairness) + _dearest(costs))
+        customers, vehicle_types, travels.built(), decimals, fairness, relations) + _dearest(costs))
     return Problem(
         depots=_depots(placed),
         customers=customers,

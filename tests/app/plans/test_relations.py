@@ -187,6 +187,16 @@ def test_an_order_holds_wherever_customers_are_served(
     assert {each["code"] for each in checked["violations"]} >= {"RELATION"}
 
 
+@pytest.mark.parametrize("same_vehicle", [True, False])
+def test_who_must_be_served_is_however_long_that_takes(
+        service: httpx.Client, related: Request, same_vehicle: bool) -> None:
+    related["fleet"][0] |= {"count": 1, "capacity": [4], "costs": {"per_hour": 50}}
+    related["relations"] = [{"kind": "before", "customers": ["A", "B", "D"], "min_lag": 360_000,
+                             "same_vehicle": same_vehicle}]
+    plan = service.post("/plan", json=related).json()
+    assert plan["unassigned"] == []
+
+
 def test_whom_others_keep_from_his_place_in_an_order_is_told_so(
         service: httpx.Client, related: Request) -> None:
     related["relations"] = [{"kind": "before", "customers": ["A", "D"], "same_vehicle": False,
