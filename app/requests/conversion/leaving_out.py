@@ -19,8 +19,8 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     """Return a cost larger than any detour: that of many vehicles used for one customer each.
 
     Each drives the longest leg there and back, full, serves longest, and works and is late or early
-    as long as the latest time that the problem states, and all lags. Leaving out all who state a
-    price of their own costs less, too. Amounts have so many `decimals`.
+    as long as the latest time that the problem states, all lags, breaks and rests. Leaving out all
+    who state a price of their own costs less, too. Amounts have so many `decimals`.
     """
     stated = [time for customer in customers
               for time in (*customer.openings, customer.latest, customer.release_time)]
@@ -35,6 +35,8 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     setup = max([customer.setup_duration for customer in customers], default=0)
     service = (max(served, default=0) + setup) / MS_PER_HOUR
     longest = [_longest_leg(travel) for travel in travels]
+    horizon += max(_paused(kind, 2 * longest[kind.travel][1] / _slowest(kind), service + horizon)
+                   for kind in vehicle_types)
     fair = 0.0
     if fairness is not None and fairness.is_stated:
         hours = service + horizon + max(hours / _slowest(kind) * 2 for kind in vehicle_types
@@ -51,6 +53,17 @@ def default_unassigned_cost(customers: Sequence[Customer], vehicle_types: Sequen
     stated_costs = sum([customer.unassigned_cost or 0.0 for customer in customers])
     return max(1.0, fair + DETOURS_PER_CUSTOMER * detour + (late + early) * horizon + once
                + stated_costs)
+
+
+def _paused(kind: VehicleType, driven: float, others: float) -> float:
+    """Return the hours of a vehicle's breaks and rests, by those that it drives, and others."""
+    hours = sum([each.duration for each in kind.breaks]) / MS_PER_HOUR
+    if kind.driving is not None:
+        rules = kind.driving
+        spans = (driven * MS_PER_HOUR / rules.max_driving
+                 + (driven + others) * MS_PER_HOUR / rules.max_work)
+        hours += (1 + spans) * max(rules.rest, sum(rules.split)) / MS_PER_HOUR
+    return hours
 
 
 def _slowest(kind: VehicleType) -> float:

@@ -11,7 +11,11 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.problem import to_problem
 from app.requests.conversion.travels import Travels
 from app.requests.reading import read_request
+from model.judge.check import check
+from model.judge.placing import with_due_breaks
+from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime, Problem, SpeedProfile
+from model.solution import Solution
 
 Request = dict[str, Any]
 
@@ -348,6 +352,22 @@ def test_whoever_must_be_served_costs_more_than_that_all_others_change(smallest:
     for customer in smallest["customers"]:
         customer["time_window"]["late_cost_per_hour"] = 30
     assert problem_of(smallest).unassigned_cost == pytest.approx(in_time + 2 * 30)
+
+
+@pytest.mark.parametrize("stated", [
+    {"breaks": [{"id": "b", "duration": 36_000, "start": {"earliest": 0, "latest": 60},
+                 "after_departure": True}]},
+    {"driving_rules": {"max_driving": 60, "break_duration": 36_000}}])
+def test_whoever_must_be_served_costs_more_than_all_pauses(smallest: Request,
+                                                           stated: Request) -> None:
+    smallest["fleet"][0] |= stated | {"costs": {"per_hour": 50}, "drones": None}
+    problem = problem_of(smallest)
+    served = RouteDecision(0, 0, (TripDecision((0, 1, 0)),))
+    plan = Solution((schedule(problem, with_due_breaks(problem, served)),), (2,))
+    evaluation = check(problem, plan)
+    assert evaluation.violations == ()
+    assert evaluation.cost.time >= 50 * 10
+    assert problem.unassigned_cost > evaluation.cost.time
 
 
 def test_leaving_a_customer_out_costs_something_where_nothing_else_does(
