@@ -49,10 +49,6 @@ def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
                        f"At most {MOST_IN_ORDER} customers are served in an order: name fewer.")
     if not relation.same_vehicle:
         yield from _across_errors(draft, relation, path)
-    if draft.replan is not None:
-        yield error_at("RELATION_WITH", (*path, "kind"),
-                       "What has been served isn't put in order with what is left yet: leave "
-                       "before out, or replan.")
     if any(kind.breaks or kind.driving_rules for _, kind in draft.vehicle_types()):
         yield error_at("RELATION_WITH", (*path, "kind"),
                        "Breaks can't be placed beside an order yet: leave before out, or breaks "

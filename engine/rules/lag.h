@@ -2,6 +2,7 @@
 // them, or any vehicle: who is elsewhere then begins when that vehicle's plan says.
 //
 // Callers tell by `start_at` when service begins at others; `none` of whoever isn't served there.
+// Lags across vehicles may be behind `since_plan_start`, by who was served before there was a plan.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,9 @@
 #include "problem/instance.h"
 
 namespace tandem {
+
+// Instead of a customer served before; no customer, since depots come first.
+constexpr Int since_plan_start = 0;
 
 // The lags of a customer behind others; nothing where there are none, by the rows of all nodes.
 inline View<const Lag, 1> lags_of(const View<const Lag, 2>& lags, Int node) {
@@ -25,7 +29,7 @@ template <class StartAt, class Visit>
 void for_each_lag(View<const Lag, 1> lags, const StartAt& start_at, const Visit& visit) {
     for (const Lag& lag : lags) {
         if (lag.node < 0) return;
-        const Int start = start_at(lag.node);
+        const Int start = lag.node == since_plan_start ? 0 : start_at(lag.node);
         if (start != none) visit(lag, start);
     }
 }

@@ -66,13 +66,15 @@ def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray)
 
 def lag_rows(problems: Sequence[Problem], nodes: int) -> dict[str, Records]:
     """Return how long behind others customers are served, by one vehicle or any."""
-    return {"lag": _rows_of([each.lags for each in problems], nodes),
-            "across": _rows_of([each.lags_across for each in problems], nodes)}
+    across = _rows_of([each.lags_across for each in problems], nodes)
+    # Whoever waits for those served before waits as for others on the same route.
+    least = 1 if across.shape[1] else 0
+    return {"lag": _rows_of([each.lags for each in problems], nodes, least), "across": across}
 
 
-def _rows_of(behind: Sequence[Mapping[int, Sequence[Lag]]], nodes: int) -> Records:
-    """Return (problem, node, rank) lags; (problem, 0, 0) where there are none."""
-    most = max([len(lags) for each in behind for lags in each.values()], default=0)
+def _rows_of(behind: Sequence[Mapping[int, Sequence[Lag]]], nodes: int, least: int = 0) -> Records:
+    """Return (problem, node, rank) lags, ranks `least` or more; (problem, 0, 0) if that is none."""
+    most = max([len(lags) for each in behind for lags in each.values()], default=least)
     rows = np.zeros((len(behind), nodes if most else 0, most), dtype_of("tandem_lag"))
     rows["node"] = -1
     for row, each in zip(rows, behind, strict=True):

@@ -6,7 +6,7 @@ from dataclasses import replace
 from model.judge.lags import halts_of, starts_across, starts_of
 from model.judge.past import Vehicle
 from model.judge.rules import TimedTrip, Violation, seconds
-from model.problem import UNLIMITED, Lag, Problem, Relation
+from model.problem import SINCE_PLAN_START, UNLIMITED, Lag, Problem, Relation
 from model.solution import Route, Solution
 
 
@@ -46,9 +46,12 @@ def plan_orders(problem: Problem, starts: Sequence[Mapping[int, int]]) -> Iterat
         for node, start in own.items():
             for lag in problem.lags.get(node, ()):
                 other = elsewhere.get(lag.node, number)
-                if other == number:
+                if lag.node == SINCE_PLAN_START:
+                    after = start
+                elif other == number:
                     continue
-                after = start - starts[other][lag.node]
+                else:
+                    after = start - starts[other][lag.node]
                 if not lag.least <= after <= lag.most:
                     yield Violation("RELATION", _lag_words(problem, node, lag, after),
                                     f"routes[{number}]")
@@ -65,7 +68,11 @@ def _lag_violations(problem: Problem, trips: Sequence[TimedTrip], path: str) -> 
 
 
 def _lag_words(problem: Problem, node: int, lag: Lag, after: int) -> str:
-    one, other = (problem.customer_at(each).id for each in (lag.node, node))
+    other = problem.customer_at(node).id
+    if lag.node == SINCE_PLAN_START:
+        return (f"customer {other} is served at {seconds(after)}, not from {seconds(lag.least)} "
+                f"to {seconds(lag.most)}")
+    one = problem.customer_at(lag.node).id
     if after < 0:
         return f"customer {one} is to be served before {other}"
     limit = (f"at least {seconds(lag.least)}" if after < lag.least
@@ -112,8 +119,11 @@ def who_waits(problem: Problem, solution: Solution, node: int) -> tuple[str, Pro
     """
     starts = {other: start for route in solution.routes
               for other, start in starts_across(problem, route).items() if other != node}
+    starts[SINCE_PLAN_START] = 0
     lags = [lag for lag in problem.lags_across.get(node, ()) if lag.node in starts]
-    names = " and ".join(dict.fromkeys([problem.customer_at(lag.node).id for lag in lags]))
+    names = " and ".join(dict.fromkeys([
+        "those served before" if lag.node == SINCE_PLAN_START else problem.customer_at(lag.node).id
+        for lag in lags]))
     customer = problem.customer_at(node)
     soonest = max([customer.earliest, *(starts[lag.node] + lag.least for lag in lags)])
     latest = min([UNLIMITED, *(starts[lag.node] + lag.most for lag in lags)])

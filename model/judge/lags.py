@@ -4,7 +4,7 @@ from collections.abc import Container, Iterable, Iterator, Mapping
 from itertools import chain
 from typing import NamedTuple, Protocol
 
-from model.problem import Problem
+from model.problem import SINCE_PLAN_START, Problem
 from model.solution import Route, Stop, Trip, Visit
 
 
@@ -45,8 +45,14 @@ def soonest_across(problem: Problem, routes: Iterable[Route], node: int) -> int:
     """Return when service at a customer may begin at the soonest, for those whom routes serve."""
     starts = {other: start for route in routes
               for other, start in starts_across(problem, route).items()}
-    return max([starts[lag.node] + lag.least for lag in problem.lags_across.get(node, ())
-                if lag.node in starts], default=0)
+    return soonest_behind(problem, node, starts)
+
+
+def soonest_behind(problem: Problem, node: int, starts: Mapping[int, int]) -> int:
+    """Return the same by when service begins at others, and who was served before the plan."""
+    since = {SINCE_PLAN_START: 0, **starts}
+    return max([since[lag.node] + lag.least for lag in problem.lags_across.get(node, ())
+                if lag.node in since], default=0)
 
 
 class Flown(Protocol):
@@ -66,7 +72,8 @@ def awaited(problem: Problem, node: int, before: Iterable[Trip], stops: Iterable
         return 0
     starts = starts_of(chain(halts_of(before), stops,
                              *[flight.visits for flight in flights.values()]))
-    return max([0, *(each.until for each in chosen if each.node == node),
+    return max([soonest_behind(problem, node, {}),
+                *(each.until for each in chosen if each.node == node),
                 *(starts[lag.node] + lag.least for lag in problem.lags.get(node, ())
                   if lag.node in starts)])
 

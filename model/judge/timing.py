@@ -350,7 +350,7 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         ready = arrival + setup
         start, departure = resumed_service(problem, vehicle_type, node, max(
-            ready, awaited(problem, node, before, stops, flights)), fact, now)
+            ready, awaited(problem, node, before, stops, flights, decision.awaited)), fact, now)
         if problem.is_launch_site(node):
             ready = start
         if drones is not None and decision.sorties:

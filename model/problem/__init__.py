@@ -13,7 +13,9 @@ from model.problem.quantities import (
     FULL_SPEED, MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY, MM_PER_KM, MOST_INCOMPATIBLE, MS_PER_HOUR,
     UNLIMITED, UNREACHABLE, USUAL_DECIMALS, BoolArray, FloatArray, Int32Array, IntArray, UIntArray,
 )
-from model.problem.relation import MOST_IN_ORDER, MOST_RELATIONS, Lag, Relation, RelationKind
+from model.problem.relation import (
+    MOST_IN_ORDER, MOST_RELATIONS, SINCE_PLAN_START, Lag, Relation, RelationKind,
+)
 from model.problem.shipment import Shipment
 from model.problem.storms import MAX_STORMS, Storms
 from model.problem.straight import Points, StraightLegs
@@ -22,10 +24,10 @@ from model.problem.travel import Travel
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
     "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
-    "MOST_INCOMPATIBLE", "MOST_IN_ORDER", "MOST_RELATIONS", "MS_PER_HOUR", "REST", "UNLIMITED",
-    "UNREACHABLE", "USUAL_DECIMALS", "Balance", "Before", "BoolArray", "Break", "Customer", "Depot",
-    "DepotKind", "DrivingRules", "DroneType", "Energy", "Fairness", "FloatArray",
-    "IncompatibleGoods", "Int32Array", "IntArray", "Lag", "Measure", "Overtime", "Pickups",
-    "Points", "Problem", "Relation", "RelationKind", "ServedBy", "Shipment", "SpeedProfile",
-    "Storms", "StraightLegs", "Travel", "UIntArray", "VehicleType", "within_hours",
+    "MOST_INCOMPATIBLE", "MOST_IN_ORDER", "MOST_RELATIONS", "MS_PER_HOUR", "REST",
+    "SINCE_PLAN_START", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "Balance", "Before",
+    "BoolArray", "Break", "Customer", "Depot", "DepotKind", "DrivingRules", "DroneType", "Energy",
+    "Fairness", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Lag", "Measure",
+    "Overtime", "Pickups", "Points", "Problem", "Relation", "RelationKind", "ServedBy", "Shipment",
+    "SpeedProfile", "Storms", "StraightLegs", "Travel", "UIntArray", "VehicleType", "within_hours",
 ]

@@ -63,6 +63,8 @@ class Customer:
     pickup: tuple[int, ...] = ()  # (dimension,) parts taken in, to where the trip ends; (): nothing
     launch: bool = True  # drones may take off, and be recovered, from a truck there
     late_cost: float = 0.0  # once, of coming late at all; where the window is soft
+    span: tuple[int, int] | None = None
+    """From when to when service begins, by who was served before; trucks wait, at no price."""
 
     def __post_init__(self) -> None:
         for amount in self.demand:

@@ -15,7 +15,7 @@ from model.problem.fleet import VehicleType
 from model.problem.quantities import (
     MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
 )
-from model.problem.relation import MOST_RELATIONS, Lag, Relation
+from model.problem.relation import MOST_RELATIONS, SINCE_PLAN_START, Lag, Relation
 from model.problem.shipment import Shipment
 from model.problem.travel import Travel
 
@@ -320,7 +320,7 @@ class Problem:
         if not self.relations:
             return ()
         number = {node: index for index, node in enumerate(nodes)}
-        left = [each.among(number) for each in self.relations]
+        left = [each.among(number, self.first_place) for each in self.relations]
         return tuple([each for each in left if each is not None])
 
     @cached_property
@@ -350,6 +350,9 @@ class Problem:
         for node, lag in chain.from_iterable([
                 each.lags_across(self.first_place) for each in self.relations]):
             found[node] = (*found.get(node, ()), lag)
+        for node, each in enumerate(self.customers, self.num_depots):
+            if each.span is not None:
+                found[node] = (*found.get(node, ()), Lag(SINCE_PLAN_START, *each.span))
         return found
 
     @cached_property

@@ -19,10 +19,14 @@ MOST_PLACES = 9
 RelationKind = Literal["together", "apart", "before"]
 
 
+SINCE_PLAN_START = 0
+"""Instead of a customer served before: no customer, since depots come first."""
+
+
 class Lag(NamedTuple):
     """How long after service begins at one customer it begins at another, in ms."""
 
-    node: int  # the one who is served before
+    node: int  # the one who is served before, or `SINCE_PLAN_START`
     least: int
     most: int
 
@@ -40,6 +44,7 @@ class Relation:
     min_lag: int = 0  # ms from the start of service at any to that at all who are named behind
     max_lag: int | None = None  # ms to that of who is named next
     across: bool = False  # any vehicles serve them, of `before`
+    ranks: tuple[int, ...] = ()  # of nodes in the order, where some are missing; (): none is
 
     def __post_init__(self) -> None:
         name = f"relation {self.kind}"
@@ -54,6 +59,7 @@ class Relation:
                 self.nodes)
         require(not self.across or (self.kind, self.scope) == ("before", "vehicle"), name,
                 self.across)
+        require(len(self.ranks) in (0, len(self.nodes)), f"{name} ranks", self.ranks)
 
     @property
     def keeps_together(self) -> bool:
@@ -62,9 +68,10 @@ class Relation:
 
     def lags(self, customer: Callable[[int], int]) -> Iterator[tuple[int, Lag]]:
         """Yield who is served behind whom, and how much later, whose `customer` any node is."""
-        rank = {each: index for index, each in enumerate(dict.fromkeys(map(customer, self.nodes)))}
-        for one, other in combinations(self.nodes if self.kind == "before" else (), 2):
-            later = rank[customer(other)] - rank[customer(one)]
+        ranks = self.ranks or self._ranks(customer)
+        ranked = list(zip(self.nodes, ranks, strict=True)) if self.kind == "before" else []
+        for (one, place), (other, behind) in combinations(ranked, 2):
+            later = behind - place
             if later > 0:
                 most = UNLIMITED if self.max_lag is None or later > 1 else self.max_lag
                 yield other, Lag(one, self.min_lag, most)
@@ -76,7 +83,20 @@ class Relation:
             yield node, lag
             yield lag.node, Lag(node, -lag.most, -lag.least)
 
-    def among(self, number: Mapping[int, int]) -> "Relation | None":
+    def _ranks(self, customer: Callable[[int], int]) -> tuple[int, ...]:
+        """Return the place in the order of each node, whose `customer` any node is."""
+        rank = {each: index for index, each in enumerate(dict.fromkeys(map(customer, self.nodes)))}
+        return tuple([rank[customer(node)] for node in self.nodes])
+
+    def among(self, number: Mapping[int, int],
+              customer: Callable[[int], int]) -> "Relation | None":
         """Return it for those who have a new number; None if it says nothing of them."""
-        nodes = tuple([number[node] for node in self.nodes if node in number])
-        return replace(self, nodes=nodes) if len(nodes) > 1 else None
+        left = [(number[node], rank) for node, rank
+                in zip(self.nodes, self.ranks or self._ranks(customer), strict=True)
+                if node in number]
+        if len(left) < 2:
+            return None
+        nodes, ranks = zip(*left, strict=True)
+        if self.kind != "before" or len(left) == len(self.nodes):
+            ranks = self.ranks
+        return replace(self, nodes=nodes, ranks=ranks)

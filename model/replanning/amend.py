@@ -49,7 +49,8 @@ def without(decision: TripDecision, gone: Collection[int]) -> TripDecision:
     kept_nodes = tuple(node for node, kept in zip(nodes, stays, strict=True) if kept)
     breaks = tuple([each._replace(stop=shifted[each.stop] - (not stays[each.stop]))
                     for each in decision.breaks if 0 <= each.stop < last])
-    return TripDecision(kept_nodes, tuple(flown.values()), operations, decision.start, breaks)
+    return TripDecision(kept_nodes, tuple(flown.values()), operations, decision.start, breaks,
+                        decision.awaited)
 
 
 def customers_of(problem: Problem, decision: TripDecision) -> list[int]:

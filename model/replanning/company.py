@@ -17,17 +17,21 @@ def relations_left(problem: Problem, owners: Mapping[int, Worker],
                    number: Mapping[int, int]) -> tuple[Relation, ...]:
     """Return what relations say of those who are left, by their numbers there.
 
-    Whose parcel is aboard a vehicle is served by it in any case, though by a type of its own.
+    Whose parcel is aboard a vehicle is served by it in any case, though by a type of its own. So
+    orders among them and others are as if any vehicles served them.
     """
     aboard = problem.all_places(node for owner in owners.values() for node in owner.aboard)
     found = []
     for each in problem.relations:
-        parts = [each]
+        parts: list[Relation | None] = [each]
         if each.keeps_together and each.scope == "vehicle":
             inside = tuple([node for node in each.nodes if node in aboard])
             outside = tuple([node for node in each.nodes if node not in aboard])
-            parts = [replace(each, nodes=nodes) for nodes in (inside, outside) if len(nodes) > 1]
-        left = [part.among(number) for part in parts]
+            parts = [each.among({node: node for node in nodes}, problem.first_place)
+                     for nodes in (inside, outside)]
+            if each.kind == "before" and inside and outside:
+                parts.append(replace(each, across=True))
+        left = [part.among(number, problem.first_place) for part in parts if part is not None]
         found += [part for part in left if part is not None]
     return tuple(found)
 

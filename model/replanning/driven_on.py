@@ -4,7 +4,7 @@ What is planned anew begins where a vehicle has all drones aboard, and serves wh
 problem of its own. The plan given may know better: no new plan should be worse than that.
 """
 
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
 from model.judge.check import judge_route
@@ -12,12 +12,13 @@ from model.judge.ends import with_ends
 from model.judge.past import Past, Vehicle
 from model.judge.retiming import time_route
 from model.judge.timing import (
-    RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
+    RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
 )
 from model.problem import Problem, VehicleType
 from model.replanning.amend import Broken, broken_by, customers_of, repaired, without
 from model.replanning.handover import complete
-from model.replanning.kept import Kept, by_launch
+from model.replanning.kept import Kept, by_launch, resumed
+from model.replanning.spans import awaiting, out_of_turn
 from model.solution import Route, Solution, Trip
 
 
@@ -40,17 +41,37 @@ def driven_on(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
     Vehicles that have begun to work come first, in the order of `kept`.
     """
     planned = {Vehicle(route.vehicle_type, route.vehicle): route for route in plan.routes}
-    routes = []
+    routes, driven = list[Route](), set[Vehicle]()
     for vehicle in (*kept, *(vehicle for vehicle in planned if vehicle not in kept)):
         own = kept.get(vehicle)
         if vehicle in past.unavailable:
             routes += [] if own is None else [own.route]
+            driven.add(vehicle)
             continue
         decision = _whole(problem, planned[vehicle], own, past)
-        if decision.trips:
-            mended, route = _mended(problem, decision, own, past)
-            routes += [route] if mended.trips else []
+        others = [*routes, *(other.route for ahead, other in kept.items()
+                             if ahead != vehicle and ahead not in driven)]
+        route = _in_turn(problem, decision, own, past, others)
+        routes += [] if route is None else [route]
+        driven.add(vehicle)
     return complete(problem, tuple(routes))
+
+
+def _in_turn(problem: Problem, decision: RouteDecision, own: Kept | None, past: Past,
+             others: Sequence[Route]) -> Route | None:
+    """Return a route without those for whom rules are broken, orders with others' among them."""
+    fixed = set[int]() if own is None else own.served
+    while decision.trips:
+        decision, route = _mended(problem, awaiting(problem, decision, others), own, past)
+        late = out_of_turn(problem, route, others) - fixed if decision.trips else ()
+        if not late:
+            return route if decision.trips else None
+        trips = [without(trip, late) for trip in decision.trips]
+        known = 0 if own is None else len(own.decision.trips)
+        decision = replace(decision, trips=tuple([
+            trip for number, trip in enumerate(trips)
+            if number < known or customers_of(problem, trip)]))
+    return None
 
 
 def _whole(problem: Problem, planned: Route, own: Kept | None, past: Past) -> RouteDecision:
@@ -61,7 +82,8 @@ def _whole(problem: Problem, planned: Route, own: Kept | None, past: Past) -> Ro
     if own is not None:
         begun = _with_trip_under_way(problem, planned, own, past).trips
     later = [_without_lost(read_decision(replace(trip, sorties=tuple(
-        sortie for sortie in trip.sorties if _can_fly(kind, sortie.drone, grounded))), kind))
+        sortie for sortie in trip.sorties if _can_fly(kind, sortie.drone, grounded))), kind,
+        problem.lags_across))
         for trip in planned.trips[len(begun):]]
     trips = [*begun, *(trip for trip in later if customers_of(problem, trip))][:kind.max_trips]
     return RouteDecision(planned.vehicle_type, planned.vehicle,
@@ -77,7 +99,7 @@ def _with_trip_under_way(problem: Problem, planned: Route, own: Kept, past: Past
     grounded = past.grounded_on(own.vehicle)
     begun, others = by_launch(trip, known[-1])
     flown = (*begun, *(sortie for sortie in others if _can_fly(kind, sortie.drone, grounded)))
-    last = _without_lost(read_decision(Trip(trip.stops, flown), kind))
+    last = _without_lost(read_decision(Trip(trip.stops, flown), kind, problem.lags_across))
     return replace(own.decision, trips=(*own.decision.trips[:-1], last))
 
 
@@ -113,8 +135,7 @@ def _as_stated(problem: Problem, decision: RouteDecision, past: Past) -> Route:
     """Return a route whose trips begin when they state, if they can by then."""
     kind = problem.vehicle_types[decision.vehicle_type]
     known = past.trips.get(Vehicle(decision.vehicle_type, decision.vehicle), ())
-    trips = [resume_trip(problem, kind, trip, facts, past.now)
-             for trip, facts in zip(decision.trips, known, strict=False)]
+    trips = resumed(problem, decision, known, past.now)
     for trip in decision.trips[len(known):]:
         ready = max(kind.earliest, past.now)
         if trips:

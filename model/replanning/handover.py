@@ -18,6 +18,7 @@ from model.replanning.amend import customers_of, repaired_route, without
 from model.replanning.company import in_company
 from model.replanning.kept import Kept
 from model.replanning.remainder import Remainder
+from model.replanning.spans import awaiting, out_of_turn
 from model.solution import Route, Solution, Trip
 
 
@@ -59,7 +60,7 @@ def _trips_left(problem: Problem, route: Route, kept: Kept | None,
     decisions = []
     for trip in trips:
         flown = tuple(sortie for sortie in trip.sorties if sortie.drone in drones)
-        decisions.append(read_decision(replace(trip, sorties=flown), kind))
+        decisions.append(read_decision(replace(trip, sorties=flown), kind, problem.lags_across))
     return decisions
 
 
@@ -72,7 +73,9 @@ def _moved(decision: TripDecision, here: Mapping[int, int], drones: Sequence[int
     sorties = tuple(replace(sortie, nodes=tuple(here[node] for node in sortie.nodes),
                             drone=drones.index(sortie.drone)) for sortie in decision.sorties)
     return TripDecision((decision.nodes[0], *inner, decision.nodes[-1]), sorties,
-                        decision.operations, decision.start, decision.breaks)
+                        decision.operations, decision.start, decision.breaks,
+                        tuple([each._replace(node=here[each.node]) for each in decision.awaited
+                               if each.node in here]))
 
 
 def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
@@ -81,13 +84,16 @@ def _rest_of_trip(left: Remainder, kind: int, planned: TripDecision,
     own = left.problem.vehicle_types[kind]
     rest = _moved(planned, here, left.drones_of(kind))
     nodes = (own.begins_at, *rest.nodes[1:-1], own.ends_at)
-    return RouteDecision(kind, 0, (TripDecision(nodes, rest.sorties, rest.operations),))
+    return RouteDecision(kind, 0, (TripDecision(nodes, rest.sorties, rest.operations,
+                                                awaited=rest.awaited),))
 
 
 def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
     """Return a plan of what is left without the customers for whom rules are broken."""
-    routes = [_mended(left, decision) for decision in in_company(left.problem, [*decisions])]
-    made = [route for route in routes if route is not None]
+    made: list[Route] = []
+    for decision in in_company(left.problem, [*decisions]):
+        route = _in_turn(left, decision, made)
+        made += [] if route is None else [route]
     return complete(left.problem, tuple(_within_stock(left.problem, made)))
 
 
@@ -108,6 +114,17 @@ def _within_stock(problem: Problem, routes: list[Route]) -> list[Route]:
 def _has_stock(problem: Problem, routes: Sequence[Route]) -> bool:
     """Tell whether depots have what routes take."""
     return next(hub_violations(problem, Solution(tuple(routes))), None) is None
+
+
+def _in_turn(left: Remainder, decision: RouteDecision, made: Sequence[Route]) -> Route | None:
+    """Return a route likewise that waits for whom others serve; without whom these forestall."""
+    problem = left.problem
+    route = _mended(left, awaiting(problem, decision, made))
+    while route is not None and (late := out_of_turn(problem, route, made)):
+        decision = replace(decision, trips=tuple([
+            without(trip, late) for trip in decision.trips]))
+        route = _mended(left, awaiting(problem, decision, made))
+    return route
 
 
 def _mended(left: Remainder, decision: RouteDecision) -> Route | None:
@@ -203,7 +220,7 @@ def _begun_at_once(problem: Problem, route: Route) -> Trip:
     kind, trip = problem.vehicle_types[route.vehicle_type], route.trips[0]
     if trip.stops[0].arrival == kind.earliest:
         return trip
-    decision = read_decision(trip, kind)
+    decision = read_decision(trip, kind, problem.lags_across)
     return schedule_trip(problem, kind, replace(decision, start=None), kind.earliest)
 
 

@@ -1,6 +1,6 @@
 """What vehicles under way do in any case: the beginning of a new plan, up to the way home."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from model.judge.energy import charges_at
@@ -58,17 +58,24 @@ def kept_routes(problem: Problem, plan: Solution, past: Past) -> dict[Vehicle, K
 def retimed(problem: Problem, decision: RouteDecision, known: tuple[KnownTrip, ...],
             now: int) -> Route:
     """Return a route of trips that have all begun with its times."""
-    kind = problem.vehicle_types[decision.vehicle_type]
-    trips = tuple(resume_trip(problem, kind, trip, facts, now)
-                  for trip, facts in zip(decision.trips, known, strict=True))
-    return Route(decision.vehicle_type, decision.vehicle, trips)
+    return Route(decision.vehicle_type, decision.vehicle,
+                 tuple(resumed(problem, decision, known, now)))
+
+
+def resumed(problem: Problem, decision: RouteDecision, known: Sequence[KnownTrip],
+            now: int) -> list[Trip]:
+    """Return the trips of a route that have begun with their times."""
+    kind, trips = problem.vehicle_types[decision.vehicle_type], list[Trip]()
+    for trip, facts in zip(decision.trips, known, strict=False):
+        trips.append(resume_trip(problem, kind, trip, facts, now, trips))
+    return trips
 
 
 def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
     known = past.trips[vehicle]
     kind = problem.vehicle_types[vehicle.type]
     grounded = past.grounded_on(vehicle)
-    trips = [read_decision(_settled(kind, trip, facts, grounded), kind)
+    trips = [read_decision(_settled(kind, trip, facts, grounded), kind, problem.lags_across)
              for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
     decision = RouteDecision(*vehicle, tuple(trips))
     if known[-1].rest != "anything":
@@ -184,7 +191,8 @@ def _planned_end(problem: Problem, kept: Kept, ready: int, service_left: int,
     if node >= problem.num_depots:
         begun -= kind.service_at(problem.customer_at(node))
     known = KnownTrip((KnownStop(node, ready, begun, None),), (), frozenset(), "anything")
-    return resume_trip(problem, kind, rest, known, ready).stops[-1].departure
+    trip = resume_trip(problem, kind, rest, known, ready, kept.route.trips)
+    return trip.stops[-1].departure
 
 
 def _fixed_nodes(known: KnownTrip) -> Iterator[int]:
@@ -225,5 +233,5 @@ def _rest(problem: Problem, vehicle: Vehicle, planned: Trip, meeting: int, serve
         if kind.drones is not None and sortie.launch_stop >= meeting
         and sortie.drone not in grounded)
     trip = Trip(planned.stops[meeting:], sorties)
-    decision = read_decision(trip, kind)
+    decision = read_decision(trip, kind, problem.lags_across)
     return without(decision, {-1, *served})

@@ -17,6 +17,7 @@ from model.replanning.amend import customers_of
 from model.replanning.company import company_table, relations_left
 from model.replanning.kept import Kept
 from model.replanning.shares import fairness_left
+from model.replanning.spans import flown_alone, spans_left, with_spans
 from model.replanning.workers import Worker, from_now_on
 
 NOBODY, ANYBODY = -1, -2
@@ -49,10 +50,15 @@ class Remainder:
         plain = self.kinds[:self.num_plain]
         return plain.index(vehicle.type) if vehicle.type in plain else None
 
-    def from_depot(self, kind: int) -> list[int]:
-        """Return the types that may begin trips, of those of one type of the whole problem."""
-        return [here for here, whole in enumerate(self.kinds) if whole == kind
-                and not (here in self.workers and self.workers[here].is_under_way)]
+    def from_depot(self, kind: int, node: int) -> list[int]:
+        """Return the types that may begin trips, of those of one type of the whole problem.
+
+        Those that may serve a customer, who is at a node there, come first.
+        """
+        index, table = self.nodes.index(node) - self.problem.num_depots, self.problem.may_serve
+        found = [here for here, whole in enumerate(self.kinds) if whole == kind
+                 and not (here in self.workers and self.workers[here].is_under_way)]
+        return found if table is None else sorted(found, key=lambda here: not table[here, index])
 
     def drones_of(self, kind: int) -> Sequence[int]:
         """Return what numbers drones of a type have in the whole problem, by number."""
@@ -88,20 +94,23 @@ def what_is_left(problem: Problem, past: Past, kept: Mapping[Vehicle, Kept],
     starts = [_start(problem, node, types[kind].id) for kind, node in places.items()]
     depots, may_stop = _sites(problem, kept, kinds, owners)
     depots = _hubs_left(problem, kept, depots)
+    free = [_customer_left(problem, past, kept, node, carriers.get(node)) for node in nodes]
+    first = len(source) - len(nodes)
+    relations = relations_left(problem, owners, {
+        node: index for index, node in enumerate(nodes, first)})
+    customers = with_spans(free, first, spans_left(problem, past.now, kept, nodes), relations)
     left = replace(
         problem, depots=(*depots, *starts),
         may_stop=None if may_stop is None else np.hstack(
             [may_stop, np.ones((len(kinds), len(starts)), np.bool_)]),
-        customers=tuple(_customer_left(problem, past, kept, node, carriers.get(node))
-                        for node in nodes),
+        customers=customers,
         shipments=problem.shipments_among(source), choices=problem.choices_among(source),
-        relations=relations_left(problem, owners, {
-            node: index for index, node in enumerate(nodes, len(source) - len(nodes))}),
+        relations=relations,
         vehicle_types=tuple(types), coordinates=problem.coordinates[source],
         travel=tuple(each.among(np.array(source)) for each in problem.travel),
         may_serve=_table(problem, past, kinds, owners, nodes)
         & _goods_table(problem, kept, kinds, owners, nodes)
-        & company_table(problem, kept, kinds, owners, nodes),
+        & company_table(problem, kept, kinds, owners, nodes) & ~flown_alone(free, customers),
         vehicle_costs=problem.vehicle_costs_of(kinds, nodes),
         fairness=fairness_left(problem, past, kept, owners))
     return Remainder(left, tuple(source), kinds, owners)

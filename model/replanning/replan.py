@@ -177,8 +177,10 @@ class Replanning:
         if has_orders and self.check(solution).violations:
             # Who came in between was at another place before.
             first, solution = handed, bridge.whole(handed)
-        if self.check(solution).violations and any(map(has_clock, self.problem.vehicle_types)):
-            # Breaks may be due on a day as a whole that aren't on what is left of it.
+        if self.check(solution).violations and (self.problem.lags or any(
+                map(has_clock, self.problem.vehicle_types))):
+            # Breaks may be due on a day as a whole that aren't on what is left of it, and whoever
+            # waits where a trip goes on serves others later than it will.
             solution = self._settled
         return first, solution, self._legal(solution)
 
@@ -230,7 +232,7 @@ class Replanning:
         """Return why vehicles of a type don't serve a customer who is free to be served by any."""
         name = self.problem.vehicle_types[kind].id
         left = self._left
-        types = [] if left is None else left.from_depot(kind)
+        types = [] if left is None else left.from_depot(kind, node)
         if left is None or not types:
             return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")
         vehicles = [Vehicle(route.vehicle_type, route.vehicle) for route in solution.routes]

@@ -131,6 +131,7 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
     for (Int index = before; index < removed.count; ++index) {
         for (const Lag& lag : lags_of(data.across, removed.absent[index])) {
             if (lag.node < 0) break;
+            if (lag.node == since_plan_start) continue;
             const Int slot = fleet.where[lag.node].slot;
             if (slot < 0 || removed.marked[lag.node]) continue;
             if (uniform(searcher.rng) >= company_share) continue;

@@ -220,8 +220,42 @@ def test_whom_others_keep_from_his_place_in_an_order_is_told_so(
     assert fits["places"], fits
 
 
+@pytest.mark.parametrize("same_vehicle", [True, False])
+def test_who_was_served_holds_back_whom_an_order_puts_behind(
+        service: httpx.Client, related: Request, same_vehicle: bool) -> None:
+    order = {"kind": "before", "customers": ["A", "B", "C"], "min_lag": 5400,
+             "same_vehicle": same_vehicle}
+    late, related["customers"] = related["customers"][2], related["customers"][:2]
+    related["fleet"][0] |= {"max_trips": 2, "costs": {"per_km": 1, "per_hour": 1}}
+    plan = service.post("/plan", json=related | {"relations": [
+        order | {"customers": ["A", "B"]}]}).json()
+    before = _stops(plan)
+    begun = before["A"]["service_start"]
+    related["replan"] = {"plan": plan, "freeze_before": before["A"]["departure"]}
+    related["customers"].append(late)
+    related["relations"] = [order | {"min_lag": 7200}]
+    later = service.post("/plan", json=related).json()
+    assert later["unassigned"] == []
+    found, own = _stops(later), vehicle_of(later)
+    assert found["A"] == before["A"]
+    assert found["B"]["service_start"] == begun + 7200
+    assert found["C"]["service_start"] >= begun + 14400
+    assert (own["A"] == own["C"]) >= same_vehicle
+    checked = service.post("/check", json={"problem": related, "plan": later}).json()
+    assert checked["feasible"], checked
+    # Whoever was to come first can't any more.
+    related["relations"] = [order | {"customers": ["C", "A"]}]
+    left, = service.post("/plan", json=related).json()["unassigned"]
+    assert left["id"] == "C"
+    assert left["reasons"][0]["code"] == "RELATION"
+
+
+def _stops(plan: dict[str, Any]) -> dict[str, Any]:
+    return {stop["id"]: stop for route in plan["routes"] for trip in route["trips"]
+            for stop in trip["stops"]}
+
+
 @pytest.mark.parametrize("change", [
-    {"replan": {"freeze_before": 0}},
     {"fleet": [{"breaks": [{"id": "rest", "duration": 60, "start": {"latest": 600}}]}]},
     {"fleet": [{"driving_rules": {"preset": "eu-561"}}]}])
 def test_what_is_not_planned_with_an_order_yet_is_refused(
@@ -230,8 +264,6 @@ def test_what_is_not_planned_with_an_order_yet_is_refused(
         related["fleet"][0] |= part
     related |= change
     related["relations"] = [{"kind": "before", "customers": ["A", "B"]}]
-    if "replan" in change:
-        related["replan"]["plan"] = {"routes": [], "unassigned": []}
     told = client.post("/plan", json=related).json()["errors"]
     assert ("RELATION_WITH", "$.relations[0].kind") in {
         (each["code"], each["path"]) for each in told}

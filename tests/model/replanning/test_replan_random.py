@@ -25,7 +25,7 @@ from tests.model.tiny import (
 )
 from tests.model.tiny_breaks import with_breaks
 from tests.model.tiny_choices import with_choices
-from tests.model.tiny_company import with_relations
+from tests.model.tiny_company import with_order, with_order_across, with_relations
 from tests.model.tiny_driving import with_driving
 from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
@@ -309,7 +309,7 @@ def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
 @pytest.mark.parametrize("change", [
     with_fairness, with_own_durations, with_goods, with_setups, with_limits_aboard,
     with_all_at_once, with_ranges, with_few_airborne, with_few_launch_places, with_storms,
-    with_relations, with_choices, with_breaks, with_driving])
+    with_relations, with_order, with_order_across, with_choices, with_breaks, with_driving])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],
