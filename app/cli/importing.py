@@ -173,8 +173,9 @@ def _tell(reply: ImportReply) -> None:
     if reply.num_errors > len(reply.errors):
         typer.echo(f"! and {reply.num_errors - len(reply.errors)} more", err=True)
     told = "" if reply.request else ", no request"
-    typer.echo(f"{reply.rows} rows, {reply.customers} customers, {reply.num_errors} errors{told}",
-               err=True)
+    sent = f"{reply.shipments} shipments, " if reply.shipments else ""
+    typer.echo(f"{reply.rows} rows, {reply.customers} customers, {sent}{reply.num_errors} "
+               f"errors{told}", err=True)
 
 
 def _line(column: ColumnReply) -> str:

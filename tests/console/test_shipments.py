@@ -9,6 +9,7 @@ from playwright.sync_api import Page, expect
 
 from tests.console.steps import open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
+from tests.console.test_importing import dialog, use
 
 pytestmark = pytest.mark.slow
 
@@ -63,3 +64,16 @@ def test_a_shipment_is_added_and_what_is_wrong_is_said_at_its_field(
     page.get_by_role("button", name="Plan", exact=True).click()
     expect(last).to_contain_text("Another has the same name")
     assert findings(page, ".panel") == []
+
+
+def test_a_sheet_of_pickups_and_deliveries_is_planned(console: Page) -> None:
+    open_file(console, "transport.csv", (
+        "Order,Pickup lat,Pickup lon,Delivery lat,Delivery lon,Qty\n"
+        "A1,48.10,11.50,48.2,11.6,3\nA2,48.11,11.51,48.3,11.6,4\nA3,,,48.3,11.7,4\n"))
+    shown = dialog(console)
+    expect(shown.get_by_role("status").first).to_contain_text("And 2 shipments.")
+    meaning = shown.get_by_label("Meaning of Pickup lat")
+    expect(meaning.locator("option:checked")).to_have_text("Pickup: Latitude")
+    use(console)
+    expect(console.locator(".result-line")).to_contain_text("of 5 served")
+    assert state(console, "state.request.shipments.1.id") == "A2"

@@ -14,6 +14,7 @@ from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.formats.sheets.schemas import ColumnMapping
+from app.formats.sheets.sides import Side, guesses_at, sides_of
 from app.formats.sheets.states import CANCELLED, DONE, STATES
 from app.formats.sheets.units import UnitGuess, amount_unit, clock_unit, duration_unit
 
@@ -71,8 +72,8 @@ def columns_of(table: Table, style: Style, mapping: Sequence[ColumnMapping]) -> 
         index: _with_unit(table, Column(index, table.headings[index], entry.meaning, entry.unit,
                                         1.0, language=_language(table.headings[index])))
         for index, entry in stated.items()}
-    options = [option for index in range(len(table.headings)) if index not in stated
-               for option in _options(table, index, style)]
+    options = [option for index, side in enumerate(sides_of(table.headings)) if index not in stated
+               for option in _options(table, index, style, side)]
     taken = {column.meaning for column in found.values()}
     spoken = language_of(options)
     # `van` is a vehicle in English, and where a window begins in Dutch.
@@ -150,11 +151,11 @@ def _matches(entry: ColumnMapping, heading: str, index: int, repeats: bool) -> b
     return simple(entry.heading) == simple(heading) and bool(heading)
 
 
-def _options(table: Table, index: int, style: Style) -> Iterable[Column]:
+def _options(table: Table, index: int, style: Style, side: Side) -> Iterable[Column]:
     """Yield what a column may mean, with the confidence that it does."""
     cells = [raw for _, raw in table.column(index)][:SAMPLED]
     heading = table.headings[index]
-    for guess in guesses(heading)[:6]:
+    for guess in guesses_at(heading, side)[:6]:
         if guess.score >= HEADING:
             column = _with_unit(table, Column(index, heading, guess.meaning, guess.unit,
                                               language=guess.language))

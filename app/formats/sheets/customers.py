@@ -12,6 +12,7 @@ from app.formats.sheets.clocks import DAY, past_midnight
 from app.formats.sheets.columns import Column
 from app.formats.sheets.damage import is_damaged
 from app.formats.sheets.geography import Ground, Pair, on_globe
+from app.formats.sheets.meanings import OF_SIDES, meaning_at
 from app.formats.sheets.rows import Row
 from app.schemas.fields import MAX_INFO_ENTRIES, MAX_INFO_LENGTH
 
@@ -20,7 +21,8 @@ MOST_WINDOWS = 8
 LONGEST_NAME = 200
 
 SAME = ("time_window", "time_windows", "served_by", "skills", "vehicles", "release_time")
-SAME_CELLS = ("preferred_vehicles", "preference_cost", "together", "apart")
+SAME_CELLS = ("preferred_vehicles", "preference_cost", "together", "apart", "before", "after",
+              "alternative_cost", *(meaning_at("alternative", own) for own in OF_SIDES))
 """What rows must agree on to be one stop, of customers and as cells say it."""
 
 CARRIED = ("phone", "email", "contact", "notes", "priority")
@@ -30,10 +32,17 @@ Data = dict[str, Any]
 
 @dataclass
 class Entry:
-    """A customer and the rows that it is made of."""
+    """A customer, or a shipment, and the rows that it is made of."""
 
     customer: Data
     rows: list[Row]
+
+    def places(self) -> list[tuple[Row, Data]]:
+        """Return the first row of each place, and what it says of it."""
+        if "delivery" not in self.customer:
+            return [(self.rows[0], self.customer)]
+        return [(next(row for row in self.rows if row.side == end), self.customer[end])
+                for end in ("pickup", "delivery")]
 
 
 def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: Ground,
@@ -75,22 +84,22 @@ def together(entries: Sequence[Entry],
         # Numbers whose last digits are lost are alike without being one.
         apart = number if same_place == "apart" or is_damaged(customer["id"]) else -1
         groups[customer["id"].casefold(), repr(customer["location"]), apart, *alike].append(entry)
-    stops = [_joined(group) for group in groups.values()]
+    stops = [joined(group) for group in groups.values()]
     doubts = []
-    if joined := [stop for stop in stops if len(stop.rows) > 1]:
-        first = joined[0]
+    if several := [stop for stop in stops if len(stop.rows) > 1]:
+        first = several[0]
         cells = ", ".join(row.cell("name", "order") for row in first.rows[:4])
         doubts.append(Doubt(
-            "ROWS_JOINED", f"Rows of one name and place make one stop, {len(joined)} in all, "
+            "ROWS_JOINED", f"Rows of one name and place make one stop, {len(several)} in all, "
             f"such as {first.customer['id']} ({cells}): amounts are added up, the longest time at "
             "the stop counts once."))
     return stops, [*doubts, *_renamed(stops)]
 
 
 def placed(stops: Iterable[Entry]) -> list[tuple[Row, Pair]]:
-    """Return first rows and coordinates of the stops whose place is known."""
-    return [(stop.rows[0], (location[0], location[1])) for stop in stops
-            if isinstance(location := stop.customer["location"], list)]
+    """Return rows and coordinates of the places that are known."""
+    return [(row, (location[0], location[1])) for stop in stops for row, place in stop.places()
+            if isinstance(location := place["location"], list)]
 
 
 def _location(row: Row, ground: Ground) -> list[float] | Data | None:
@@ -161,12 +170,13 @@ def _windows(row: Row) -> Data:
 
 def overnight(stops: Iterable[Entry]) -> list[Doubt]:
     """Return the doubt about windows that end on the day after."""
-    late = [stop for stop in stops if _latest(stop.customer) > DAY]
+    late = [(row, place) for stop in stops for row, place in stop.places() if _latest(place) > DAY]
     if not late:
         return []
-    cell = late[0].rows[0].cell("latest", "window", "earliest")
+    row, place = late[0]
+    cell = row.cell("latest", "window", "earliest")
     return [Doubt("PAST_MIDNIGHT", f"{len(late)} windows end on the day after, such as {cell} at "
-                  f"{next_day(_latest(late[0].customer))}.", cell=cell)]
+                  f"{next_day(_latest(place))}.", cell=cell)]
 
 
 def _latest(customer: Data) -> float:
@@ -238,32 +248,32 @@ def _cut(text: str) -> str:
     return text if len(text) <= MAX_INFO_LENGTH else text[:MAX_INFO_LENGTH - 1] + "\u2026"
 
 
-def _joined(group: Sequence[Entry]) -> Entry:
+def joined(group: Sequence[Entry]) -> Entry:
     """Return one stop for rows of one name and place."""
     if len(group) == 1:
         return group[0]
     customers = [entry.customer for entry in group]
-    joined = dict(customers[0])
+    whole = dict(customers[0])
     for what in ("demand", "pickup"):
         stated = [customer[what] for customer in customers if what in customer]
         if stated:
-            joined[what] = [round(sum(amounts), 9) for amounts in zip(*stated, strict=True)]
+            whole[what] = [round(sum(amounts), 9) for amounts in zip(*stated, strict=True)]
     if longest := max(customer.get("service_duration", 0) for customer in customers):
-        joined["service_duration"] = longest
+        whole["service_duration"] = longest
     told: dict[str, list[str]] = defaultdict(list)
     for customer in customers:
         for name, text in customer.get("info", {}).items():
             if text not in told[name]:
                 told[name].append(text)
     if told:
-        joined["info"] = {name: _cut("; ".join(texts))
+        whole["info"] = {name: _cut("; ".join(texts))
                           for name, texts in list(told.items())[:MAX_INFO_ENTRIES]}
     costs = [customer["unassigned_cost"] for customer in customers if "unassigned_cost" in customer]
     if len(costs) == len(customers):
-        joined["unassigned_cost"] = sum(costs)
+        whole["unassigned_cost"] = sum(costs)
     else:
-        joined.pop("unassigned_cost", None)
-    return Entry(joined, [row for entry in group for row in entry.rows])
+        whole.pop("unassigned_cost", None)
+    return Entry(whole, [row for entry in group for row in entry.rows])
 
 
 def _renamed(stops: Sequence[Entry]) -> list[Doubt]:

@@ -15,7 +15,9 @@ def on_day(request: Data, day: date, time_zone: str) -> Data:
     return {"plan_start": f"{day.isoformat()}T00:00:00", "time_zone": time_zone,
             **request,
             "customers": [_customer(customer) for customer in request["customers"]],
-            "fleet": [_with_clocks(kind, {"shift": WINDOW}) for kind in request["fleet"]]}
+            **({"shipments": [_shipment(shipment) for shipment in request["shipments"]]}
+               if "shipments" in request else {}),
+            "fleet": [_vehicles(kind) for kind in request["fleet"]]}
 
 
 def clock(seconds: float) -> str:
@@ -27,10 +29,29 @@ def clock(seconds: float) -> str:
 
 
 def _customer(customer: Data) -> Data:
-    told = _with_clocks(customer, {"time_window": WINDOW})
+    told = _clocks(_place(customer), ("release_time",))
+    if "alternatives" in told:
+        told["alternatives"] = [_place(other) for other in told["alternatives"]]
+    return told
+
+
+def _shipment(shipment: Data) -> Data:
+    return shipment | {end: _place(shipment[end]) for end in ("pickup", "delivery")}
+
+
+def _place(place: Data) -> Data:
+    told = _with_clocks(place, {"time_window": WINDOW})
     if "time_windows" in told:
         told["time_windows"] = [_clocks(window, WINDOW) for window in told["time_windows"]]
-    return _clocks(told, ("release_time",))
+    return told
+
+
+def _vehicles(kind: Data) -> Data:
+    told = _with_clocks(kind, {"shift": WINDOW})
+    if "breaks" in told:
+        told["breaks"] = [pause if pause.get("after_departure")
+                          else _with_clocks(pause, {"start": WINDOW}) for pause in told["breaks"]]
+    return told
 
 
 def _with_clocks(holder: Data, inner: dict[str, tuple[str, ...]]) -> Data:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from app.formats.sheets.amounts import dimensions
+from app.formats.sheets.breaks import break_doubts, breaks_of, driving_rules_of
 from app.formats.sheets.cells import CellError, Doubt, MisreadError, clock_text, next_day
 from app.formats.sheets.clocks import DAY, LONGEST_NIGHT, Style, windows
 from app.formats.sheets.columns import Column
@@ -64,7 +65,8 @@ def fleet_of(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
     usual, told = _usual_work(settings)
     doubts += told
     abilities, assumed = _abilities(stops, settings, kinds)
-    return [_completed(kind, usual | common) | abilities for kind in kinds], doubts + assumed
+    return ([_completed(kind, usual | common) | abilities for kind in kinds],
+            doubts + assumed + break_doubts(vans))
 
 
 def _completed(kind: Data, common: Data) -> Data:
@@ -134,8 +136,22 @@ def _listed(vans: Sequence[Van], stops: Sequence[Entry], columns: Sequence[Colum
         kind |= {"speed_kmh": van.values["speed"]} if van.values.get("speed") else {}
         kind |= {"max_trips": round(van.values["max_trips"])} if van.values.get(
             "max_trips") else {}
-        kinds.append(kind)
+        kinds.append(kind | _work_of(van))
     return kinds
+
+
+def _work_of(van: Van) -> Data:
+    """Return what holds for a listed vehicle's driver."""
+    try:
+        rules = driving_rules_of(van)
+    except MisreadError as error:
+        raise Incomplete("DRIVING_RULES", f"{error}.") from error
+    pauses = breaks_of(van)
+    limits = {field: van.values[meaning] for meaning, field in
+              (("max_work", "max_working_duration"), ("max_travel", "max_travel_duration"))
+              if van.values.get(meaning)}
+    return limits | ({"breaks": pauses} if pauses else {}) | (
+        {"driving_rules": rules} if rules else {})
 
 
 def _capacity_of(van: Van, totals: Sequence[float], amounts: Sequence[Column]) -> list[float]:
@@ -162,9 +178,13 @@ def _capacity_of(van: Van, totals: Sequence[float], amounts: Sequence[Column]) -
 
 
 def _totals(stops: Sequence[Entry]) -> list[float]:
-    """Return the most of each amount that is to be carried: all deliveries, or all pickups."""
-    sums = [[math.fsum(amounts) for amounts in zip(*(stop.customer[what] for stop in stops
-                                                     if what in stop.customer), strict=True)]
+    """Return the most of each amount that is to be carried: all deliveries, or all pickups.
+
+    Shipments are aboard with either.
+    """
+    sums = [[math.fsum(amounts) for amounts in zip(*(
+        stop.customer.get("amount") or stop.customer[what] for stop in stops
+        if "amount" in stop.customer or what in stop.customer), strict=True)]
             for what in ("demand", "pickup")]
     return [max(pair) for pair in zip(*(found for found in sums if found), strict=True)] or [1.0]
 

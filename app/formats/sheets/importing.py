@@ -5,6 +5,7 @@ from dataclasses import replace
 from datetime import date
 
 from app.formats.sheets.addresses import NO_FINDER, Finder, locate, with_depot
+from app.formats.sheets.alternatives import add_alternatives, is_alternative
 from app.formats.sheets.asked_columns import ask_columns, stated_columns
 from app.formats.sheets.cells import CellError, Doubt, MisreadError, letters
 from app.formats.sheets.choosing import chosen
@@ -12,6 +13,7 @@ from app.formats.sheets.columns import columns_of, language_of, with_begin
 from app.formats.sheets.customers import Entry, address_of, entries_of, overnight, placed, together
 from app.formats.sheets.damage import damaged
 from app.formats.sheets.days import on_day
+from app.formats.sheets.dividing import divided
 from app.formats.sheets.dropping import (
     with_kinds, without_cancelled, without_doubles, without_hidden, without_sums,
 )
@@ -22,11 +24,12 @@ from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.questions import Asking, Question
 from app.formats.sheets.readers import read
 from app.formats.sheets.rejoining import rejoined
-from app.formats.sheets.related import relations_of
+from app.formats.sheets.related import relations_of, stops_called
 from app.formats.sheets.replies import reply_of
 from app.formats.sheets.request import look_over, request_of, stated_depot
 from app.formats.sheets.rows import Row, days_in, rows_of, sums_in
 from app.formats.sheets.schemas import ImportReply, ImportSettings
+from app.formats.sheets.shipments import shipments_of
 from app.formats.sheets.styles import encoding_doubt, style_of
 from app.formats.sheets.table import NotASheetError, Sheet, SheetFile, read_sheets
 from app.formats.sheets.vans import vans_of
@@ -100,6 +103,9 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder,
     rows = without_cancelled(work.table, rows, work.columns, work.asking)
     rows = without_doubles(work.table, rows, work.asking)
     rows = with_kinds(work.table, rows, work.columns, work.asking)
+    rows, doubts, errors = divided(rows, len(work.table.sheet.rows), work.asking)
+    work.doubts += doubts
+    work.errors += errors
     try:
         settings, doubts = with_depot(settings, finder)
         work.doubts += doubts
@@ -113,15 +119,29 @@ def _understand(work: Import, settings: ImportSettings, finder: Finder,
     entries = entries_of(customers, work.columns, ground, settings.service_minutes)
     work.errors += [error for row in customers for error in row.errors]
     _note_amounts(work, customers)
-    work.stops, doubts = together(entries, settings.mapping.same_place)
-    work.doubts += doubts + overnight(work.stops) + damaged(work.table, work.columns)
+    _serve(work, entries, frozenset(row.number for row in customers if row.errors), settings)
+    served = [*work.stops, *work.shipments]
+    work.doubts += overnight(served) + damaged(work.table, work.columns)
     if ground.is_geographic:
-        work.doubts += far_off(placed(work.stops))
-    if not work.stops:
+        work.doubts += far_off(placed(served))
+    if not served:
         if not work.errors:
             work.errors.append(CellError("NO_CUSTOMERS", "There is no customer in the file."))
         return
     _complete(work, depots, ground, settings, road_profiles)
+
+
+def _serve(work: Import, entries: Sequence[Entry], refused: frozenset[int],
+           settings: ImportSettings) -> None:
+    """Make customers with their other places, and shipments, of rows. In place."""
+    others = [entry for entry in entries if is_alternative(entry.rows[0])]
+    own = [entry for entry in entries
+           if not entry.rows[0].side and not is_alternative(entry.rows[0])]
+    work.stops, doubts = together(own, settings.mapping.same_place)
+    told, wrong = add_alternatives(others, work.stops, stops_called(work.stops), refused)
+    work.shipments, more, errors = shipments_of(entries)
+    work.doubts += doubts + told + more
+    work.errors += wrong + errors
 
 
 def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: ImportSettings,
@@ -131,14 +151,13 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: Imp
         work.errors.append(_too_many(work.stops))
         return
     try:
-        request, doubts = request_of(work.stops, depots, ground, work.columns, settings,
-                                     work.vans)
+        request, doubts = request_of(work, depots, ground, settings)
     except Incomplete as incomplete:
         work.errors.append(incomplete.error)
         return
     relations, alone = relations_of(work.stops, work.asking)
     if relations:
-        request["relations"] = relations
+        request["relations"] = [relation.stated for relation in relations]
     work.doubts += doubts + alone
     day = work.style.day
     if day is not None and settings.time_zone is not None:
@@ -148,7 +167,7 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: Imp
         work.doubts.append(Doubt("MIDNIGHT", f"Times are counted from midnight{since}."))
     if work.errors and not settings.leave_out_errors:
         return
-    wrong, work.warnings = look_over(request, work.stops, road_profiles)
+    wrong, work.warnings = look_over(request, work, relations, road_profiles)
     if wrong:
         work.errors += wrong
         return
@@ -256,6 +275,7 @@ def _with_addresses(work: Import, rows: Sequence[Row], ground: Ground, finder: F
 
 def _note_amounts(work: Import, rows: Sequence[Row]) -> None:
     """Note where amounts are taken for granted. In place."""
+    rows = [row for row in rows if not row.side and not is_alternative(row)]
     columns = [column for column in work.columns if column.meaning == "demand"]
     if not columns and not any(column.meaning == "pickup" for column in work.columns):
         work.doubts.append(Doubt("NO_AMOUNTS", "No column holds amounts: each customer counts 1."))

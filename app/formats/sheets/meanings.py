@@ -1,6 +1,6 @@
 """What a column may mean, and the units its cells may be in."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 Kind = Literal["text", "number", "amount", "clock", "windows", "duration", "names", "server",
@@ -68,6 +68,12 @@ MEANINGS = {
     "preference_cost": Meaning("Cost of any other vehicle", "number"),
     "together": Meaning("On one vehicle with (customer or group)", "names", (), True),
     "apart": Meaning("On no vehicle with (customer or group)", "names", (), True),
+    "before": Meaning("Served before (customer)", "names", (), True),
+    "after": Meaning("Served after (customer)", "names", (), True),
+    "shipment": Meaning("Shipment, named in the rows of both its ends", "text"),
+    "max_between": Meaning("Longest time from pickup to delivery", "duration", DURATION_UNITS),
+    "alternative_to": Meaning("Other place of (customer)", "text"),
+    "alternative_cost": Meaning("Cost of the other place", "number"),
     "kind": Meaning("Delivery, pickup or depot", "kind"),
     "status": Meaning("State of the order, such as cancelled", "text"),
     "phone": Meaning("Phone", "text", repeats=True),
@@ -78,6 +84,25 @@ MEANINGS = {
     "info": Meaning("For the driver, as it is", "text", repeats=True),
     "ignored": Meaning("Not used", "text", repeats=True),
 }
+
+SIDES = {"pickup": "Pickup", "alternative": "Other place"}
+"""Places that a row may state beside its own: where a shipment is fetched, and `alternatives`."""
+
+OF_SIDES = ("name", "address", "street", "house_number", "postcode", "town", "latitude",
+            "longitude", "point", "x", "y", "earliest", "latest", "window", "service")
+OF_PICKUPS = (*OF_SIDES, "phone", "contact", "notes")
+"""What columns say of such a place as they do of a row's own."""
+
+
+def meaning_at(side: str, meaning: str) -> str:
+    """Return what a column means that says something of another place of its row."""
+    return f"{side}_{meaning}"
+
+
+MEANINGS |= {meaning_at(side, own): replace(MEANINGS[own],
+                                            title=f"{title}: {MEANINGS[own].title.lower()}")
+             for side, title in SIDES.items()
+             for own in (OF_PICKUPS if side == "pickup" else OF_SIDES)}
 
 PLACES = ({"latitude", "longitude"}, {"point"}, {"x", "y"})
 """Columns that tell where customers are."""

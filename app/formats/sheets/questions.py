@@ -7,7 +7,7 @@ from typing import Literal
 from app.formats.sheets.cells import CellError
 
 QuestionKind = Literal["column", "sheet", "hidden_rows", "status", "order_kind", "total_rows",
-                       "day", "same_rows", "related"]
+                       "day", "same_rows", "related", "shipments", "orders"]
 
 LONGEST_ID = 500
 

@@ -2,7 +2,8 @@
 
 from collections import defaultdict
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from itertools import product
+from typing import Any, NamedTuple
 
 from app.formats.sheets.cells import Doubt
 from app.formats.sheets.customers import Entry
@@ -13,6 +14,7 @@ from app.formats.sheets.vans import Van
 
 RELATED = ("together", "apart")
 CUSTOMERS, GROUPS = "customers", "groups"
+ONE, ANY = "one", "any"
 
 SHARE_OF_HOUR = 0.25
 """What another vehicle costs where nobody says so, in hours of a driver."""
@@ -23,32 +25,71 @@ MOST_NUMBERED = 1000
 Data = dict[str, Any]
 
 
-def relations_of(stops: Sequence[Entry], asking: Asking) -> tuple[list[Data], list[Doubt]]:
-    """Return who is served together or apart, and which names bind nobody. In place.
+class Relation(NamedTuple):
+    """A relation of the request, and the first cell that states it."""
+
+    stated: Data
+    cell: str
+
+
+def relations_of(stops: Sequence[Entry],
+                 asking: Asking) -> tuple[list[Relation], list[Doubt]]:
+    """Return who is served together, apart or in order, and which names bind nobody. In place.
 
     A cell names another customer, or a group that other rows name too.
     """
-    known = _stops_called(stops)
-    found: list[Data] = []
-    alone: list[Doubt] = []
+    known = stops_called(stops)
+    found, alone = _orders(stops, known, asking)
     for kind in RELATED:
         groups, first = _groups(stops, kind)
         names_groups = _names_groups(kind, groups, first, known, asking)
-        sets: list[list[str]] = []
+        sets: dict[tuple[str, ...], str] = {}
         for name, members in groups.items():
             called = [] if names_groups else known.get(name, [])
             if len({*called, *members}) > 1:
-                sets += _sets(kind, called, members)
+                for group in _sets(kind, called, members):
+                    sets.setdefault(tuple(dict.fromkeys(group)), first[name][0])
             else:
-                cell, text = first[name]
-                alone.append(Doubt("RELATED_TO_NOBODY", f"{text!r} ({cell}) is neither another "
-                                   "customer nor on another row, and binds nobody.", cell=cell))
-        found += [{"kind": kind, "customers": list(group)}
-                  for group in dict.fromkeys(tuple(dict.fromkeys(group)) for group in sets)]
+                alone.append(_alone(*first[name]))
+        found += [Relation({"kind": kind, "customers": list(group)}, cell)
+                  for group, cell in sets.items()]
     return found, alone
 
 
-def _stops_called(stops: Sequence[Entry]) -> dict[str, list[str]]:
+def _alone(cell: str, text: str) -> Doubt:
+    return Doubt("RELATED_TO_NOBODY", f"{text!r} ({cell}) is neither another customer nor on "
+                 "another row, and binds nobody.", cell=cell)
+
+
+def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
+            asking: Asking) -> tuple[list[Relation], list[Doubt]]:
+    """Return who is served before whom, and which names are nobody's. In place."""
+    pairs: dict[tuple[str, str], str] = {}
+    alone = []
+    for stop in stops:
+        for row, meaning in product(stop.rows, ("before", "after")):
+            for text in _named(row, meaning):
+                others = [other for other in known.get(simple(text), ())
+                          if other != stop.customer["id"]]
+                alone += [] if others else [_alone(row.cell(meaning), text)]
+                for other in others:
+                    pair = stop.customer["id"], other
+                    pairs.setdefault(pair if meaning == "before" else pair[::-1],
+                                     row.cell(meaning))
+    if not pairs:
+        return [], alone
+    (first, second), cell = next(iter(pairs.items()))
+    answer = asking.ask(Question(
+        "orders", "orders", f"Some are served before others, such as {first!r} before {second!r} "
+        f"({cell}): by one vehicle?",
+        {ONE: "By one vehicle", ANY: "By any, trucks alone"}, ONE,
+        {"count": len(pairs), "first": first[:80], "second": second[:80]}, cell=cell))
+    across = {} if answer == ONE else {"same_vehicle": False}
+    return [Relation({"kind": "before", "customers": list(pair), **across}, cell)
+            for pair, cell in pairs.items()], alone
+
+
+def stops_called(stops: Sequence[Entry]) -> dict[str, list[str]]:
     """Return the stops by their names and order numbers."""
     found: dict[str, list[str]] = defaultdict(list)
     for stop in stops:
@@ -111,7 +152,7 @@ def price_others(stops: Sequence[Entry], fleet: Sequence[Data],
     unknown: list[tuple[str, str]] = []
     without_price = []
     for stop in stops:
-        row = stop.rows[0]
+        row = next((row for row in stop.rows if row.get("preferred_vehicles")), stop.rows[0])
         texts = row.get("preferred_vehicles") or ()
         unknown += [(row.cell("preferred_vehicles"), text) for text in texts
                     if simple(text) not in known]

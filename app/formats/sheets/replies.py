@@ -32,6 +32,7 @@ def reply_of(work: Import, file: SheetFile, settings: ImportSettings) -> ImportR
         header_rows=[row + 1 for row in table.header_rows],
         rows=len(table.rows),
         customers=len(work.stops),
+        shipments=len(work.shipments),
         columns=[_column_reply(table, column, style) for column in work.columns],
         day=style.day.isoformat() if style.day else None,
         doubts=[_doubt_reply(doubt) for doubt in work.doubts],

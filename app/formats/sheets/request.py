@@ -13,10 +13,10 @@ from app.formats.sheets.customers import Entry, placed
 from app.formats.sheets.fleet import Incomplete, fleet_of
 from app.formats.sheets.geography import Ground, Pair, depot_pair, on_globe
 from app.formats.sheets.headings import without_unit
-from app.formats.sheets.related import price_others
+from app.formats.sheets.related import Relation, price_others
 from app.formats.sheets.rows import Row
 from app.formats.sheets.schemas import ImportSettings
-from app.formats.sheets.vans import Van
+from app.formats.sheets.work import Import
 from app.requests.reading import read_request
 from app.requests.warnings.finding import warnings_of
 from app.requests.warnings.warning import RequestWarning
@@ -26,10 +26,12 @@ CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "deman
          "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
          "service_duration": ("service",), "release_time": ("ready",), "skills": ("skills",),
          "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",),
-         "vehicle_costs": ("preference_cost", "preferred_vehicles")}
+         "vehicle_costs": ("preference_cost", "preferred_vehicles"), "amount": ("demand",),
+         "max_time_between": ("max_between",), "alternatives": ("alternative_cost", "name")}
 """Meanings of the columns that fields of a customer come from."""
 
 _RELATION = re.compile(r"\$\.relations\[(\d+)\]")
+_SHIPMENT = re.compile(r"\$\.shipments\[(\d+)\]\.?(?:(pickup|delivery)\.)?(\w*)")
 _PATH = re.compile(r"\$\.customers\[(\d+)\]\.?(\w*)")
 
 LONGEST_NAME, LONGEST_UNIT = 200, 50
@@ -38,9 +40,8 @@ LONGEST_NAME, LONGEST_UNIT = 200, 50
 Data = dict[str, Any]
 
 
-def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
-               columns: Sequence[Column], settings: ImportSettings,
-               vans: Sequence[Van] = ()) -> tuple[Data, list[Doubt]]:
+def request_of(work: Import, depots: Sequence[Row], ground: Ground,
+               settings: ImportSettings) -> tuple[Data, list[Doubt]]:
     """Return a request and what was assumed for it.
 
     Raises
@@ -48,9 +49,10 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
     Incomplete
         If a setting doesn't fit.
     """
-    depot, doubts = _depots(stops, depots, ground, settings)
-    fleet, assumed = fleet_of(stops, columns, settings, vans)
-    assumed += price_others(stops, fleet, vans)
+    columns, served = work.columns, [*work.stops, *work.shipments]
+    depot, doubts = _depots(served, depots, ground, settings)
+    fleet, assumed = fleet_of(served, columns, settings, work.vans)
+    assumed += price_others(served, fleet, work.vans)
     unit: Data = {}
     if not ground.is_geographic:
         in_km = any(column.meaning == "x" and column.unit == "km" for column in columns)
@@ -61,7 +63,9 @@ def request_of(stops: Sequence[Entry], depots: Sequence[Row], ground: Ground,
     currency = {"currency": settings.currency} if settings.currency else {}
     request: Data = {"coordinate_system": system, **unit, **currency, **_loads(columns),
                      "depots": depot,
-                     "customers": [stop.customer for stop in stops], "fleet": fleet}
+                     "customers": [stop.customer for stop in work.stops], "fleet": fleet}
+    if work.shipments:
+        request["shipments"] = [shipment.customer for shipment in work.shipments]
     return request, [*doubts, *assumed]
 
 
@@ -75,13 +79,15 @@ def _loads(columns: Sequence[Column]) -> Data:
                                 for column in amounts]}
 
 
-def look_over(request: Data, stops: Sequence[Entry], road_profiles: Collection[str]) -> tuple[
-        list[CellError], tuple[RequestWarning, ...]]:
+def look_over(request: Data, work: Import, relations: Sequence[Relation],
+              road_profiles: Collection[str]) -> tuple[
+                  list[CellError], tuple[RequestWarning, ...]]:
     """Return what planning doesn't take, at the cells where it comes from, and what looks wrong."""
     try:
         read = read_request(to_json(request), policies=None)
     except InvalidRequestError as error:
-        return [_at_cell(item, stops, request) for item in error.errors], ()
+        return [CellError(item.code, item.message, _cell(item, work, relations))
+                for item in error.errors], ()
     return [], warnings_of(read, road_profiles)
 
 
@@ -101,18 +107,18 @@ def stated_depot(settings: ImportSettings) -> Pair | None:
         raise Incomplete("DEPOT", f"The depot can't be read: {error}.") from error
 
 
-def _at_cell(error: InputError, stops: Sequence[Entry], request: Data) -> CellError:
+def _cell(error: InputError, work: Import, relations: Sequence[Relation]) -> str | None:
+    """Return the cell that an error of the request is about; None: it is about none."""
     if related := _RELATION.match(error.path):
-        relation = request["relations"][int(related[1])]
-        row = next(stop.rows[0] for stop in stops
-                   if stop.customer["id"] in relation["customers"]
-                   and any(stop.rows[0].get(relation["kind"]) or ()))
-        return CellError(error.code, error.message, row.cell(relation["kind"]))
+        return relations[int(related[1])].cell
+    if sent := _SHIPMENT.match(error.path):
+        rows = work.shipments[int(sent[1])].rows
+        row = next((row for row in rows if row.side == sent[2]), rows[-1])
+        return row.cell(*CELLS.get(sent[3], ("shipment", "order", "name")))
     found = _PATH.match(error.path)
     if found is None:
-        return CellError(error.code, error.message)
-    row = stops[int(found[1])].rows[0]
-    return CellError(error.code, error.message, row.cell(*CELLS.get(found[2], ("name",))))
+        return None
+    return work.stops[int(found[1])].rows[0].cell(*CELLS.get(found[2], ("name",)))
 
 
 def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: Ground,

@@ -28,6 +28,8 @@ class Row:
     values: dict[str, Any] = field(default_factory=dict)
     cells: dict[str, str] = field(default_factory=dict)  # names, by meaning
     errors: list[CellError] = field(default_factory=list)
+    side: str = ""  # which place of a whole it states: pickup, delivery, alternative
+    whole: str | int | None = None  # the shipment, or the row, that it is a part of
 
     def get(self, meaning: str) -> Any:
         """Return what the row says; None if nothing."""

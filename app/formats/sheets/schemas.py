@@ -227,6 +227,7 @@ class ImportReply(_Reply):
     header_rows: list[int] = Field(description="Rows of headings, counted from 1.")
     rows: int = Field(description="Rows below that hold anything.")
     customers: int = Field(description="Customers that they make.")
+    shipments: int = Field(description="Shipments that they make.")
     columns: list[ColumnReply] = Field(description="Columns that hold anything.")
     day: str | None = Field(description="Day that is planned, if the file or you state one.")
     doubts: list[DoubtReply] = Field(description="What was guessed or assumed beside the columns.")

@@ -8,11 +8,11 @@ from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import simple, unit_named, without_unit
 from app.formats.sheets.layout import Table, table_of
-from app.formats.sheets.meanings import FAMILIES, Kind
+from app.formats.sheets.meanings import DURATION_UNITS, FAMILIES, Kind
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import read
 from app.formats.sheets.table import Sheet
-from app.formats.sheets.units import clock_unit
+from app.formats.sheets.units import clock_unit, duration_unit
 
 WORDS = {
     "name": "fahrzeug|fahrzeuge|kennzeichen|vehicle|vehicles|van|truck|lkw|wagen|fzg|plate|"
@@ -39,16 +39,35 @@ WORDS = {
     "max_trips": "touren|fahrten|max touren|max trips|trips|rotations|max fahrten",
     "skills": "ausstattung|skills|equipment|merkmale|eigenschaften|equipement|hebebuhne|kuhlung",
     "drones": "drohnen|drones|drone|drohne",
+    "break": "pause|pausen|mittagspause|pausenfenster|pausenzeit|break|breaks|lunch|lunch break|"
+             "break window|break time|pause dejeuner|descanso|pausa|pausa pranzo|pauze|lunchpauze|"
+             "przerwa|intervalo",
+    "break_duration": "pausendauer|pausenlange|dauer der pause|break duration|break length|"
+                      "length of break|duree de la pause|duree pause|duracion del descanso|"
+                      "durata pausa|pauzeduur|czas przerwy|duracao da pausa",
+    "max_work": "max arbeitszeit|maximale arbeitszeit|hochstarbeitszeit|max hours|max working time|"
+                "max work|longest working time|max duty|duree max de travail|max jornada|"
+                "orario massimo|max werktijd",
+    "max_travel": "max fahrzeit|maximale fahrzeit|max driving|max driving time|longest driving|"
+                  "max travel time|conduite max|max rijtijd",
+    "driving_rules": "lenkzeiten|lenkzeitregel|lenk und ruhezeiten|driving rules|driver rules|"
+                     "hours of service|hos|temps de conduite|tiempos de conduccion|"
+                     "tempi di guida|rijtijden",
 }
 """Headings of columns, in simple letters; `|` stands between phrases."""
 
 KINDS: dict[str, Kind] = {
     "name": "text", "driver": "text", "count": "number", "capacity": "amount", "earliest": "clock",
     "latest": "clock", "window": "windows", "speed": "number", "per_km": "number",
-    "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names"}
+    "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names",
+    "break": "windows", "break_duration": "duration", "max_work": "duration",
+    "max_travel": "duration", "driving_rules": "text"}
 """What is read; of drones nothing is made, though a number of them is none of vehicles."""
 
 MEANINGS = {phrase: meaning for meaning, phrases in WORDS.items() for phrase in phrases.split("|")}
+
+USUAL_UNITS = {"max_work": "hours", "max_travel": "hours"}
+"""What lengths of time are in where neither heading nor cells say so."""
 
 MOST_VANS = 1000
 
@@ -64,6 +83,8 @@ class Van:
     shift: tuple[float | None, float | None] | None = None
     skills: list[str] = field(default_factory=list)
     driver: str = ""
+    breaks: list[tuple[float | None, float | None]] | None = None
+    driving_rules: str = ""
 
 
 def lists_vans(sheet: Sheet) -> bool:
@@ -83,8 +104,7 @@ def vans_of(sheet: Sheet, style: Style) -> tuple[list[Van], list[Doubt]]:
     """Return the vehicles of a sheet, and what of it isn't used."""
     table = table_of(sheet)
     meant = _columns(table)
-    units = {column: clock_unit([raw for _, raw in table.column(column)], None).unit
-             for column, meaning in meant.items() if meaning in ("earliest", "latest")}
+    units = {column: _unit_in(table, column, meaning) for column, meaning in meant.items()}
     vans = [van for row in table.rows[:MOST_VANS]
             if (van := _van(table, row, meant, units, style)) is not None]
     unused = [heading or letters(column) for column, heading in enumerate(table.headings)
@@ -110,11 +130,24 @@ def _meaning_of(heading: str) -> str | None:
     return max(found)[1] if found else None
 
 
+def _unit_in(table: Table, column: int, meaning: str) -> str | None:
+    """Return what bare numbers of times in a column are in; None: it has none."""
+    cells = [raw for _, raw in table.column(column)]
+    if meaning in ("earliest", "latest"):
+        return clock_unit(cells, None).unit
+    if KINDS[meaning] != "duration":
+        return None
+    stated = _unit_of(table.headings[column], None)
+    return duration_unit(cells, stated or USUAL_UNITS.get(meaning)).unit
+
+
 def _columns(table: Table) -> dict[int, str]:
     """Return what columns mean; all but capacities stand once."""
     meant: dict[int, str] = {}
     for column, heading in enumerate(table.headings):
         meaning = _meaning_of(heading)
+        if meaning == "break" and _unit_of(heading, None) in DURATION_UNITS:
+            meaning = "break_duration"
         if meaning in KINDS and (meaning == "capacity" or meaning not in meant.values()):
             meant[column] = meaning
     return meant
@@ -141,6 +174,10 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
             ends[meaning] = value
         elif meaning == "skills":
             van.skills = value
+        elif meaning == "break":
+            van.breaks = value
+        elif meaning == "driving_rules":
+            van.driving_rules = value
         else:
             van.values[meaning] = value
     if ends:

@@ -26,6 +26,7 @@ class Import:
     doubts: list[Doubt] = field(default_factory=list)
     errors: list[CellError] = field(default_factory=list)
     stops: list[Entry] = field(default_factory=list)
+    shipments: list[Entry] = field(default_factory=list)
     request: dict[str, Any] | None = None
     warnings: tuple[RequestWarning, ...] = ()
     looked_up: LookUpReply | None = None

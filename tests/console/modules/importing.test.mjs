@@ -4,6 +4,7 @@ import {
   addressesIn,
   byAddress,
   forNextFile,
+  meaningText,
   placing,
   readFields,
   remember,
@@ -68,15 +69,32 @@ test('answers add up, and those about rows of one file are not kept for another'
 });
 
 test('customers of one address are placed at once, and may be left out', () => {
+  const ring = { address: 'Ring 1' };
   const at = (id, location) => ({ id, location });
   const request = {
-    customers: [at('A', { address: 'Ring 1' }), at('B', [1, 2]), at('C', { address: 'Ring 1' })],
+    depots: [],
+    fleet: [],
+    customers: [at('A', ring), { ...at('B', [1, 2]), alternatives: [at('kiosk', ring)] }],
+    shipments: [
+      { id: 'S', pickup: { location: [1, 2] }, delivery: { location: ring } },
+      { id: 'T', pickup: { location: [1, 2] }, delivery: { location: [1, 3] } },
+    ],
   };
-  assert.deepEqual(addressesIn(request), [{ address: 'Ring 1', ids: ['A', 'C'] }]);
+  const ids = ['A', 'B/kiosk', 'S/delivery'];
+  assert.deepEqual(addressesIn(request), [{ address: 'Ring 1', ids }]);
   assert.deepEqual(addressesIn(null), []);
   assert.deepEqual(unplacedIn(request, { 'Ring 1': [3, 4] }), []);
   assert.deepEqual(byAddress({ 'Ring 1': [3, 4] }).get('Ring 1').places[0].location, [3, 4]);
-  assert.deepEqual(withoutUnplaced(request).customers, [at('B', [1, 2])]);
+  const left = withoutUnplaced(request);
+  assert.deepEqual(left.customers, [{ ...at('B', [1, 2]), alternatives: [] }]);
+  assert.deepEqual(left.shipments.map(({ id }) => id), ['T']);
+});
+
+test('columns of other places are told by the place and what they say of it', () => {
+  assert.equal(meaningText('pickup_latitude', 'x'), 'Pickup: Latitude');
+  assert.equal(meaningText('alternative_cost', 'x'), 'Cost of the other place');
+  assert.equal(meaningText('pickup', 'x'), 'Amount to pick up');
+  assert.equal(meaningText('newest', 'Newest'), 'Newest');
 });
 
 test('a place is written as maps show it, or as x and y of a plane', () => {

@@ -1,6 +1,8 @@
 /** What the console knows of imports: corrections, what is stated beside, earlier mappings. */
 
+import { t } from '../texts.js';
 import { parseNumber } from './format.js';
+import { soughtIn } from './places.js';
 
 const MOST_REMEMBERED = 30;
 const MOST_PLACES = 3000;
@@ -27,6 +29,14 @@ export const FIELDS = [
 /** Return a text, or what stands in its place where the language has none by its key. */
 export function knownOr(text, fallback) {
   return /^import\.\S+$/.test(text) ? fallback : text;
+}
+
+/** Return what a column means in words; of a row's other places, with which one it is. */
+export function meaningText(meaning, title) {
+  const own = knownOr(t(`import.meaning.${meaning}`), null);
+  const [, side, rest] = /^(pickup|alternative)_(\w+)$/.exec(meaning) ?? [];
+  if (own || !side) return own ?? title;
+  return `${t(`import.side.${side}`)}: ${t(`import.meaning.${rest}`)}`;
 }
 
 function text(value) {
@@ -94,11 +104,11 @@ export function unplacedIn(request, places) {
   return addressesIn(request).filter(({ address }) => !places[address]);
 }
 
-/** Return the addresses of customers that are not looked up: `[{address, ids}]`. */
+/** Return the addresses of customers and shipments that are not looked up: `[{address, ids}]`. */
 export function addressesIn(request) {
   const ids = new Map();
-  for (const { id, location } of request?.customers ?? []) {
-    if (location?.address) ids.set(location.address, [...(ids.get(location.address) ?? []), id]);
+  for (const { key, address } of soughtIn(request)) {
+    if (key.startsWith('c:')) ids.set(address, [...(ids.get(address) ?? []), key.slice(2)]);
   }
   return [...ids].map(([address, named]) => ({ address, ids: named }));
 }
@@ -113,9 +123,19 @@ export function byAddress(places) {
   );
 }
 
-/** Return a request without the customers whose addresses have no place. */
+/** Return a request without whoever's addresses have no place, and without such other places. */
 export function withoutUnplaced(request) {
-  return { ...request, customers: request.customers.filter(({ location }) => !location?.address) };
+  const isPlaced = ({ location }) => !location?.address;
+  const customers = request.customers.filter(isPlaced).map((customer) =>
+    customer.alternatives
+      ? { ...customer, alternatives: customer.alternatives.filter(isPlaced) }
+      : customer,
+  );
+  if (!request.shipments) return { ...request, customers };
+  const shipments = request.shipments.filter(
+    ({ pickup, delivery }) => isPlaced(pickup) && isPlaced(delivery),
+  );
+  return { ...request, customers, shipments };
 }
 
 /** Return how a place is written where latitude comes first, or x where the map is a plane. */

@@ -36,9 +36,13 @@ export function soughtIn(request) {
   request?.launch_sites?.forEach(({ id, location }, at) =>
     add(location, `launch_site ${id}`, ['launch_sites', at, 'location']),
   );
-  request?.customers.forEach(({ id, location }, at) =>
-    add(location, `c:${id}`, ['customers', at, 'location']),
-  );
+  request?.customers.forEach(({ id, location, alternatives }, at) => {
+    add(location, `c:${id}`, ['customers', at, 'location']);
+    alternatives?.forEach((place, nth) =>
+      add(place.location, `c:${id}/${place.id}`,
+        ['customers', at, 'alternatives', nth, 'location']),
+    );
+  });
   request?.shipments?.forEach((shipment, at) =>
     ENDS.forEach((kind) => add(shipment[kind]?.location,
       `c:${visitName({ kind, id: shipment.id })}`, ['shipments', at, kind, 'location'])),

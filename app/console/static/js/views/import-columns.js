@@ -1,6 +1,6 @@
 /** The columns of a file: what each means, in which unit, and readings beside the raw cells. */
 
-import { knownOr } from '../core/importing.js';
+import { knownOr, meaningText } from '../core/importing.js';
 import { changeColumn } from '../importing.js';
 import { html, useState } from '../libraries.js';
 import { t } from '../texts.js';
@@ -23,7 +23,7 @@ function Column({ column, meanings }) {
     <select aria-label=${t('import.meaningOf', { name })} value=${meaning}
       onChange=${(event) => changeColumn(column, { meaning: event.target.value, unit: null })}>
       ${meanings.map((entry) => html`<option key=${entry.meaning}
-        value=${entry.meaning}>${knownOr(t(`import.meaning.${entry.meaning}`), entry.title)}
+        value=${entry.meaning}>${meaningText(entry.meaning, entry.title)}
         </option>`)}</select>
     ${units.length > 0 && html`<select aria-label=${t('import.unitOf', { name })}
       value=${unit ?? ''}

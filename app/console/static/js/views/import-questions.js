@@ -1,6 +1,6 @@
 /** What a file leaves open, each answered by a click; what is taken without one is marked. */
 
-import { knownOr } from '../core/importing.js';
+import { knownOr, meaningText } from '../core/importing.js';
 import { answer } from '../importing.js';
 import { html } from '../libraries.js';
 import { t } from '../texts.js';
@@ -59,7 +59,7 @@ function OtherMeaning({ question, column, reply, onChoose }) {
     ${reply.meanings
       .filter(({ meaning }) => !likely.includes(meaning))
       .map(({ meaning, title }) => html`<option key=${meaning}
-        value=${meaning}>${knownOr(t(`import.meaning.${meaning}`), title)}</option>`)}</select>`;
+        value=${meaning}>${meaningText(meaning, title)}</option>`)}</select>`;
 }
 
 /** Return a question in the reader's language, as the service has it where it is a new kind. */
@@ -68,6 +68,6 @@ function textOf({ kind, values, text }) {
 }
 
 function titleOf(kind, choice, title) {
-  if (kind === 'column') return knownOr(t(`import.meaning.${choice}`), title);
+  if (kind === 'column') return meaningText(choice, title);
   return knownOr(t(`import.answer.${choice}`), title);
 }

@@ -1,0 +1,133 @@
+"""Both ends of parcels that are fetched and brought -> shipments of a request."""
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from app.formats.sheets.cells import CellError, Doubt
+from app.formats.sheets.customers import LONGEST_NAME, Entry, joined
+from app.formats.sheets.readers import DELIVERY, PICKUP
+from app.formats.sheets.rows import Row
+from app.schemas.fields import MAX_INFO_ENTRIES
+
+OF_END = ("location", "service_duration", "time_window", "time_windows", "info")
+OF_BOTH = ("vehicles", "unassigned_cost")
+RELATED = ("together", "apart", "before", "after")
+
+Data = dict[str, Any]
+
+
+def shipments_of(entries: Sequence[Entry]) -> tuple[list[Entry], list[Doubt], list[CellError]]:
+    """Return the shipments that rows make, what they can't be, and what is wrong."""
+    wholes: dict[str | int, list[Entry]] = {}
+    for entry in entries:
+        row = entry.rows[0]
+        if row.side in (PICKUP, DELIVERY) and row.whole is not None:
+            wholes.setdefault(row.whole, []).append(entry)
+    found: list[Entry] = []
+    errors: list[CellError] = []
+    names: set[str] = set()
+    for whole in wholes.values():
+        ends = [[entry for entry in whole if entry.rows[0].side == side]
+                for side in (PICKUP, DELIVERY)]
+        if not all(ends):  # the other row is refused
+            continue
+        wrong = _wrong(ends)
+        if wrong is not None:
+            errors.append(wrong)
+            continue
+        shipment = _shipment(joined(ends[0]), joined(ends[1]), names)
+        names.add(shipment.customer["id"])
+        found.append(shipment)
+    return found, _unrelated(found), errors
+
+
+def _wrong(ends: Sequence[Sequence[Entry]]) -> CellError | None:
+    """Return why rows make no shipment; None: they do."""
+    for end in ends:
+        places = {repr(entry.customer["location"]) for entry in end}
+        if len(places) > 1:
+            row = end[1].rows[0]
+            return CellError(
+                "SHIPMENT_ROWS", f"The shipment {_name(row)} has {len(places)} places of "
+                f"{row.side}, and one is possible: make a shipment of each.",
+                row.cell("shipment", "order"))
+    amounts = [_amounts(end) for end in ends]
+    if all(map(any, amounts)) and amounts[0] != amounts[1]:
+        row = ends[1][0].rows[0]
+        return CellError(
+            "SHIPMENT_AMOUNTS", f"Another amount is picked up than is delivered of {_name(row)}: "
+            "state the same, or one.", row.cell("demand", "pickup", "shipment", "order"))
+    return None
+
+
+def _amounts(end: Iterable[Entry]) -> list[float]:
+    """Return what is fetched, or brought, at an end, in whichever column it stands."""
+    stated = [entry.customer["demand"] if any(entry.customer["demand"])
+              else entry.customer.get("pickup", entry.customer["demand"]) for entry in end]
+    return [round(sum(amounts), 9) for amounts in zip(*stated, strict=True)]
+
+
+def _shipment(pickup: Entry, delivery: Entry, names: set[str]) -> Entry:
+    rows = [*pickup.rows, *delivery.rows]
+    ends = (delivery.customer, pickup.customer)
+    amounts = _amounts([pickup])
+    shipment: Data = {"id": _own_name(_name(delivery.rows[0]), names),
+                      "amount": amounts if any(amounts) else _amounts([delivery]),
+                      "pickup": _end(pickup), "delivery": _end(delivery)}
+    _wait_for_release(shipment["pickup"], max(end.get("release_time", 0.0) for end in ends))
+    if delivery.customer.get("served_by", "truck") != "truck":
+        shipment["delivery"]["served_by"] = "either"
+    for name in OF_BOTH:
+        if stated := [end[name] for end in ends if name in end]:
+            shipment[name] = stated[0]
+    if skills := list(dict.fromkeys(skill for end in ends for skill in end.get("skills", ()))):
+        shipment["skills"] = skills
+    between = [row.values["max_between"] for row in rows if row.get("max_between") is not None]
+    return Entry(shipment | ({"max_time_between": min(between)} if between else {}), rows)
+
+
+def _end(entry: Entry) -> Data:
+    """Return an end; who is there is told to drivers, as it has no name of its own."""
+    end = {name: entry.customer[name] for name in OF_END if name in entry.customer}
+    name = entry.rows[0].get("name")
+    if not name:
+        return end
+    told = {"name": str(name)[:LONGEST_NAME], **end.get("info", {})}
+    return end | {"info": dict(list(told.items())[:MAX_INFO_ENTRIES])}
+
+
+def _wait_for_release(pickup: Data, release: float) -> None:
+    """Have a parcel picked up no earlier than it is there. In place."""
+    if not release:
+        return
+    if "time_windows" in pickup:
+        pickup["time_windows"] = [
+            window | {"earliest": max(window["earliest"], release)}
+            for window in pickup["time_windows"] if window.get("latest", release) >= release]
+    else:
+        window = pickup.get("time_window", {"earliest": 0.0})
+        pickup["time_window"] = window | {"earliest": max(window["earliest"], release)}
+
+
+def _name(row: Row) -> str:
+    """Return what a shipment is called, by any of its rows."""
+    name = next((str(row.get(meaning)) for meaning in ("shipment", "order", "name")
+                 if row.get(meaning)), f"row {row.number + 1}")
+    return " ".join(name.split())[:LONGEST_NAME - 20]
+
+
+def _own_name(name: str, names: set[str]) -> str:
+    number, free = 1, name
+    while free in names:
+        number += 1
+        free = f"{name} ({number})"
+    return free
+
+
+def _unrelated(shipments: Iterable[Entry]) -> list[Doubt]:
+    """Return the doubt about shipments that name whom they go with."""
+    named = [row.cell(meaning) for shipment in shipments for row in shipment.rows
+             for meaning in RELATED if any(row.get(meaning) or ())]
+    return [Doubt("RELATION_OF_SHIPMENT", f"{len(named)} shipments name whom they go with, or "
+                  f"before, such as {named[0]}: relations bind customers alone.",
+                  cell=named[0])] if named else []

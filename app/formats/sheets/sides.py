@@ -1,0 +1,145 @@
+"""Which place of a row a heading is about: its own, where a shipment is fetched, or another."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+
+from app.formats.sheets.headings import (
+    HEADING, LONGEST_LOOK, MOST_LOOKED_AT, SURE, Guess, guesses, simple,
+)
+from app.formats.sheets.meanings import OF_PICKUPS, OF_SIDES, meaning_at
+
+OWN, DELIVERY, PICKUP, ALTERNATIVE = "", "delivery", "pickup", "alternative"
+
+WORDS = {
+    PICKUP: "pickup collection collect origin sender shipper consignor loading abholung absender "
+            "versender beladung ladestelle beladestelle ladeort enlevement expediteur chargement "
+            "retrait ramassage depart recogida remitente origen ritiro mittente ophalen afzender "
+            "odbior odbioru nadawca nadawcy zaladunku coleta recolha remetente origem",
+    DELIVERY: "delivery dropoff destination dest consignee recipient receiver unloading lieferung "
+              "empfanger entladung zustellung entladestelle livraison destinataire dechargement "
+              "entrega destino destinatario consegna levering ontvanger dostawy odbiorca odbiorcy "
+              "rozladunku ziel",
+    ALTERNATIVE: "alternative alternate alternativ alternativa alternativo alternatief "
+                 "alternatieve alternatywny alternatywna alternatywne fallback locker packstation "
+                 "paketshop",
+}
+STEMS = {PICKUP: ("abhol", "belade", "absender", "versender", "ophaal", "laad"),
+         DELIVERY: ("liefer", "anliefer", "zustell", "empfanger", "entlade", "ziel", "bezorg",
+                    "aflever"),
+         ALTERNATIVE: ("alternativ", "ausweich", "ersatz")}
+"""How compounds begin that are about a side."""
+
+ENDS = {"from": PICKUP, "von": PICKUP, "to": DELIVERY, "nach": DELIVERY}
+"""What stands before a place's columns, and alone says when windows begin and end."""
+
+FILLERS = frozenset((
+    "d", "de", "di", "da", "do", "des", "du", "del", "della", "dell", "of", "the", "la", "le"))
+
+SPLIT = {("pick", "up"): "pickup", ("drop", "off"): "dropoff"}
+
+PLACE = frozenset(("latitude", "longitude", "point", "x", "y", "address", "street", "postcode",
+                   "town"))
+NAMED = PLACE | {"name", "house_number"}
+
+WHEN = frozenset((
+    "time", "times", "zeit", "heure", "hora", "ora", "tijd", "czas"))
+WHERE = frozenset((
+    "location", "place", "site", "ort", "stelle", "lieu", "lugar", "luogo", "plaats", "miejsce",
+    "local"))
+PEOPLE = frozenset((
+    "sender", "shipper", "consignor", "absender", "versender", "expediteur", "remitente",
+    "mittente", "afzender", "nadawca", "remetente"))
+BARE = frozenset((
+    "origin", "destination", "dest", "ladestelle", "beladestelle", "ladeort", "entladestelle",
+    "origen", "destino", "origem", "ziel", "locker", "packstation", "paketshop"))
+"""Headings that say no more than which place, or whose."""
+
+SAID_ALONE = 0.9
+SAID_SO = 0.8
+
+
+@dataclass(frozen=True)
+class Side:
+    """Which place a heading is about, and what it says of it."""
+
+    name: str = OWN
+    found: tuple[Guess, ...] = ()
+
+
+def sides_of(headings: Sequence[str]) -> list[Side]:
+    """Return which place each heading is about; all their own where none says a second."""
+    sides = [_side(heading) for heading in headings]
+    own = any(_is_place(guess) for heading, side in zip(headings, sides, strict=True)
+              for guess in (side.found if side.name == DELIVERY else guesses(heading)[:2])
+              if side.name in (OWN, DELIVERY))
+    stated = {side.name for side in sides if own and any(map(_is_place, side.found))}
+    kept = {PICKUP, DELIVERY} if PICKUP in stated else set()
+    kept |= {ALTERNATIVE} & stated
+    return [side if side.name in kept else Side() for side in sides]
+
+
+def guesses_at(heading: str, side: Side) -> tuple[Guess, ...]:
+    """Return what a heading may mean, of the place that it is about."""
+    if side.name == OWN:
+        return guesses(heading)
+    if side.name == DELIVERY:
+        return side.found
+    return tuple(replace(guess, meaning=meaning_at(side.name, guess.meaning))
+                 for guess in side.found)
+
+
+def _is_place(guess: Guess) -> bool:
+    return guess.meaning in PLACE and guess.score >= HEADING
+
+
+def _side(heading: str) -> Side:
+    known = guesses(heading)
+    for name, words, is_weak in _parts(_words(heading)):
+        of_side = OF_PICKUPS if name == PICKUP else OF_SIDES
+        found = tuple(guess for guess in (*_bare(heading, words), *guesses(" ".join(words)))
+                      if guess.meaning in (NAMED if is_weak else of_side))
+        is_sure = bool(known) and known[0].score == SURE and (
+            name == DELIVERY or known[0].meaning not in of_side or is_weak)
+        if found and found[0].score >= HEADING and not is_sure:
+            return Side(name, found)
+    return Side()
+
+
+def _words(heading: str) -> list[str]:
+    words = simple(heading[:LONGEST_LOOK]).split()[:MOST_LOOKED_AT]
+    for first, second in list(pairwise(words)):
+        if (first, second) in SPLIT:
+            place = words.index(first)
+            words[place:place + 2] = [SPLIT[first, second]]
+    return words
+
+
+def _parts(words: Sequence[str]) -> Iterator[tuple[str, list[str], bool]]:
+    """Yield which side a heading may be about, what else it says, and if that is a weak word."""
+    for place, word in enumerate(words):
+        rest = [*words[:place], *words[place + 1:]]
+        if place and words[place - 1] in FILLERS:
+            rest = [*words[:place - 1], *words[place + 1:]]
+        for side, known in WORDS.items():
+            if word in known.split():
+                yield side, rest, False
+        for side, stems in STEMS.items():
+            yield from ((side, [*words[:place], *filter(None, [word.removeprefix(stem)]),
+                                *words[place + 1:]], False)
+                        for stem in stems if word.startswith(stem))
+        if word in ENDS and rest:
+            yield ENDS[word], rest, True
+
+
+def _bare(heading: str, rest: Sequence[str]) -> Iterator[Guess]:
+    """Yield what a heading means that says hardly more than the place."""
+    words = set(_words(heading))
+    if not rest and words & PEOPLE:
+        yield Guess("name", SAID_ALONE)
+    elif not rest and words & BARE:
+        yield Guess("address", SAID_ALONE)
+    elif len(rest) == 1 and rest[0] in WHEN:
+        yield Guess("window", SAID_SO)
+    elif len(rest) == 1 and rest[0] in WHERE:
+        yield Guess("address", SAID_SO)
