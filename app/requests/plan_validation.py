@@ -156,7 +156,9 @@ class _Checker:
             is_open = (is_last and kind is not None and kind.end == "open"
                        and (len(trip.stops) < 2 or trip.stops[-1].kind in ON_THE_WAY))
             begun = _begun(trip, kind, self._now)
-            if begun and any(stop.id in self._names.shipment_ends for stop in trip.stops):
+            served = {stop.id for stop in trip.stops} | {
+                visit.id for sortie in trip.sorties for visit in sortie.customers}
+            if begun and not self._names.shipment_ends.isdisjoint(served):
                 if begun.left < len(trip.stops) and route.vehicle in self._replan.unavailable:
                     yield _error("SHIPMENTS_UNDER_WAY", here, "The trip has begun, and has "
                                  "shipments that nobody else can take over yet: leave its vehicle "

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 from app.schemas.customer import customer_of, place_of
 from app.schemas.fields import Location
 from app.schemas.limits import MAX_VEHICLES
-from app.schemas.shipment import ENDS, end_name
+from app.schemas.shipment import ENDS, EndKind, end_name
 from app.schemas.times import READ_ANY_INSTANT, PlanStart, TimeZone
 from model.problem import UNLIMITED
 
@@ -37,7 +37,7 @@ Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT), READ_ANY_INST
 Number = Annotated[float | None, Field(description=NOT_READ)]
 Loads = Annotated[
     Annotated[list[float], Field(fail_fast=True)] | None, Field(description=NOT_READ)]
-VISIT_KIND_TEXT = "`delivery`: of a shipment. Left out where it is a customer."
+VISIT_KIND_TEXT = "`pickup`, `delivery`: of a shipment. Left out where it is a customer."
 Line = Annotated[str | None, Field(
     description="Encoded polyline, which pictures draw where it leads from place to place.")]
 Details = Annotated[dict[str, Any] | None, Field(description=NOT_READ)]
@@ -52,7 +52,7 @@ class _Plan(BaseModel):
 class VisitInput(_Plan):
     """A customer served by a drone. Times in seconds since plan start."""
 
-    kind: Literal["delivery"] | None = Field(None, description=VISIT_KIND_TEXT)
+    kind: EndKind | None = Field(None, description=VISIT_KIND_TEXT)
     id: str = Field(description="Id of the customer, or of the shipment.")
     alternative: str | None = Field(None, description=ALTERNATIVE_TEXT)
     arrival: Instant = Field(description="Arrival of the drone.")

@@ -15,6 +15,7 @@ from app.schemas.plan import (
     ALTERNATIVE_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
 )
 from app.schemas.replanned import ReplanReply
+from app.schemas.shipment import EndKind
 from app.schemas.times import InstantReply, WordsReply
 
 LINE = ("as an encoded polyline of six decimals, latitude (of planar places y) first. Null: not "
@@ -82,7 +83,7 @@ class StopReply(_Reply):
 class VisitReply(_Reply):
     """A customer served by a drone."""
 
-    kind: Literal["delivery"] | None = Field(None, description=VISIT_KIND_TEXT)
+    kind: EndKind | None = Field(None, description=VISIT_KIND_TEXT)
     id: str = Field(description="Id of the customer, or of the shipment.")
     alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
     arrival: InstantReply = Field(description="Arrival of the drone.")

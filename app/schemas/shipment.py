@@ -37,15 +37,11 @@ class ShipmentEndInput(Input):
         default_factory=dict, json_schema_extra={"default": {}},
         description="What drivers are to know there, in words.",
     )
-
-
-class ShipmentDeliveryInput(ShipmentEndInput):
-    """Where a shipment is delivered."""
-
     served_by: Literal["truck", "either"] = Field(
         "truck",
-        description="Who delivers: the truck itself, or either it or a drone of it, launched "
-        "at a stop behind that of the pickup.",
+        description="Who comes: the truck itself, or either it or a drone of it. What a drone "
+        "fetches is aboard the truck from where that recovers it; what one delivers is launched "
+        "at a stop behind.",
     )
 
 
@@ -55,7 +51,7 @@ class ShipmentInput(Input):
     id: Name = Field(description="Name of the shipment, unique among them.")
     amount: Demand = Field(description="What is aboard between, per dimension, as `demand`.")
     pickup: ShipmentEndInput = Field(description="Where it is fetched.")
-    delivery: ShipmentDeliveryInput = Field(description="Where it is brought.")
+    delivery: ShipmentEndInput = Field(description="Where it is brought.")
     max_time_between: Duration | None = Field(
         None,
         description="Longest time in seconds from the end of service at the pickup to the start "
@@ -89,9 +85,8 @@ class ShipmentInput(Input):
     def ends(self) -> Iterator[CustomerInput]:
         """Yield its ends as customers; only leaving out the first has a cost."""
         for kind, end in zip(ENDS, (self.pickup, self.delivery), strict=True):
-            own = {"served_by": "truck", **dict(end)}
             yield CustomerInput.model_construct(
-                None, **own, id=end_name(self.id, kind), demand=self.amount, pickup=None,
+                None, **dict(end), id=end_name(self.id, kind), demand=self.amount, pickup=None,
                 skills=self.skills, max_time_aboard=None, goods=self.goods,
                 release_time=0.0, vehicles=self.vehicles,
                 vehicle_costs=self.vehicle_costs if kind == "pickup" else {},

@@ -22,8 +22,8 @@ def add_shipments(rng: random.Random, request: Data, place: Callable[[], list[fl
                  **({} if fits else _asked(rng) | windows())} for _ in range(2)]
         request["shipments"].append({
             "id": f"📦 {number}", "amount": [rng.choice(choices) for _ in range(dimensions)],
-            "pickup": ends[0],
-            "delivery": ends[1] | _chosen(rng, 0.5, served_by="either"),
+            **{name: end | _chosen(rng, 0.5, served_by="either")
+               for name, end in zip(("pickup", "delivery"), ends, strict=True)},
             **_chosen(rng, 0.3, max_time_between=rng.choice((0, 1, 900, 7200, LONGEST))),
             **_chosen(rng, 0.3, max_detour=rng.choice((1, 1.0004, 2.5, 1e6))),
             **_chosen(rng, 0.2, unassigned_cost=rng.choice((None, 0, 1e-9, 3, 1000)))})

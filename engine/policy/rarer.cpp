@@ -40,9 +40,13 @@ Int num_bound(const Duty& duty, Int on_trip, Int by_vehicle) {
 // How much of shipments is aboard in the first dimension.
 Int parcels_aboard(const Setting& setting, const VehicleLog& log) {
     Int aboard = 0;
-    for (Int index = log.trip[log.count.trips - 1].first_stop; index < log.count.stops; ++index) {
-        const Int node = log.stop[index].node;
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    const auto count = [&](Int node) {
         if (is_paired(setting.pair, node)) aboard += picked_of(setting.amount, node, 0)[0];
+    };
+    for (Int index = first; index < log.count.stops; ++index) count(log.stop[index].node);
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (sortie.launch_stop >= first) count(sortie.node);
     }
     return aboard;
 }
@@ -85,6 +89,10 @@ Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery
         if (stop.node != pickup) continue;
         const Int left = stop.start + setting.node[pickup].service_duration();
         return excess_between(setting.max_between, pickup, left, start);
+    }
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (sortie.node != pickup) continue;
+        return excess_between(setting.max_between, pickup, sortie.ready, start);
     }
     return -far;
 }

@@ -61,38 +61,32 @@ inline Int excess_between(View<const Int, 1> max_between, Int pickup, Int left, 
     return start - left - max_between[pickup];
 }
 
-// Whether a shipment is picked up by a truck at a stop from `first` on, `behind` not among them,
-// and delivered by a drone; `node_at` tells who is served at each.
-template <class NodeAt>
-bool may_be_flown(View<const Pair, 1> pairs, Int delivery, Int first, Int behind,
-                  const NodeAt& node_at) {
-    for (Int p = first; p < behind; ++p) {
-        if (node_at(p) == pairs[delivery].partner) return true;
-    }
-    return false;
-}
+// Shipments on a trip as its ends are served: whether they are whole, each aboard its truck before
+// it is delivered.
+//
+// A shipment is aboard from the stop on where its truck picks it up, or recovers the drone that
+// does. It leaves at a later one, where its truck delivers it, or launches the drone that does.
+class WholePairs {
+public:
+    explicit WholePairs(View<const Pair, 1> pairs) : pairs_(pairs) {}
 
-// Whether the customers from `first` on, `behind` not among them, are whole shipments, each picked
-// up first, but for so many that are `flown` to where they are delivered; `node_at` tells who that
-// is, -1 nobody. Those before `first` are another trip's.
-template <class NodeAt>
-bool keeps_pairs(View<const Pair, 1> pairs, Int first, Int behind, Int flown,
-                 const NodeAt& node_at) {
-    Int aboard = 0;
-    for (Int p = first; p < behind; ++p) {
-        const Int node = node_at(p);
-        if (node < 0 || !is_paired(pairs, node)) continue;
-        if (pairs[node].is_delivery == 0) {
-            ++aboard;
-            continue;
-        }
-        Int q = p - 1;
-        while (q >= first && node_at(q) != pairs[node].partner) --q;
-        if (q < first) return false;
-        --aboard;
+    // Count whoever is served at a stop, or by a drone that is launched at one; `comes_before`
+    // tells whether a pickup counts at a stop before.
+    template <class ComesBefore>
+    void serve(Int node, const ComesBefore& comes_before) {
+        if (!is_paired(pairs_, node)) return;
+        const bool delivered = pairs_[node].is_delivery != 0;
+        whole_ = whole_ && (!delivered || comes_before(pairs_[node].partner));
+        aboard_ += delivered ? -1 : 1;
     }
-    return aboard == flown;
-}
+
+    bool are_kept() const { return whole_ && aboard_ == 0; }
+
+private:
+    View<const Pair, 1> pairs_;
+    Int aboard_ = 0;
+    bool whole_ = true;
+};
 
 // Whether each shipment is delivered before all that are picked up before it and not yet delivered:
 // those from `first` on, `behind` not among them, of which `keeps_pairs` holds.

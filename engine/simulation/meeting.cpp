@@ -9,6 +9,7 @@
 #include "rules/energy.h"
 #include "rules/flight.h"
 #include "rules/launch_place.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "simulation/aboard.h"
 #include "simulation/vehicle_log.h"
@@ -17,6 +18,11 @@ namespace tandem {
 namespace {
 
 constexpr Int not_yet = -1;  // take-off and recovery that have no time yet
+
+// Whether a drone fetches what the truck delivers next, at `to`: it is to be aboard before.
+bool is_awaited(const Setting& setting, const Drone& drone, Int to) {
+    return is_pickup(setting.pair, drone.node) && setting.pair[drone.node].partner == to;
+}
 
 // Mark where drones are recovered: at `to` those that can and may fly there, while there is room
 // for them in the air, else at `here`.
@@ -27,7 +33,8 @@ void mark_places(const Setting& setting, View<Drone, 1> drones, Int here, Int to
         Recovery place = Recovery::aboard;
         if (drone.sortie != in_flight) {
             const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-            const bool meets = room > 0 && drone_kind.in_range(to, drone.node) &&
+            const bool meets = room > 0 && !is_awaited(setting, drone, to) &&
+                               drone_kind.in_range(to, drone.node) &&
                                drone_kind.flight(here, drone.node, to).can_serve();
             place = meets ? Recovery::meet : Recovery::loop;
             if (meets) --room;

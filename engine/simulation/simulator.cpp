@@ -177,7 +177,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
             add_if_legal(verdict, {node, false});
         }
         if (room.sortie && instance.can_fly(b, k, node) && may_launch(setting, vehicle, node) &&
-            !(is_delivery(setting.pair, node) && setting.pair[node].partner == here)) {
+            (!is_delivery(setting.pair, node) || was_aboard(open, node))) {
             const Verdict verdict = is_held || is_idle
                                         ? Verdict::unsure
                                         : judge_launch(open, *earliest, node, outlooks[found]);

@@ -49,17 +49,28 @@ bool works_within(OpenVehicle& open) {
 // Who is served, in order, before the vehicle goes home.
 using Order = std::vector<Int>;
 
-// The deliveries of what is aboard, in the order of their pickups.
+// The deliveries of what is aboard, or fetched by drones, in the order of their pickups, those by
+// drones last.
 Order parcels_aboard(const Setting& setting, const VehicleLog& log) {
     Order aboard;
-    for (Int index = log.trip[log.count.trips - 1].first_stop; index < log.count.stops; ++index) {
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    const View<LoggedStop, 1> stops = log.stop.first(log.count.stops);
+    for (Int index = first; index < log.count.stops; ++index) {
         const Int node = log.stop[index].node;
         if (is_pickup(setting.pair, node)) aboard.push_back(setting.pair[node].partner);
-        if (is_delivery(setting.pair, node)) std::erase(aboard, node);
     }
-    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
-        if (is_delivery(setting.pair, sortie.node)) std::erase(aboard, sortie.node);
+    const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
+    for (const LoggedSortie& sortie : sorties) {
+        if (sortie.launch_stop >= first && is_pickup(setting.pair, sortie.node)) {
+            aboard.push_back(setting.pair[sortie.node].partner);
+        }
     }
+    std::erase_if(aboard, [&](Int delivery) {
+        return std::any_of(stops.begin(), stops.end(),
+                           [&](const LoggedStop& stop) { return stop.node == delivery; }) ||
+               std::any_of(sorties.begin(), sorties.end(),
+                           [&](const LoggedSortie& sortie) { return sortie.node == delivery; });
+    });
     return aboard;
 }
 
@@ -165,6 +176,19 @@ Int last_aboard(const OpenVehicle& open) {
     if (!some_paired(setting.pair) || vehicle.idle != 0 || log.count.trips == 0) return no_delivery;
     const Order aboard = parcels_aboard(setting, log);
     return aboard.empty() ? no_delivery : aboard.back();
+}
+
+bool was_aboard(const OpenVehicle& open, Int delivery) {
+    const auto& [setting, vehicle, log, drones] = open;
+    const Int pickup = setting.pair[delivery].partner, here = log.count.stops - 1;
+    const View<LoggedStop, 1> stops = log.stop.first(here);
+    const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
+    return std::any_of(stops.begin(), stops.end(),
+                       [&](const LoggedStop& stop) { return stop.node == pickup; }) ||
+           std::any_of(sorties.begin(), sorties.end(), [&](const LoggedSortie& sortie) {
+               return sortie.node == pickup && sortie.recovery_stop != in_flight &&
+                      sortie.recovery_stop < here;
+           });
 }
 
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook) {

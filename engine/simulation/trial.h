@@ -28,13 +28,17 @@ constexpr Int no_reload = -1;
 // tried. If `reload` is a node, the trip ends there before.
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook);
 
-// Tell whether shipments are aboard that have to be delivered before the trip ends.
+// Tell whether shipments are aboard, or fetched by drones, that have to be delivered before the
+// trip ends.
 bool carries_parcels(const OpenVehicle& open);
 
 constexpr Int no_delivery = -1;
 
 // Where the shipment is delivered that came aboard last, `no_delivery` if none is aboard.
 Int last_aboard(const OpenVehicle& open);
+
+// Tell whether a shipment was aboard as the vehicle came to the stop where it is, by its delivery.
+bool was_aboard(const OpenVehicle& open, Int delivery);
 
 // Tell whether the trip may end at a place that is not where the route may: if another follows.
 //

@@ -239,6 +239,10 @@ private:
             const Int left = served_[static_cast<std::size_t>(before)];
             return excess_between(setting_.max_between, pickup, left, start) <= 0;
         }
+        for (const LoggedSortie& sortie : log_.sortie.first(log_.count.sorties)) {
+            if (sortie.node != pickup) continue;
+            return excess_between(setting_.max_between, pickup, sortie.trial_ready, start) <= 0;
+        }
         return true;
     }
 
@@ -415,6 +419,10 @@ Int excess_of_pairs(const Setting& setting, const VehicleLog& log) {
             if (before.node != pickup) continue;
             const Int left = before.start + setting.node[pickup].service_duration();
             most = std::max(most, excess_between(setting.max_between, pickup, left, start));
+        }
+        for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+            if (sortie.node != pickup) continue;
+            most = std::max(most, excess_between(setting.max_between, pickup, sortie.ready, start));
         }
     };
     for (Int index = first; index < log.count.stops; ++index) {

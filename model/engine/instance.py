@@ -242,13 +242,18 @@ def _pack_customers(instance: Instance, row: int, problem: Problem,
 
 
 def _pack_pairs(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind]) -> None:
-    """Write who belongs together; nobody serves one end alone, no drone fetches. In place."""
+    """Write who belongs together; nobody serves one end alone, nor a drone from a stack. In place.
+
+    What a drone fetches, its truck may always deliver.
+    """
     ends = write_pairs(problem, instance.pair[row])
     write_aboard(problem, instance.amount[row], DIMENSIONS_PER_TIER)
     write_limits(problem, [kind for kind, _, _ in kinds], instance.max_between[row])
     instance.can_drive[row][:, ends] &= instance.can_drive[row][:, ends].all(axis=2)[..., None]
-    instance.can_fly[row][:, ends[:, 0]] = False
-    instance.can_fly[row][np.ix_(np.array([kind.lifo for kind, _, _ in kinds]), ends[:, 1])] = False
+    stacked = np.array([kind.lifo for kind, _, _ in kinds])
+    instance.can_fly[row][np.ix_(stacked, ends.ravel())] = False
+    driven = instance.can_drive[row][[part_of for _, part_of, _ in kinds]]
+    instance.can_fly[row][:, ends[:, 0]] &= driven[:, ends[:, 0]]
 
 
 def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from model.judge.pairs import change_aboard, flown_out
+from model.judge.pairs import change_aboard, flown_back, flown_out
 from model.problem import Customer, Problem, VehicleType
 from model.solution import Sortie, Trip
 
@@ -46,10 +46,16 @@ def trip_loads(problem: Problem, kind: VehicleType, trip: Trip) -> list[Amount]:
 
 
 def _add_shipments(problem: Problem, trip: Trip, loads: list[Amount]) -> None:
-    """Add what is aboard of shipments on leaving each stop. In place."""
+    """Add what is aboard of shipments on leaving each stop. In place.
+
+    Drones leave with what they deliver, and bring what they fetch where they are recovered.
+    """
     served = [[stop.node] for stop in trip.stops]
     for sortie in trip.sorties:
-        served[sortie.launch_stop] += [visit.node for visit in sortie.visits]
+        for visit in sortie.visits:
+            each = problem.shipment_at.get(visit.node)
+            fetches = each is not None and visit.node == each.pickup
+            served[sortie.recovery_stop if fetches else sortie.launch_stop].append(visit.node)
     aboard = (0,) * problem.num_dimensions
     for index, nodes in enumerate(served, 1):
         for node in nodes:
@@ -89,7 +95,7 @@ def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
     loads.reverse()
     taken = (0,) * problem.num_dimensions
     for index, visit in enumerate(sortie.visits, 1):
-        taken = _plus(taken, problem.customer_at(visit.node).taken_in)
+        taken = _plus(taken, flown_back(problem, visit.node))
         loads[index] = _plus(loads[index], taken)
     return loads
 

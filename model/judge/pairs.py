@@ -22,37 +22,47 @@ def flown_out(problem: Problem, node: int) -> tuple[int, ...]:
     return each.amount
 
 
+def flown_back(problem: Problem, node: int) -> tuple[int, ...]:
+    """Return what a truck's drone takes along from a customer."""
+    each = problem.shipment_at.get(node)
+    return each.amount if each is not None and node == each.pickup else (
+        problem.customer_at(node).taken_in)
+
+
 def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
     """Yield whoever serves an end of a shipment whose other end isn't where it should be, and why.
 
-    As part of a path. What a drone delivers is aboard its truck as that comes to the launch.
+    As part of a path. A parcel is aboard its truck from the stop on where that picks it up, or
+    recovers the drone that does; it is so as the truck comes to the stop where it delivers it, or
+    launches the drone that does.
     """
-    position = {stop.node: index for index, stop in trip.numbered_stops}
-    flown = {visit.node: sortie.launch_stop for sortie in trip.sorties for visit in sortie.visits}
-    for node, index in position.items():
+    position = {stop.node: (f".stops[{index}]", index) for index, stop in trip.numbered_stops}
+    position |= _flown_ends(problem, trip)
+    driven = {stop.node for stop in trip.customer_stops}
+    for node, (where, index) in position.items():
         each = problem.shipment_at.get(node)
         if each is None:
             continue
         other = each.delivery if node == each.pickup else each.pickup
-        if other not in position and (node == each.delivery or other not in flown):
-            yield f".stops[{index}]", f"the other end of shipment {each.id} isn't on this trip"
-        elif node == each.delivery and position[other] > index:
-            yield f".stops[{index}]", f"shipment {each.id} is delivered before it is picked up"
-    for where, node, launch_stop in _flown_ends(problem, trip):
-        each = problem.shipment_at[node]
-        if node == each.pickup:
-            yield where, f"shipment {each.id} is picked up by a drone"
-        elif position.get(each.pickup, launch_stop) >= launch_stop:
-            yield where, (f"shipment {each.id} isn't aboard where the drone is launched that "
-                          "delivers it")
+        if other not in position:
+            yield where, f"the other end of shipment {each.id} isn't on this trip"
+        elif node == each.delivery and position[other][1] >= index:
+            yield where, (f"shipment {each.id} is delivered before it is picked up"
+                          if driven.issuperset((node, other)) else
+                          f"shipment {each.id} isn't aboard as its truck comes to where it leaves")
 
 
-def _flown_ends(problem: Problem, trip: Trip) -> Iterator[tuple[str, int, int]]:
-    """Yield drones' visits to ends of shipments, as part of a path, by node and launch stop."""
+def _flown_ends(problem: Problem, trip: Trip) -> Iterator[tuple[int, tuple[str, int]]]:
+    """Yield ends of shipments that drones visit, as part of a path, and at which stop they count.
+
+    That is where the drone of a pickup is recovered, and where that of a delivery is launched.
+    """
     for index, sortie in enumerate(trip.sorties):
         for number, visit in enumerate(sortie.visits):
-            if visit.node in problem.shipment_at:
-                yield f".sorties[{index}].visits[{number}]", visit.node, sortie.launch_stop
+            each = problem.shipment_at.get(visit.node)
+            if each is not None:
+                stop = sortie.recovery_stop if visit.node == each.pickup else sortie.launch_stop
+                yield visit.node, (f".sorties[{index}].visits[{number}]", stop)
 
 
 def times_between(problem: Problem, kind: VehicleType,
@@ -73,8 +83,11 @@ def times_between(problem: Problem, kind: VehicleType,
             left[each.delivery] = stop.service_start + service
         served.append((f".stops[{index}]", stop.node, stop.service_start))
     for index, sortie in enumerate(trip.sorties):
-        served += [(f".sorties[{index}].visits[{number}]", visit.node, visit.service_start)
-                   for number, visit in enumerate(sortie.visits)]
+        for number, visit in enumerate(sortie.visits):
+            each = problem.shipment_at.get(visit.node)
+            if each is not None and visit.node == each.pickup:
+                left[each.delivery] = visit.departure
+            served.append((f".sorties[{index}].visits[{number}]", visit.node, visit.service_start))
     for where, node, start in served:
         if node not in left:
             continue

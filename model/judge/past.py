@@ -143,9 +143,10 @@ def _bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> i
     drivers rest as planned.
     """
     nodes = [stop.node for stop in trip.stops]
+    flown = [visit.node for sortie in trip.sorties for visit in sortie.visits]
     is_bound = kind.flies or bool(kind.breaks) or kind.driving is not None
     is_whole = (is_bound and min(nodes, default=0) >= 0) or any(
-        node in problem.shipment_at for node in nodes)
+        node in problem.shipment_at for node in (*nodes, *flown))
     begins = [*(stop.departure for stop in trip.stops[:1]), *launch_begins(trip.sorties, kind)]
     if not is_whole or min(begins, default=now + 1) > now:
         return now

@@ -1,6 +1,6 @@
 """Trips on which one customer is tried alone, on a vehicle that nobody else uses."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import replace
 from itertools import islice
 from typing import NamedTuple
@@ -96,10 +96,36 @@ def _judge(problem: Problem, decision: TripDecision) -> Attempt:
 
 
 def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
-    """Return a trip by a type that serves a shipment alone."""
-    small = small_problem(problem, kind, [shipment.pickup, shipment.delivery])
+    """Return a trip by a type that serves a shipment alone; by truck if no other is allowed."""
+    ends = [shipment.pickup, shipment.delivery]
+    by_truck = _judge(*_alone(small_problem(problem, kind, ends), ()))
+    if not by_truck.codes:
+        return by_truck
+    may_fly = {end for end, node in enumerate(ends)
+               if problem.customer_at(node).served_by != "truck"}
+    for drones in problem.vehicle_types[kind].drone_types if may_fly else ():
+        small = small_problem(problem, kind, ends, drones)
+        for flown in ({0}, {1}, {0, 1}):
+            if flown <= may_fly:
+                attempt = _judge(*_alone(small, flown))
+                if not attempt.codes:
+                    return attempt
+    return by_truck
+
+
+def _alone(small: Problem, flown: Collection[int]) -> tuple[Problem, TripDecision]:
+    """Return a trip for one shipment, of which drones serve some ends, 0 or 1, by truck the others.
+
+    They fetch it from the trip's start, and deliver it from its end.
+    """
     pickup, delivery = range(small.num_depots, small.num_nodes)
-    return _judge(small, TripDecision((0, pickup, delivery, small.vehicle_types[0].ends_at)))
+    driven = [node for end, node in enumerate((pickup, delivery)) if end not in flown]
+    nodes = (0, *driven, small.vehicle_types[0].ends_at)
+    last = len(nodes) - 1
+    sorties = [SortieDecision((pickup,), 0, 0)] if 0 in flown else []
+    if 1 in flown:
+        sorties.append(SortieDecision((delivery,), last, last))
+    return small, TripDecision(nodes, tuple(sorties))
 
 
 def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:

@@ -4,7 +4,8 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from model.judge.clock import opening
-from model.judge.energy import hover_energy, leg_energy
+from model.judge.energy import hover_energy, leg_energy, weights_aboard
+from model.judge.pairs import flown_back, flown_out
 from model.judge.timing import (
     Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
 )
@@ -77,8 +78,13 @@ def flight_duration(problem: Problem, kind: VehicleType, trip: OpenTrip, index: 
 
 
 def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: int) -> bool:
-    """Tell whether a flight may end at `to`, and endurance and energy suffice if nobody waits."""
+    """Tell whether a flight may end at `to`, and endurance and energy suffice if nobody waits.
+
+    Not where what it fetches is delivered: that is to be aboard before.
+    """
     flight = trip.flights[index]
+    if to in problem.shipment_at and problem.shipment_at[to].pickup == flight.customer:
+        return False
     drones = kind.drone_type(flight.drone)
     if not (problem.may_launch_at(to) and in_range(problem, drones, to, flight.customer)):
         return False
@@ -87,14 +93,13 @@ def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: i
     if drones.energy is None:
         return True
     legs, customer = problem.travel[drones.travel].duration, problem.customer_at(flight.customer)
-    weight = customer.demand[drones.energy.dimension]
+    brought, taken_back = weights_aboard(problem, drones.energy, [flight.customer])
     here = trip.nodes[flight.launch_stop]
     out = legs.item(here, flight.customer) + problem.setup_between(here, flight.customer)
-    taken = leg_energy(drones.energy, out, weight) + leg_energy(
-        drones.energy, legs.item(flight.customer, to),
-        customer.taken_in[drones.energy.dimension])
+    taken = leg_energy(drones.energy, out, brought) + leg_energy(
+        drones.energy, legs.item(flight.customer, to), taken_back)
     if not drones.energy.lands:
-        taken += hover_energy(drones.energy, drones.service_at(customer), weight)
+        taken += hover_energy(drones.energy, drones.service_at(customer), brought)
     return taken <= drones.energy.available
 
 
@@ -124,14 +129,14 @@ def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,
               free: list[int]) -> list[int]:
     """Return the drones that lift a parcel so far and have a battery, first who could come back.
     """
-    customer = problem.customer_at(node)
+    asked = flown_out(problem, node), flown_back(problem, node)
 
     def lifts(drone: int) -> bool:
         drones = kind.drone_type(drone)
         flown = [flight for flight in trip.flights
                  if kind.drone_index(flight.drone) == kind.drone_index(drone)]
         return (in_range(problem, drones, trip.nodes[-1], node)
-                and all(amount <= most for amounts in (customer.demand, customer.taken_in)
+                and all(amount <= most for amounts in asked
                     for amount, most in zip(amounts, drones.capacity, strict=True))
                 and (drones.batteries is None or len(flown) < drones.batteries))
 

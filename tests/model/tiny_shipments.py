@@ -42,7 +42,7 @@ def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) ->
 
 
 def with_flown_shipments(rng: np.random.Generator, problem: Problem) -> Problem:
-    """Return a problem of shipments that drones may deliver, most of which can."""
+    """Return a problem of shipments that drones may fetch and deliver, most of which can."""
     problem = with_shipments(rng, problem, 2)
     ends = problem.shipment_at.keys()
     kinds = tuple(replace(kind, lifo=False, max_stops=None, capacity=tuple(

@@ -271,6 +271,28 @@ Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1>
     return {cost, time, cum, depart};
 }
 
+// How many ways there are to deliver what a route fetches alone: by truck, or by a drone of a row.
+Int ways_to_deliver(const ProblemData& data, Int k, Int node) {
+    const bool flies = is_pickup(data.pair, node) && data.can(k, 1, data.pair[node].partner);
+    return flies ? 1 + num_drone_rows(data.type, k) : 1;
+}
+
+// Lets a route deliver what it fetches alone in one of these ways, a drone from where the route
+// ends; false if it may not. In place.
+bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, Int way) {
+    if (!is_pickup(data.pair, node)) return true;
+    const auto& [route, stops, sorties] = sequence;
+    const Int delivery = data.pair[node].partner, end = route.length - 1;
+    if (way == 0) {
+        insert_stops(sequence, end, {{delivery, customer_stop}});
+        return true;
+    }
+    const Int row = drone_row_at(data.type, route.type, way - 1);
+    if (!data.can(row, 1, delivery)) return false;
+    add_sortie(route, sorties, end, end, first_drone(data.type, route.type, row), delivery);
+    return true;
+}
+
 }  // namespace
 
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
@@ -281,13 +303,14 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
     const Int rows = num_drone_rows(data.type, k);
     const Int flights = by_drone ? options * rows : 1;
     const Int halts = by_drone && has_halts(data) ? data.near_halts.shape(1) : 0;
-    const Int number = flights + ways_by_halt * halts * rows;
+    const Int begun = flights + ways_by_halt * halts * rows;
+    const Int number = begun * ways_to_deliver(data, k, node);
     double best = infeasible;
     Int chosen = 0;
     bool done = false;
     // The last time, the best of them is written once more.
     for (Int tried = 0; tried < (number == 1 ? number : number + 1); ++tried) {
-        const Int option = tried == number ? chosen : tried;
+        const Int whole = tried == number ? chosen : tried, option = whole % begun;
         const bool halting = option >= flights;
         const Int place = halting ? (option - flights) / ways_by_halt : option;
         const Int row = drone_row_at(data.type, k, place / (halting ? halts : options));
@@ -299,15 +322,12 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
         if (done) {
             begin_route(sequence_in(fleet, slot), data.type[k], k, node, way,
                         first_drone(data.type, k, row), halt);
-            if (is_pickup(data.pair, node)) {
-                insert_stops(sequence_in(fleet, slot), 2,
-                             {{data.pair[node].partner, customer_stop}});
-            }
-            done = refresh(data, fleet, slot);
+            done = deliver_alone(data, sequence_in(fleet, slot), node, whole / begun) &&
+                   refresh(data, fleet, slot);
         }
         if (done && fleet.cost[slot] < best) {
             best = fleet.cost[slot];
-            chosen = option;
+            chosen = whole;
         }
     }
     return done;

@@ -4,16 +4,13 @@
 
 #include "rules/driving.h"
 #include "rules/drone_types.h"
-#include "rules/flight.h"
 #include "rules/flown_trip.h"
-#include "rules/launch_place.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
+#include "search/insertion/flown_pairs.h"
 #include "search/insertion/newcomer.h"
-#include "search/insertion/offers.h"
-#include "search/route/drone_data.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -25,7 +22,6 @@ namespace tandem {
 namespace {
 
 constexpr Int ends_of_pair = 2;
-constexpr Int most_priced = 64;  // sorties to one delivery from one trip
 
 // Marks the stops of a trip that a vehicle may leave with a shipment's amount more aboard.
 void mark_fits(const ProblemData& data, const Fleet& fleet, Int slot, const Trip& trip, Int pickup,
@@ -71,9 +67,7 @@ public:
           fits_(insertion.searcher.scratch->fits),
           stops_cost_(double(ends_of_pair) * rate_.stop +
                       vehicle_cost_at(data_.vehicle_cost, route_.type, pickup_.node) +
-                      vehicle_cost_at(data_.vehicle_cost, route_.type, delivery_.node)) {
-        mark_fits(data_, fleet_, slot, trip, insertion.node, fits_);
-    }
+                      vehicle_cost_at(data_.vehicle_cost, route_.type, delivery_.node)) {}
 
     // Tries all places by what is known of the stops' times.
     void walk() {
@@ -218,116 +212,13 @@ private:
     const double stops_cost_;
 };
 
-// A shipment that a truck picks up, and a drone of a row delivers.
-class FlownPairScan {
-public:
-    FlownPairScan(const Insertion& insertion, Int slot, const Trip& trip, Int row)
-        : data_(insertion.data),
-          fleet_(insertion.searcher.now),
-          best_(insertion.best),
-          slot_(slot),
-          row_(row),
-          trip_(trip),
-          stops_(fleet_.stop[slot]),
-          truck_(data_.type[fleet_.route[slot].type]),
-          rate_(data_.rate[fleet_.route[slot].type]),
-          drone_(data_.type[row]),
-          pickup_(newcomer_for(data_, truck_, insertion.node)),
-          delivery_(data_.pair[insertion.node].partner),
-          place_(data_.place.by_air(drone_)[delivery_]),
-          inward_(legs_to(data_.back, drone_.drone_travel, delivery_)),
-          onward_(legs_from(data_.leg, drone_.home_travel, delivery_)) {
-        mark_fits(data_, fleet_, slot, trip, insertion.node, insertion.searcher.scratch->fits);
-    }
-
-    void scan(View<const bool, 1> fits) {
-        for (Int p = trip_.first; p < trip_.last; ++p) {
-            const Stop& here = stops_[p];
-            const auto [out, on, distance] =
-                pickup_.detour(here.node, stops_[p + 1].node, here.leg);
-            if (!fits[p] || pickup_.place.too_late(here.leave + out.duration)) continue;
-            const double cost = double(distance) * rate_.distance + rate_.stop;
-            for (Int launch = p + 1; launch <= trip_.last && fits[launch - 1]; ++launch) {
-                launch_at(p, launch, cost);
-            }
-        }
-    }
-
-private:
-    // Whether an insertion that costs at least so much may be passed over.
-    bool is_dear(double least) const { return data_.strategy.give_up_early && least >= best_.cost; }
-
-    void launch_at(Int p, Int launch, double cost) {
-        const Int from = stops_[launch].node;
-        const Leg out = leg_from(inward_, from);
-        if (is_dear(cost + flown_cost(data_.rate[row_], out.distance)) ||
-            !is_launch_place(data_.no_launch, from) || !in_range(data_, drone_, from, delivery_)) {
-            return;
-        }
-        const bool crosses = data_.strategy.crossings && !waits_for_drones(truck_);
-        const Int last = crosses ? std::min(trip_.last, launch + max_span) : launch;
-        for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
-             ++recovery) {
-            const Int to = stops_[recovery].node;
-            const Leg home = leg_to(onward_, to);
-            if (is_dear(cost + flown_cost(data_.rate[row_], out.distance + home.distance)) ||
-                !is_launch_place(data_.no_launch, to) || !in_range(data_, drone_, to, delivery_) ||
-                !Flight{drone_, place_, out.duration, home.duration}.can_serve()) {
-                continue;
-            }
-            if (priced_ == most_priced || data_.deadline.passed()) return;
-            price(p, launch, recovery);
-        }
-    }
-
-    void price(Int p, Int launch, Int recovery) {
-        Move move{};
-        move.kind = by_truck_and_drone;
-        move.slot = slot_;
-        move.type = fleet_.route[slot_].type;
-        move.first = p;
-        move.last = launch;
-        move.landing = recovery;
-        move.drone = free_drone(data_, fleet_, slot_, {2 * launch, 2 * recovery}, row_);
-        if (move.drone < 0) return;
-        ++priced_;
-        if (best_.takes(price_move(data_, fleet_, move, pickup_.node))) best_.move = move;
-    }
-
-    const ProblemData& data_;
-    const Fleet& fleet_;
-    Best& best_;
-    const Int slot_;
-    const Int row_;
-    const Trip& trip_;
-    const View<const Stop, 1> stops_;
-    const VehicleType& truck_;
-    const Rate& rate_;
-    const VehicleType& drone_;
-    const Newcomer pickup_;
-    const Int delivery_;
-    const Windows place_;
-    const LegRow inward_;
-    const LegRow onward_;
-    Int priced_ = 0;
-};
-
-// Tries a shipment on a trip, delivered by a drone.
-void scan_flown(const Insertion& insertion, Int slot, const Trip& trip) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& fleet = searcher.now;
-    const Route& route = fleet.route[slot];
-    const Int delivery = data.pair[node].partner;
-    if (!data.can(route.type, 1, delivery) ||
-        !may_launch(data.type[route.type], route, fleet.sortie[slot], trip)) {
-        return;
-    }
-    for (Int row = first_drone_row(data.type, route.type); row >= 0;
-         row = next_drone_row(data.type, row)) {
-        if (data.can(row, 1, delivery) &&
-            has_battery(data.type, route, fleet.sortie[slot], trip, row)) {
-            FlownPairScan(insertion, slot, trip, row).scan(searcher.scratch->fits);
-        }
+// Call `visit` with the truck, `nowhere`, and the first drone of each row that may serve an end.
+template <class Visit>
+void for_each_server(const ProblemData& data, Int k, Int node, const Visit& visit) {
+    visit(nowhere);
+    if (!data.can(k, 1, node)) return;
+    for (Int row = first_drone_row(data.type, k); row >= 0; row = next_drone_row(data.type, row)) {
+        if (data.can(row, 1, node)) visit(first_drone(data.type, k, row));
     }
 }
 
@@ -349,10 +240,8 @@ void scan_pair(const Insertion& insertion, Int slot) {
     const bool walked = is_walked(data, fleet, slot);
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
         const Trip& trip = fleet.trip(slot, index);
-        if (!allows_stops(data.type[k], stops_on(trip) + 1) ||
-            !goods_may_join(data, fleet, slot, index, node)) {
-            continue;
-        }
+        if (!goods_may_join(data, fleet, slot, index, node)) continue;
+        mark_fits(data, fleet, slot, trip, node, searcher.scratch->fits);
         if (allows_stops(data.type[k], stops_on(trip) + ends_of_pair)) {
             PairScan scan(insertion, slot, trip);
             walked ? scan.walk() : scan.time_all();
@@ -384,14 +273,20 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
     const Fleet& fleet = searcher.now;
     const View<const Stop, 1> stops = fleet.stop[slot];
     const Int length = fleet.route[slot].length;
-    for (Int p = -1; p < length; ++p) {
-        if (p >= 0 && stops[p].kind != end_stop) continue;
-        Move move{};
-        move.kind = pair_trip;
-        move.slot = slot;
-        move.first = p;
-        move.type = fleet.route[slot].type;
-        if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+    Move move{};
+    move.kind = pair_trip;
+    move.slot = slot;
+    move.type = fleet.route[slot].type;
+    const Int partner = data.pair[node].partner;
+    for (move.first = -1; move.first < length; ++move.first) {
+        if (move.first >= 0 && stops[move.first].kind != end_stop) continue;
+        for_each_server(data, move.type, node, [&](Int fetching) {
+            move.drone = fetching;
+            for_each_server(data, move.type, partner, [&](Int bringing) {
+                move.sortie = bringing;
+                if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+            });
+        });
     }
 }
 

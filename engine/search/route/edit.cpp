@@ -30,6 +30,15 @@ bool is_used(View<const Sortie, 1> sorties, Int p) {
     });
 }
 
+// Let a sortie serve one customer. In place.
+void put_sortie(Sortie& sortie, Int launch, Int recovery, Int drone, Int node) {
+    sortie.launch = launch;
+    sortie.recovery = recovery;
+    sortie.drone = drone;
+    sortie.count = 1;
+    sortie.nodes[0] = node;
+}
+
 }  // namespace
 
 void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits) {
@@ -54,12 +63,20 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
         }
         sorties[s] = before;
     }
-    Sortie& sortie = sorties[s];
-    sortie.launch = launch;
-    sortie.recovery = recovery;
-    sortie.drone = drone;
-    sortie.count = 1;
-    sortie.nodes[0] = node;
+    put_sortie(sorties[s], launch, recovery, drone, node);
+}
+
+void add_first_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
+                      Int node) {
+    Int s = route.sorties++;
+    for (; s > 0; --s) {
+        const Sortie& before = sorties[s - 1];
+        if (before.launch < launch || (before.launch == launch && before.recovery < recovery)) {
+            break;
+        }
+        sorties[s] = before;
+    }
+    put_sortie(sorties[s], launch, recovery, drone, node);
 }
 
 void join_sortie(Sortie& sortie, Int place, Int node) {
@@ -115,11 +132,29 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int 
             insert_stops(sequence, behind, {served});
             break;
         case by_truck_and_drone:
-            add_sortie(route, sorties, move.last, move.landing, move.drone, partner);
+            add_first_sortie(route, sorties, move.last, move.landing, move.drone, partner);
             insert_stops(sequence, behind, {served});
             break;
+        case by_drone_and_truck:
+            insert_stops(sequence, move.last + 1, {{partner, customer_stop}});
+            add_sortie(route, sorties, move.first, move.landing, move.drone, node);
+            break;
+        case by_drones:
+            add_sortie(route, sorties, move.first, move.last, move.drone, node);
+            add_first_sortie(route, sorties, move.halt, move.landing, move.sortie, partner);
+            break;
         case pair_trip:
-            insert_stops(sequence, behind, {start, served, {partner, customer_stop}, end});
+            insert_stops(sequence, behind, {start, end});
+            if (move.sortie >= 0) {
+                add_sortie(route, sorties, behind + 1, behind + 1, move.sortie, partner);
+            } else {
+                insert_stops(sequence, behind + 1, {{partner, customer_stop}});
+            }
+            if (move.drone >= 0) {
+                add_sortie(route, sorties, behind, behind, move.drone, node);
+            } else {
+                insert_stops(sequence, behind + 1, {served});
+            }
             break;
         case halt_trip:
             insert_stops(sequence, behind, {start, {move.halt, halt_stop}, end});

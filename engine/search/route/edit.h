@@ -39,9 +39,15 @@ constexpr Int by_halts = 11;  // on a sortie from a stop at a launch site behind
 
 constexpr Int both_ends = 12;  // both ends of a shipment: the pickup behind stop `first`, the
                                // delivery behind the pickup or the former stop `last`
-constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`
+constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`; the pickup by
+                               // `drone` from its start, the delivery by drone `sortie` from its
+                               // end, or by truck where these are `nowhere`
 constexpr Int by_truck_and_drone = 15;  // the pickup behind stop `first`, the delivery on a sortie
                                         // from the former stop `last` to `landing`
+constexpr Int by_drone_and_truck = 16;  // the pickup on a sortie from stop `first` to `landing`,
+                                        // the delivery behind the former stop `last`
+constexpr Int by_drones = 17;  // the pickup on a sortie from stop `first` to `last`, the delivery
+                               // on one from `halt` to `landing` by drone `sortie`
 constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
                                // site and back there
 
@@ -82,6 +88,11 @@ void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> 
 // Add a sortie to one customer, in its place in the order. In place.
 void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
                 Int node);
+
+// As `add_sortie`, before others from and to the same stops: what it delivers is aboard no longer
+// than it need be. In place.
+void add_first_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
+                      Int node);
 
 // Let a sortie serve a customer before its customer number `place`. In place.
 void join_sortie(Sortie& sortie, Int place, Int node);

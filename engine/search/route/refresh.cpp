@@ -128,25 +128,35 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
     return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
 }
 
-// Count the shipments that drones deliver on a trip; `nowhere` if one isn't aboard on arrival where
-// its drone is launched.
+// Tell whether all shipments on a trip are whole, by its sorties among some; `node_at` tells who
+// is served at each stop.
 template <class NodeAt>
-Int count_flown(const ProblemData& data, View<const Sortie, 1> sorties, const Trip& trip,
+bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Trip& trip,
                 const NodeAt& node_at) {
-    Int flown = 0;
+    const auto comes_before = [&](Int pickup, Int behind) {
+        for (Int p = behind - 1; p > trip.first; --p) {
+            if (node_at(p) == pickup) return true;
+        }
+        return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+            return sortie.launch >= trip.first && sortie.recovery < behind &&
+                   std::find(sortie.nodes, sortie.nodes + sortie.count, pickup) !=
+                       sortie.nodes + sortie.count;
+        });
+    };
+    WholePairs pairs(data.pair);
+    const auto serve = [&](Int node, Int stop) {
+        pairs.serve(node, [&](Int pickup) { return comes_before(pickup, stop); });
+    };
+    for (Int p = trip.first + 1; p < trip.last; ++p) {
+        if (node_at(p) >= 0) serve(node_at(p), p);
+    }
     for (const Sortie& sortie : sorties) {
         if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
         for (Int visit = 0; visit < sortie.count; ++visit) {
-            const Int node = sortie.nodes[visit];
-            if (!is_paired(data.pair, node)) continue;
-            if (!is_delivery(data.pair, node) ||
-                !may_be_flown(data.pair, node, trip.first + 1, sortie.launch, node_at)) {
-                return nowhere;
-            }
-            ++flown;
+            serve(sortie.nodes[visit], sortie.launch);
         }
     }
-    return flown;
+    return pairs.are_kept();
 }
 
 // Tell whether each trip serves whole shipments, each picked up first, and unloads from a stack
@@ -158,9 +168,7 @@ bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1>
         return stops[p].kind == customer_stop ? stops[p].node : nowhere;
     };
     return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
-        const Int flown = count_flown(data, sorties.first(route.sorties), trip, node_at);
-        return flown != nowhere &&
-               keeps_pairs(data.pair, trip.first + 1, trip.last, flown, node_at) &&
+        return keep_pairs(data, sorties.first(route.sorties), trip, node_at) &&
                (!is_stack(data.type[route.type]) ||
                 keeps_stack(data.pair, trip.first + 1, trip.last, node_at));
     });

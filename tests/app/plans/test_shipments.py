@@ -123,10 +123,54 @@ def test_a_drone_delivers_what_its_truck_has_picked_up(searching: httpx.Client,
     for name in ("A", "s1/pickup", "s1/delivery"):
         reply = searching.post("/explain", json={"problem": paired, "plan": plan, "customer": name})
         assert reply.status_code == 200, reply.text
-    paired["shipments"][0]["pickup"]["served_by"] = "drone"
+    paired["shipments"][0]["pickup"]["served_by"] = "drone"  # alone, it isn't built
     refused = searching.post("/plan", json=paired)
     assert refused.status_code == 422
     assert refused.json()["errors"][0]["path"] == "$.shipments[0].pickup.served_by"
+
+
+def test_a_drone_fetches_what_its_truck_delivers(searching: httpx.Client, paired: Request) -> None:
+    paired["customers"] = [{"id": "A", "location": [4, 0], "demand": [1], "served_by": "truck"}]
+    paired["shipments"] = [{
+        "id": "s1", "amount": [1], "delivery": {"location": [2, 0]},
+        "pickup": {"location": [4, 9], "served_by": "either", "info": {"notes": "roof"}}}]
+    paired["fleet"][0] |= {"capacity": [9], "count": 1, "max_trips": 1, "drones": {
+        "count": 1, "capacity": [1], "endurance": 36000, "costs": {"per_km": 0.01}}}
+    plan = searching.post("/plan", json=paired).json()
+    PlanReply.model_validate(plan)
+    [trip] = plan["routes"][0]["trips"]
+    [sortie] = trip["sorties"]
+    [visit] = sortie["customers"]
+    assert (visit["kind"], visit["id"], visit["info"]) == ("pickup", "s1", {"notes": "roof"})
+    assert trip["stops"][sortie["recovery_stop"]]["load"] == [1]
+    assert sortie["recovery_stop"] < stops_of(plan).index(("delivery", "s1"))
+    checked = searching.post("/check", json={"problem": paired, "plan": plan}).json()
+    assert checked["feasible"]
+    assert checked["summary"] == plan["summary"]
+    for terms in {"plan": plan}, {"plan": plan, "freeze_before": sortie["launch_time"]}:
+        again = searching.post("/plan", json=paired | {"replan": terms}).json()
+        assert again["cost"]["total"] == pytest.approx(plan["cost"]["total"]), again
+    gone = paired | {"replan": {"plan": plan, "freeze_before": sortie["launch_time"],
+                                "unavailable": [plan["routes"][0]["vehicle"]]}}
+    [error] = searching.post("/plan", json=gone).json()["errors"]
+    assert error["code"] == "SHIPMENTS_UNDER_WAY"
+    for name in ("A", "s1/pickup", "s1/delivery"):
+        for path in ("/explain", "/fit"):
+            reply = searching.post(path, json={"problem": paired, "plan": plan, "customer": name})
+            assert reply.status_code == 200, reply.text
+
+
+def test_a_shipment_left_out_is_told_that_drones_could_fetch_it(searching: httpx.Client,
+                                                                paired: Request) -> None:
+    paired["customers"] = []
+    paired["shipments"] = [{
+        "id": "s1", "amount": [1], "delivery": {"location": [2, 0]}, "unassigned_cost": 0.01,
+        "pickup": {"location": [20, 0], "served_by": "either", "time_window": {"latest": 900}}}]
+    paired["fleet"][0] |= {"capacity": [9], "count": 1, "drones": {
+        "count": 1, "capacity": [1], "endurance": 36000, "speed_kmh": 300}}
+    plan = searching.post("/plan", json=paired).json()
+    [[reason]] = [left_out["reasons"] for left_out in plan["unassigned"]]
+    assert reason["code"] == "COST", reason
 
 
 def test_flights_bring_shipments(searching: httpx.Client, paired: Request) -> None:

@@ -67,7 +67,8 @@ def test_drones_parcels_are_on_their_trucks_stack(tiny_problem, customers, truck
     ((0, 1, 2, 0), SortieDecision((3,), 1, 2), ["PAIR"]),  # not yet aboard
     ((0, 2, 1, 0), SortieDecision((3,), 1, 2), ["PAIR"]),
     ((0, 2, 0), SortieDecision((3,), 1, 2), ["PAIR"]),  # never
-    ((0, 2, 3, 0), SortieDecision((1,), 1, 2), ["PAIR"])])
+    ((0, 2, 3, 0), SortieDecision((1,), 1, 2), ["PAIR"]),  # as it comes aboard it should leave
+    ((0, 3, 2, 0), SortieDecision((1,), 0, 1), ["PAIR"])])
 def test_drones_deliver_what_is_aboard(tiny_problem, customers, truck, drones, nodes, sortie,
                                        broken):
     a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
@@ -85,3 +86,33 @@ def test_drones_deliver_what_is_aboard(tiny_problem, customers, truck, drones, n
         assert codes(judged(replace(few, shipments=FLOWN), trip)) == ["PAYLOAD"]
         timed = (replace(FLOWN[0], max_time_between=1),)
         assert codes(judged(replace(problem, shipments=timed), trip)) == ["TIME_BETWEEN"]
+
+
+@pytest.mark.parametrize(("nodes", "sortie", "loads"), [
+    ((0, 2, 3, 0), SortieDecision((1,), 0, 1), [0, 1, 0, 0]),
+    ((0, 2, 3, 0), SortieDecision((1,), 1, 1), [0, 1, 0, 0]),
+    ((0, 3, 0), SortieDecision((1,), 0, 0), [1, 0, 0])])
+def test_what_drones_fetch_is_aboard_once_they_are_recovered(tiny_problem, customers, truck, drones,
+                                                             nodes, sortie, loads):
+    a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
+    problem = replace(tiny_problem(a, b, c, truck=replace(truck, drones=drones)), shipments=FLOWN)
+    trip = TripDecision(nodes, (sortie,), start=0)
+    evaluation = judged(problem, trip)
+    measured = evaluation.routes[0].trips[0]
+    assert {code for code in codes(evaluation) if code != "UNSERVED"} == set()
+    assert [load for load, in measured.stop_loads] == [1000 * load for load in loads]
+    assert measured.sorties[0].loads == ((0,), (1000,))
+    weak = replace(drones, capacity=(999,))
+    few = tiny_problem(a, b, c, truck=replace(truck, drones=weak))
+    assert "PAYLOAD" in codes(judged(replace(few, shipments=FLOWN), trip))
+    small = tiny_problem(a, b, c, truck=replace(truck, drones=drones, capacity=(999,)))
+    assert "CAPACITY" in codes(judged(replace(small, shipments=FLOWN), trip))
+    timed = (replace(FLOWN[0], max_time_between=1),)
+    assert "TIME_BETWEEN" in codes(judged(replace(problem, shipments=timed), trip))
+
+
+def test_no_drone_serves_an_end_whose_other_is_nowhere(tiny_problem, customers, truck, drones):
+    a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
+    problem = replace(tiny_problem(a, b, c, truck=replace(truck, drones=drones)), shipments=FLOWN)
+    trip = TripDecision((0, 2, 0), (SortieDecision((1,), 0, 1),), start=0)
+    assert "PAIR" in codes(judged(problem, trip))

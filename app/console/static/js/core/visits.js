@@ -24,7 +24,7 @@ export function visitsOf({ customers, shipments = [] }) {
 
 function endsOf({ id, amount, pickup, delivery, max_time_between: _, max_detour: __, ...whole }) {
   return [[ENDS[0], pickup], [ENDS[1], delivery]].map(([kind, end]) => ({
-    ...whole, ...end, id: visitName({ kind, id }), demand: amount, served_by: 'truck',
+    ...whole, served_by: 'truck', ...end, id: visitName({ kind, id }), demand: amount,
   }));
 }
 

@@ -1,0 +1,243 @@
+#include "search/insertion/flown_pairs.h"
+
+#include <algorithm>
+#include <array>
+
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/launch_place.h"
+#include "rules/load.h"
+#include "rules/pair.h"
+#include "rules/shift.h"
+#include "search/insertion/newcomer.h"
+#include "search/insertion/offers.h"
+#include "search/route/drone_data.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+#include "search/route/vehicles.h"
+#include "search/scratch.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int most_places = 96;  // of an end on a trip
+constexpr Int most_priced = 64;  // of pairs of them
+constexpr Int by_wheels = -1;    // instead of a row of drones
+
+// Where an end is served: by truck behind stop `first`, or by a drone of a row from `first` to
+// `last`.
+struct EndPlace {
+    double cost;
+    Int row, first, last;
+
+    // From where on a pickup is aboard, and where a delivery leaves, in half stops.
+    Int aboard() const { return row == by_wheels ? 2 * first + 1 : 2 * last; }
+    Int leaves() const { return row == by_wheels ? 2 * first + 1 : 2 * first; }
+};
+
+// Where both ends are served.
+struct PairPlace {
+    double cost;
+    EndPlace pickup, delivery;
+};
+
+// The cheapest of those added.
+template <class Item, Int most>
+class Cheapest {
+public:
+    void add(const Item& item) {
+        if (count_ == most) {
+            if (item.cost >= items_[0].cost) return;
+            std::pop_heap(items_.begin(), end(), is_cheaper);
+            --count_;
+        }
+        items_[std::size_t(count_++)] = item;
+        std::push_heap(items_.begin(), end(), is_cheaper);
+    }
+
+    // Lets the cheapest come first; then nothing is added any more.
+    void sort() { std::sort_heap(items_.begin(), end(), is_cheaper); }
+
+    View<const Item, 1> items() const { return {items_.data(), {count_}}; }
+
+private:
+    static bool is_cheaper(const Item& one, const Item& other) { return one.cost < other.cost; }
+
+    auto end() { return items_.begin() + count_; }
+
+    std::array<Item, std::size_t(most)> items_;
+    Int count_ = 0;
+};
+
+using EndPlaces = Cheapest<EndPlace, most_places>;
+
+class FlownPairScan {
+public:
+    FlownPairScan(const Insertion& insertion, Int slot, const Trip& trip)
+        : data_(insertion.data),
+          fleet_(insertion.searcher.now),
+          best_(insertion.best),
+          slot_(slot),
+          trip_(trip),
+          route_(fleet_.route[slot]),
+          stops_(fleet_.stop[slot]),
+          type_(data_.type[route_.type]),
+          rate_(data_.rate[route_.type]),
+          pickup_(insertion.node),
+          delivery_(data_.pair[pickup_].partner),
+          fits_(insertion.searcher.scratch->fits) {}
+
+    void scan() {
+        EndPlaces pickups, deliveries;
+        const bool fetches = fly(pickup_, pickups), brings = fly(delivery_, deliveries);
+        if (brings) drive(pickup_, pickups);
+        if (fetches) drive(delivery_, deliveries);
+        for (const EndPlace& pickup : pickups.items()) {
+            for (const EndPlace& delivery : deliveries.items()) join(pickup, delivery);
+        }
+        pairs_.sort();
+        for (const PairPlace& place : pairs_.items()) {
+            if (is_dear(place.cost) || data_.deadline.passed()) return;
+            price(place);
+        }
+    }
+
+private:
+    // Whether an insertion that costs at least so much may be passed over.
+    bool is_dear(double least) const { return data_.strategy.give_up_early && least >= best_.cost; }
+
+    // Lists where the truck may serve an end. In place.
+    void drive(Int node, EndPlaces& places) const {
+        if (!allows_stops(type_, stops_on(trip_) + 1)) return;
+        const Newcomer newcomer = newcomer_for(data_, type_, node);
+        for (Int p = trip_.first; p < trip_.last; ++p) {
+            const Stop& here = stops_[p];
+            const auto [out, on, distance] =
+                newcomer.detour(here.node, stops_[p + 1].node, here.leg);
+            const double cost = double(distance) * rate_.distance + rate_.stop;
+            if (is_dear(cost) || newcomer.place.too_late(here.leave + out.duration)) continue;
+            places.add({cost, by_wheels, p, p});
+        }
+    }
+
+    // Lists where drones may serve an end; false if nowhere. In place.
+    bool fly(Int node, EndPlaces& places) const {
+        if (!data_.can(route_.type, 1, node) ||
+            !may_launch(type_, route_, fleet_.sortie[slot_], trip_)) {
+            return false;
+        }
+        for (Int row = first_drone_row(data_.type, route_.type); row >= 0;
+             row = next_drone_row(data_.type, row)) {
+            if (data_.can(row, 1, node) &&
+                has_battery(data_.type, route_, fleet_.sortie[slot_], trip_, row)) {
+                fly_by(row, node, places);
+            }
+        }
+        return !places.items().empty();
+    }
+
+    void fly_by(Int row, Int node, EndPlaces& places) const {
+        const VehicleType& drone = data_.type[row];
+        const Rate& rate = data_.rate[row];
+        const LegRow inward = legs_to(data_.back, drone.drone_travel, node);
+        const LegRow onward = legs_from(data_.leg, drone.home_travel, node);
+        const auto may_meet = [&](Int here) {
+            return is_launch_place(data_.no_launch, here) && in_range(data_, drone, here, node);
+        };
+        const bool crosses = data_.strategy.crossings && !waits_for_drones(type_);
+        for (Int launch = trip_.first; launch <= trip_.last; ++launch) {
+            const Leg out = leg_from(inward, stops_[launch].node);
+            if (is_dear(flown_cost(rate, out.distance)) || !may_meet(stops_[launch].node)) continue;
+            const Int last = crosses ? std::min(trip_.last, launch + max_span) : launch;
+            for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
+                 ++recovery) {
+                const Leg home = leg_to(onward, stops_[recovery].node);
+                const double cost = flown_cost(rate, out.distance + home.distance);
+                const Flight flight{drone, data_.place.by_air(drone)[node], out.duration,
+                                    home.duration};
+                if (!is_dear(cost) && may_meet(stops_[recovery].node) && flight.can_serve()) {
+                    places.add({cost, row, launch, recovery});
+                }
+            }
+        }
+    }
+
+    // Lists a shipment at two places if the truck holds it between, and a drone flies one. In
+    // place.
+    void join(const EndPlace& pickup, const EndPlace& delivery) {
+        const double cost = pickup.cost + delivery.cost;
+        if ((pickup.row == by_wheels && delivery.row == by_wheels) ||
+            pickup.aboard() >= delivery.leaves() || is_dear(cost)) {
+            return;
+        }
+        const Int first = pickup.aboard() / 2, behind = (delivery.leaves() + 1) / 2;
+        if (std::all_of(&fits_[first], &fits_[first] + (behind - first),
+                        [](bool fits) { return fits; })) {
+            pairs_.add({cost, pickup, delivery});
+        }
+    }
+
+    Int drone_for(const EndPlace& place) const {
+        if (place.row == by_wheels) return nowhere;
+        return free_drone(data_, fleet_, slot_, {2 * place.first, 2 * place.last}, place.row);
+    }
+
+    void price(const PairPlace& place) {
+        const auto& [cost, pickup, delivery] = place;
+        Move move{};
+        move.slot = slot_;
+        move.type = route_.type;
+        const Int fetching = drone_for(pickup), bringing = drone_for(delivery);
+        if ((pickup.row != by_wheels && fetching < 0) ||
+            (delivery.row != by_wheels && bringing < 0)) {
+            return;
+        }
+        move.first = pickup.first;
+        if (pickup.row == by_wheels) {
+            move.kind = by_truck_and_drone;
+            move.last = delivery.first;
+            move.landing = delivery.last;
+            move.drone = bringing;
+        } else if (delivery.row == by_wheels) {
+            move.kind = by_drone_and_truck;
+            move.last = delivery.first;
+            move.landing = pickup.last;
+            move.drone = fetching;
+        } else {
+            move.kind = by_drones;
+            move.last = pickup.last;
+            move.halt = delivery.first;
+            move.landing = delivery.last;
+            move.drone = fetching;
+            move.sortie = bringing;
+        }
+        if (best_.takes(price_move(data_, fleet_, move, pickup_))) best_.move = move;
+    }
+
+    const ProblemData& data_;
+    const Fleet& fleet_;
+    Best& best_;
+    const Int slot_;
+    const Trip& trip_;
+    const Route& route_;
+    const View<const Stop, 1> stops_;
+    const VehicleType& type_;
+    const Rate& rate_;
+    const Int pickup_;
+    const Int delivery_;
+    const View<bool, 1> fits_;
+    Cheapest<PairPlace, most_priced> pairs_;
+};
+
+}  // namespace
+
+void scan_flown(const Insertion& insertion, Int slot, const Trip& trip) {
+    const ProblemData& data = insertion.data;
+    const Int k = insertion.searcher.now.route[slot].type;
+    if (data.can(k, 1, insertion.node) || data.can(k, 1, data.pair[insertion.node].partner)) {
+        FlownPairScan(insertion, slot, trip).scan();
+    }
+}
+
+}  // namespace tandem
