@@ -7,6 +7,7 @@ from app.requests.conversion.amounts import counted, decimals_of
 from app.requests.conversion.energy import is_countable
 from app.requests.conversion.units import thousandths
 from app.requests.draft import Draft, Errors, Path, error_at
+from app.schemas.driving import REST_ID
 from app.schemas.drones import Flyer, TurnaroundInput
 from app.schemas.energy import EnergyInput
 from app.schemas.launch_site import HoursInput
@@ -91,6 +92,9 @@ def break_errors(draft: Draft) -> Errors:
             if seen.setdefault(each.id, index) != index:
                 yield error_at("DUPLICATE_ID", (*here, "id"),
                                f"breaks[{seen[each.id]}] has the same id: give each its own.")
+            if each.id == REST_ID and vehicle_type.driving_rules is not None:
+                yield error_at("DUPLICATE_ID", (*here, "id"),
+                               "So are rests by driving_rules called: give the break another id.")
 
 
 def driving_errors(draft: Draft) -> Errors:
@@ -106,11 +110,10 @@ def driving_errors(draft: Draft) -> Errors:
         if rules.break_duration is None:
             yield error_at("MISSING_BREAK_DURATION", (*path, "driving_rules", "break_duration"),
                            "Nothing says how long a rest is: state break_duration, or a preset.")
-        stated = [("breaks", bool(kind.breaks)), ("speed_profile", bool(kind.speed_profile))]
-        for name in [name for name, is_stated in stated if is_stated]:
-            yield error_at("DRIVING_RULES_WITH", (*path, name),
+        if kind.speed_profile:
+            yield error_at("DRIVING_RULES_WITH", (*path, "speed_profile"),
                            "Rests by driving_rules can't be planned beside it yet: leave "
-                           f"{name} out, or driving_rules.")
+                           "speed_profile out, or driving_rules.")
 
 
 def depot_errors(draft: Draft) -> Errors:

@@ -16,7 +16,8 @@ def let_rest(rng: random.Random, request: Data) -> None:
         if rng.random() < 0.5:
             kind["breaks"] = [_break(rng, number, len(kind["capacity"]))
                               for number in range(rng.randint(1, 3))]
-            continue
+            if rng.random() < 0.7:
+                continue
         kind["driving_rules"] = _rules(rng)
         if rng.random() < 0.98:
             kind.pop("speed_profile", None)

@@ -1488,11 +1488,13 @@ int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* sear
 /* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
    it. */
 int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot);
-/* Write when a driver stands for each rest on a leg, and for how long; who has driven it then. */
+/* Write when a driver who rests by rules stands for each break on a leg, when that begins, and when
+   it ends; who has driven the leg then. */
 int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k, const tandem_broken_leg* leg,
                       tandem_driver* driver, const tandem_i64_2d* times);
 
-/* Write when a vehicle of a type stands for each break on a leg, and when that begins. */
+/* Write when a vehicle of a type stands for each break on a leg, when that begins, and when it ends.
+ */
 int tandem_break_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
                        const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,
                        const tandem_i64_2d* times);

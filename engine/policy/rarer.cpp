@@ -128,14 +128,17 @@ void describe_duty(const Duty& duty, Int now, VehicleFeatures& feature) {
         const auto whole = static_cast<double>(std::max(Int{1}, capacity_in(type, 0)[0]));
         feature.aboard = to_float(static_cast<double>(parcels_aboard(setting, log)) / whole);
     }
+    double due = 0;
     if (has_breaks(type)) {
-        const Int latest = latest_rest(type, vehicle.rested, log.trip[0].start);
-        feature.rest_due = to_float(hurry(latest, now, unit.time));
-    } else if (has_driving_rules(type)) {
+        due = hurry(latest_rest(type, vehicle.rested, log.trip[0].start), now, unit.time);
+    }
+    if (has_driving_rules(type)) {
         Int driven = 0;
         const std::optional<Driver> driver = driver_of(setting, log, driven);
-        if (driver) feature.rest_due = to_float(hurry(may_drive(type, *driver, now), 0, unit.time));
+        const double rest = driver ? hurry(may_drive(type, *driver, now), 0, unit.time) : due;
+        due = has_breaks(type) ? std::max(due, rest) : rest;
     }
+    feature.rest_due = to_float(due);
 }
 
 }  // namespace tandem

@@ -15,6 +15,26 @@ namespace tandem {
 
 constexpr Int most_breaks = 8;
 
+// What a rest by driving rules may be; numbers of breaks among `Rests` behind those stated.
+constexpr Int whole_rest = most_breaks;
+constexpr Int first_part = most_breaks + 1;
+constexpr Int second_part = most_breaks + 2;
+
+// Breaks and rests between two stops, at most.
+constexpr Int most_rests = 9;
+
+inline bool is_stated(Int number) { return number < most_breaks; }
+
+// How long a rest by driving rules is.
+inline Int rest_duration(const VehicleType& type, Int number) {
+    return type.rest_durations[number - most_breaks];
+}
+
+// How long a break is, stated or not.
+inline Int length_of(const VehicleType& type, Int number) {
+    return is_stated(number) ? type.break_duration[number] : rest_duration(type, number);
+}
+
 // Where a break between two stops is taken.
 enum class RestPlace : Int { departure, way, arrival };
 
@@ -26,20 +46,33 @@ public:
 
     Int packed() const { return packed_; }
     Int count() const { return packed_ & 15; }
-    Int number(Int index) const { return packed_ >> shift(index) & 7; }
-    RestPlace place(Int index) const { return RestPlace{packed_ >> (shift(index) + 3) & 3}; }
+    Int number(Int index) const { return packed_ >> shift(index) & 15; }
+    RestPlace place(Int index) const { return RestPlace{packed_ >> (shift(index) + 4) & 3}; }
 
     // The first break that may come behind these, all of which come behind `next`.
-    Int next(Int next) const { return count() > 0 ? number(count() - 1) + 1 : next; }
+    Int next(Int next) const {
+        for (Int index = count() - 1; index >= 0; --index) {
+            if (is_stated(number(index))) return number(index) + 1;
+        }
+        return next;
+    }
+
+    // Whether any is a rest by driving rules.
+    bool any_unstated() const {
+        for (Int index = 0; index < count(); ++index) {
+            if (!is_stated(number(index))) return true;
+        }
+        return false;
+    }
 
     // These, and then another break.
     Rests with(Int number, RestPlace place) const {
-        const Int more = number | static_cast<Int>(place) << 3;
+        const Int more = number | static_cast<Int>(place) << 4;
         return Rests((packed_ + 1) | more << shift(count()));
     }
 
 private:
-    static Int shift(Int index) { return 4 + 5 * index; }
+    static Int shift(Int index) { return 4 + 6 * index; }
 
     Int packed_ = 0;
 };
@@ -132,7 +165,8 @@ inline Int latest_rest(const VehicleType& type, Int number, Int begin) {
 inline bool follow_departure(const VehicleType& type, Rests rests) {
     if (!has_breaks(type) || type.breaks_since != none) return false;
     for (Int index = 0; index < rests.count(); ++index) {
-        if (type.break_after_departure[rests.number(index)] == 1) return true;
+        const Int number = rests.number(index);
+        if (is_stated(number) && type.break_after_departure[number] == 1) return true;
     }
     return false;
 }
@@ -142,7 +176,8 @@ inline Int unpaid_of(const VehicleType& type, Rests rests) {
     Int unpaid = 0;
     for (Int index = 0; index < rests.count(); ++index) {
         const Int number = rests.number(index);
-        if (type.break_unpaid[number] == 1) unpaid += type.break_duration[number];
+        if (is_stated(number) && type.break_unpaid[number] == 1)
+            unpaid += type.break_duration[number];
     }
     return unpaid;
 }
@@ -159,10 +194,16 @@ public:
     Int time() const { return time_; }
 
     // Take a break, if it may begin; `note` gets when the truck stands, and when it begins.
+    //
+    // Rests by driving rules don't wait, so how far it drives before one doesn't matter here.
     template <class Note>
     bool rest(Int number, RestPlace place, const Note& note) {
-        const Break pause = break_of(type_, number, begin_);
         if (place == RestPlace::arrival) arrive();
+        if (!is_stated(number)) {
+            time_ += rest_duration(type_, number);
+            return true;
+        }
+        const Break pause = break_of(type_, number, begin_);
         Int stood = time_;
         const Int start = pause.start(time_);
         if (place == RestPlace::way && !arrived_) {
@@ -217,14 +258,14 @@ Int departure_before(const VehicleType& type, Rests rests, Int begin, Int arriva
     Int time = arrival;
     bool driven = false;
     for (Int index = rests.count() - 1; index >= 0; --index) {
-        const Break pause = break_of(type, rests.number(index), begin);
+        const Int number = rests.number(index);
         if (rests.place(index) != RestPlace::arrival && !driven) {
             time = back(time);
             driven = true;
         }
-        time -= pause.duration;
-        if (type.break_after_departure[rests.number(index)] == 0) {
-            time = std::min(time, pause.latest);
+        time -= length_of(type, number);
+        if (is_stated(number) && type.break_after_departure[number] == 0) {
+            time = std::min(time, break_of(type, number, begin).latest);
         }
     }
     return driven ? time : back(time);

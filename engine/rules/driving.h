@@ -14,13 +14,7 @@ namespace tandem {
 
 using Driver = tandem_driver;
 
-// What a rest may be; the number of a break among `Rests`.
-constexpr Int whole_rest = 0;
-constexpr Int first_part = 1;
-constexpr Int second_part = 2;
-
-// Rests on one leg, at most, and on one route.
-constexpr Int most_rests = 8;
+// Breaks and rests on one route, at most, where rules ask for rests.
 constexpr Int most_rests_on_route = 16;
 
 // Whether rules ask a driver for rests.
@@ -29,16 +23,16 @@ inline bool has_driving_rules(const VehicleType& type) { return type.must_rest =
 // Whether a driver may rest while drones are out.
 inline bool may_rest_in_flights(const VehicleType& type) { return type.rests_in_flights == 1; }
 
-// How long a rest is.
-inline Int rest_duration(const VehicleType& type, Int number) {
-    return type.rest_durations[number];
+// Whether all that its driver rests lasts as long whenever it is, so that it is part of legs.
+inline bool rests_in_gaps(const VehicleType& type) {
+    return has_driving_rules(type) && !has_breaks(type);
 }
 
-// How long all rests on a leg are.
+// How long all breaks on a leg are.
 inline Int duration_of(const VehicleType& type, Rests rests) {
     Int duration = 0;
     for (Int index = 0; index < rests.count(); ++index) {
-        duration += rest_duration(type, rests.number(index));
+        duration += length_of(type, rests.number(index));
     }
     return duration;
 }
@@ -78,47 +72,59 @@ inline bool may_rest(const VehicleType& type, const Driver& driver, Int number) 
     return rest_duration(type, number) > 0 && (driver.half_rested == 1) == (number == second_part);
 }
 
-// Let a driver have rested until `end`. In place.
-inline void rest(const VehicleType& type, Driver& driver, Int number, Int end) {
-    if (number == first_part) {
-        driver.since += rest_duration(type, number);
-        driver.half_rested = 1;
-    } else {
+// Let a driver have paused until `end`, so long that it may be a rest, or a part of one. In place.
+inline void pause(const VehicleType& type, Driver& driver, Int length, Int end) {
+    const Int first = rest_duration(type, first_part), second = rest_duration(type, second_part);
+    if (length >= rest_duration(type, whole_rest) ||
+        (driver.half_rested == 1 && length >= second)) {
         driver = {0, end, 0};
+        return;
     }
+    driver.since += length;
+    if ((first > 0 || second > 0) && length >= first) driver.half_rested = 1;
 }
 
-// A leg that a driver who may have to rest has before him.
+// A leg that a driver who may have to rest has before him, on a route that begins at `begin`.
 class RestedLeg {
 public:
-    RestedLeg(const VehicleType& type, Driver driver, Int leave, Int duration)
-        : type_(type), driver_(driver), time_(leave), left_(duration) {}
+    RestedLeg(const VehicleType& type, Int begin, Driver driver, Int leave, Int duration)
+        : type_(&type), begin_(begin), driver_(driver), time_(leave), left_(duration) {}
 
     Int time() const { return time_; }
+    Int stood() const { return stood_; }
     const Driver& driver() const { return driver_; }
 
     // Whether the rest of the leg can't be driven at a stretch.
-    bool is_too_long() const { return may_drive(type_, driver_, time_) < left_; }
+    bool is_too_long() const { return may_drive(*type_, driver_, time_) < left_; }
 
-    // Take a rest; returns when it begins, `none` if it should have begun before.
+    // Take a break, or a rest; returns when it begins, `none` if it can't then, or should have
+    // begun before. `stood` is then since when the truck stands.
     Int take(Int number, RestPlace place) {
-        const Int most = may_drive(type_, driver_, time_);
+        Int begin = time_;
         if (place == RestPlace::arrival) {
             drive(left_);
         } else if (place == RestPlace::way) {
+            const Int most = is_stated(number)
+                                 ? break_of(*type_, number, begin_).start(time_) - time_
+                                 : may_drive(*type_, driver_, time_);
             drive(std::clamp(most, Int{0}, left_));
         }
-        if (may_drive(type_, driver_, time_) < 0) return none;
-        const Int begin = time_;
-        time_ += rest_duration(type_, number);
-        rest(type_, driver_, number, time_);
+        begin = stood_ = time_;
+        if (is_stated(number)) {
+            const Break stated = break_of(*type_, number, begin_);
+            begin = stated.start(time_);
+            if (begin > stated.latest) return none;
+        }
+        if (may_drive(*type_, driver_, begin) < 0) return none;
+        time_ = begin + length_of(*type_, number);
+        pause(*type_, driver_, length_of(*type_, number), time_);
         return begin;
     }
 
     // Drive on to the end of the leg; false if that is too long.
     bool arrive() {
         drive(left_);
-        return may_drive(type_, driver_, time_) >= 0;
+        return may_drive(*type_, driver_, time_) >= 0;
     }
 
 private:
@@ -128,16 +134,19 @@ private:
         left_ -= duration;
     }
 
-    const VehicleType& type_;
+    const VehicleType* type_;  // so that one can become another
+    Int begin_;
     Driver driver_;
     Int time_;
     Int left_;
+    Int stood_ = 0;
 };
 
-// Let a driver drive a leg with rests. In place; false if one lacks.
-inline bool drive_rested(const VehicleType& type, Rests rests, Int leave, Int duration,
+// Let a driver drive a leg with breaks and rests, on a route that begins at `begin`. In place;
+// false if one lacks.
+inline bool drive_rested(const VehicleType& type, Rests rests, Int begin, Int leave, Int duration,
                          Driver& driver) {
-    RestedLeg leg(type, driver, leave, duration);
+    RestedLeg leg(type, begin, driver, leave, duration);
     for (Int index = 0; index < rests.count(); ++index) {
         if (leg.take(rests.number(index), rests.place(index)) == none) return false;
     }
@@ -151,34 +160,107 @@ inline Int usual_rest(const Driver& driver) {
     return driver.half_rested == 1 ? second_part : whole_rest;
 }
 
-// The rests that a driver takes on a leg who doesn't know what comes behind it: as late as allowed,
-// or in the time before the service there `opens`, or before one that `ends` too late without.
-// Nothing if they don't do.
+// The breaks and rests that a driver takes on a leg who doesn't know what comes behind it.
+//
+// Rests are taken as late as allowed, or in the time before the service there `opens`, or before
+// one that `ends` too late without. Breaks are put off as `rests_on_leg` says.
 template <class Opens, class Ends>
-std::optional<Rests> rests_as_needed(const VehicleType& type, Driver driver, Int leave,
-                                     Int duration, const Opens& opens, const Ends& ends) {
-    Rests rests;
-    RestedLeg leg(type, driver, leave, duration);
-    while (leg.is_too_long()) {
-        const Int number = usual_rest(leg.driver());
-        if (rests.count() == most_rests || leg.take(number, RestPlace::way) == none) {
-            return std::nullopt;
+class Unforeseeing {
+public:
+    Unforeseeing(const VehicleType& type, const RestedLeg& leg, const Opens& opens,
+                 const Ends& ends)
+        : type_(type), leg_(leg), onward_(leg), opens_(opens), ends_(ends) {}
+
+    // The breaks from `next` on, but those that are too `heavy`, on a route that begins at `begin`.
+    // Nothing if they don't do.
+    std::optional<Rests> run(Int next, Int heavy, Int begin) {
+        for (; drive_on(); ++next) {
+            while (next < num_breaks(type_) && over_before(type_, next, begin)) ++next;
+            if (next == num_breaks(type_)) return rest_there();
+            const Break stated = break_of(type_, next, begin);
+            const Int arrival = onward_.time();
+            const bool may = !is_among(heavy, next);
+            const bool waits =
+                may && stated.may_begin(arrival) && stated.end(arrival) <= opens_(arrival);
+            if (!waits && ends_(arrival) <= stated.latest) return rest_there();
+            if (!may || !take(next, stated.may_begin(arrival))) return std::nullopt;
         }
-        rests = rests.with(number, RestPlace::way);
+        return std::nullopt;
     }
-    leg.arrive();
-    const Int arrival = leg.time(), waits = opens(arrival) - arrival;
-    const bool has_to = !may_still_work(type, leg.driver(), ends(arrival));
-    if (rests.count() == most_rests) return rests;
-    for (const Int number : {whole_rest, second_part, first_part}) {
-        if (!may_rest(type, leg.driver(), number)) continue;
-        const bool helps = rest_duration(type, number) > 0 && leg.driver().since < arrival;
-        if ((helps && rest_duration(type, number) <= waits) ||
-            (has_to && number == usual_rest(leg.driver()))) {
-            return rests.with(number, RestPlace::arrival);
+
+private:
+    // Drive on to the end of the leg, with rests as needed; false if that can't be.
+    bool drive_on() {
+        onward_ = leg_;
+        planned_ = rests_;
+        while (onward_.is_too_long()) {
+            if (!add(usual_rest(onward_.driver()), RestPlace::way, onward_, planned_)) return false;
         }
+        onward_.arrive();
+        return true;
     }
-    return rests;
-}
+
+    // Take a stated break, there or before; false if it can't be.
+    bool take(Int number, bool there) {
+        if (there || is_there_) {
+            leg_ = onward_;
+            rests_ = planned_;
+            is_there_ = true;
+            return add(number, RestPlace::arrival, leg_, rests_);
+        }
+        const bool on_way = may_rest_on_way(type_, number);
+        if (!on_way && is_under_way_) return false;
+        const RestPlace place = on_way ? RestPlace::way : RestPlace::departure;
+        is_under_way_ = on_way;
+        while (!try_add(number, place)) {
+            // It comes behind a rest.
+            if (!on_way || !leg_.is_too_long() ||
+                !add(usual_rest(leg_.driver()), RestPlace::way, leg_, rests_)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    bool try_add(Int number, RestPlace place) {
+        RestedLeg leg = leg_;
+        if (!add(number, place, leg, rests_)) return false;
+        leg_ = leg;
+        return true;
+    }
+
+    static bool add(Int number, RestPlace place, RestedLeg& leg, Rests& rests) {
+        if (rests.count() == most_rests || leg.take(number, place) == none) return false;
+        rests = rests.with(number, place);
+        return true;
+    }
+
+    // Rest where the leg ends, if that helps.
+    std::optional<Rests> rest_there() {
+        const Int arrival = onward_.time(), waits = opens_(arrival) - arrival;
+        const Driver& driver = onward_.driver();
+        const bool has_to = !may_still_work(type_, driver, ends_(arrival));
+        if (planned_.count() == most_rests) return planned_;
+        for (const Int number : {whole_rest, second_part, first_part}) {
+            if (!may_rest(type_, driver, number)) continue;
+            const Int length = rest_duration(type_, number);
+            const bool helps = length > 0 && driver.since < arrival;
+            if ((helps && length <= waits) || (has_to && number == usual_rest(driver))) {
+                return planned_.with(number, RestPlace::arrival);
+            }
+        }
+        return planned_;
+    }
+
+    const VehicleType& type_;
+    RestedLeg leg_;     // so far
+    RestedLeg onward_;  // at the end, with rests as needed
+    Rests rests_;       // so far
+    Rests planned_;     // likewise at the end
+    const Opens& opens_;
+    const Ends& ends_;
+    bool is_under_way_ = false;
+    bool is_there_ = false;
+};
 
 }  // namespace tandem

@@ -149,6 +149,7 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
         Amount most = capacity_in(setting.type, number);
         if (has_breaks(setting.type)) {
             for (Int index = 0; index < rests.count(); ++index) {
+                if (!is_stated(rests.number(index))) continue;
                 most = smaller(most, most_during(setting.type, rests.number(index), number));
             }
         }

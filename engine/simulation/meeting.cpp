@@ -223,16 +223,18 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     const auto leaves = [&](Int arrival) {
         return is_customer ? setting.node[to].end_of_service(arrival + setup) : arrival;
     };
+    const Int heavy =
+        has_breaks(setting.type) ? too_heavy(setting, vehicle, drones, to, is_customer) : 0;
     if (asks) {
         Int driven = 0;
         const std::optional<Driver> driver = driver_of(setting, log, driven);
         if (!driver) return {-1, {}};
-        const std::optional<Rests> rests = rests_as_needed(
-            setting.type, *driver, leave, setting.drive(here, to) - setup, opens, leaves);
-        if (!rests || (attends && rests->count() > 0)) return {-1, {}};
+        const RestedLeg leg(setting.type, begin, *driver, leave, setting.drive(here, to) - setup);
+        const std::optional<Rests> rests =
+            Unforeseeing(setting.type, leg, opens, leaves).run(vehicle.rested, heavy, begin);
+        if (!rests || (attends && rests->any_unstated())) return {-1, {}};
         return {come(setting, *rests, begin, here, to, leave), *rests};
     }
-    const Int heavy = too_heavy(setting, vehicle, drones, to, is_customer);
     const std::optional<Rests> rests =
         rests_on_leg(setting.type, vehicle.rested, heavy, begin, leave, travel, leaves, opens);
     if (!rests) return {-1, {}};

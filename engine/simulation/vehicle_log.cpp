@@ -455,7 +455,8 @@ Int excess_in_air(const Setting& setting, const VehicleLog& log) {
 }  // namespace
 
 std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, Int& driven) {
-    Driver driver = driver_from(setting.type, log.trip[0].start);
+    const Int begin = log.trip[0].start;
+    Driver driver = driver_from(setting.type, begin);
     driven = 0;
     for (Int trip = 0; trip < log.count.trips; ++trip) {
         const Int behind = stops_of(log, trip).behind;
@@ -463,7 +464,8 @@ std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, I
             const LoggedStop& before = log.stop[index - 1];
             const Int to = log.stop[index].node;
             const Int duration = travel_of(setting, before.node, to);
-            if (!drive_rested(setting.type, Rests(before.rests), before.leave, duration, driver)) {
+            if (!drive_rested(setting.type, Rests(before.rests), begin, before.leave, duration,
+                              driver)) {
                 return std::nullopt;
             }
             driven += duration;

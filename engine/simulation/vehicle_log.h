@@ -93,7 +93,7 @@ inline auto travel_without_setup(const Setting& setting, Int origin, Int to) {
 // As `travel_arrival`, with breaks on a route that begins at `begin`; -1 if one can't be taken.
 inline Int come(const Setting& setting, Rests rests, Int begin, Int origin, Int to, Int leave) {
     if (rests.count() == 0) return travel_arrival(setting, origin, to, leave);
-    if (has_driving_rules(setting.type)) {
+    if (rests_in_gaps(setting.type)) {
         return travel_arrival(setting, origin, to, leave) + duration_of(setting.type, rests);
     }
     const std::optional<Int> arrival =

@@ -1,7 +1,7 @@
 """Breaks of drivers, as the engine reads and packs them."""
 
 from collections.abc import Iterator, Sequence
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -16,19 +16,11 @@ PLACES: tuple[Literal["departure", "way", "arrival"], ...] = "departure", "way",
 
 
 class BreakTimes(NamedTuple):
-    """A break between two stops; times in ms."""
+    """A break, or a rest, between two stops; times in ms."""
 
-    number: int
+    number: int  # index into VehicleType.breaks, or `REST`
     place: int  # index into PLACES
     arrival: int  # when the truck stands
-    start: int
-
-
-class RestTimes(NamedTuple):
-    """A rest between two stops; times in ms."""
-
-    number: int
-    place: int  # index into PLACES
     start: int
     end: int
 
@@ -84,56 +76,51 @@ def longest_travel(kind: VehicleType) -> int:
     return min(limits)
 
 
-class RestingDriver:
-    """The driver of a route, from leg to leg, who rests by rules."""
+def _numbers(rests: int) -> list[int]:
+    return [rests >> (4 + 6 * index) & 15 for index in range(rests & 15)]
 
-    def __init__(self, types: Records, k: int, begin: int) -> None:
-        self._types, self._k = types, k
+
+def resting_in_gap(kind: Any, rests: int) -> int:
+    """Return how long the breaks on a leg are that the gap between its stops holds."""
+    if not kind.must_rest or kind.breaks:
+        return 0
+    return sum([int(kind.rest_durations[number - MAX_BREAKS]) for number in _numbers(rests)])
+
+
+class BrokenRoute:
+    """The breaks on a route, from leg to leg, of whose driver is counted what rules say."""
+
+    def __init__(self, types: Records, profile: tuple[IntArray, IntArray], k: int,
+                 begin: int) -> None:
+        self._types, self._profile, self._k, self._begin = types, profile, k, begin
         self._driver = one(dtype_of("tandem_driver"))
         self._driver.driven = types[k].driven_before
         since = types[k].breaks_since
         self._driver.since = (begin if since == NONE else since) - types[k].worked_before
 
-    def drive(self, rests: int, leave: int, arrival: int) -> list[RestTimes]:
-        """Return the rests on a leg that lasts from then until then."""
-        leg, count = one(dtype_of("tandem_broken_leg")), rests & 15
-        lengths = self._types[self._k].rest_durations
-        resting = sum([int(lengths[rests >> (4 + 5 * index) & 7]) for index in range(count)])
-        leg.rests, leg.leave, leg.duration = rests, leave, arrival - leave - resting
-        times = np.zeros((count, 2), np.int64)
-        call("tandem_rest_times", self._types, self._k, leg, self._driver, times)
-        return [RestTimes(REST, rests >> (7 + 5 * index) & 3, begin, begin + length)
-                for index, (begin, length) in enumerate(times.tolist())]
+    def drive(self, rests: int, leave: int, duration: int) -> Iterator[BreakTimes]:
+        """Yield the breaks on a leg.
 
-
-def break_times(types: Records, profile: tuple[IntArray, IntArray], k: int, rests: int, begin: int,
-                leave: int, duration: int) -> Iterator[BreakTimes]:
-    """Yield the breaks on a leg.
-
-    Parameters
-    ----------
-    types
-        Rows of vehicle types.
-    profile
-        Changes of speeds by type, and their factors.
-    k
-        Type of the vehicle.
-    rests
-        The breaks, as the engine packs them.
-    begin
-        When the route begins.
-    leave
-        When the leg begins.
-    duration
-        Of the leg, without setup.
-    """
-    count = rests & 15
-    if count == 0:
-        return
-    leg = one(dtype_of("tandem_broken_leg"))
-    leg.rests, leg.begin, leg.leave, leg.duration = rests, begin, leave, duration
-    times = np.zeros((count, 2), np.int64)
-    call("tandem_break_times", types, *profile, k, leg, times)
-    for index, (arrival, start) in enumerate(times.tolist()):
-        packed = rests >> (4 + 5 * index)
-        yield BreakTimes(packed & 7, packed >> 3 & 3, arrival, start)
+        Parameters
+        ----------
+        rests
+            The breaks, as the engine packs them.
+        leave
+            When the leg begins.
+        duration
+            Of the leg, without setup.
+        """
+        count = rests & 15
+        kind = self._types[self._k]
+        if count == 0 and not kind.must_rest:
+            return
+        leg = one(dtype_of("tandem_broken_leg"))
+        leg.rests, leg.begin, leg.leave, leg.duration = rests, self._begin, leave, duration
+        times = np.zeros((count, 3), np.int64)
+        if kind.must_rest:
+            call("tandem_rest_times", self._types, self._k, leg, self._driver, times)
+        else:
+            call("tandem_break_times", self._types, *self._profile, self._k, leg, times)
+        for index, (number, found) in enumerate(zip(_numbers(rests), times.tolist(), strict=True)):
+            yield BreakTimes(number if number < MAX_BREAKS else REST, rests >> (8 + 6 * index) & 3,
+                             *found)

@@ -15,10 +15,10 @@ def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
     """Return a route that has the breaks that are due, each where the route then ends first.
 
     Breaks that are placed already stay. One that can't be anywhere is left out, and those behind.
+    A driver also rests by driving rules.
     """
     kind = problem.vehicle_types[decision.vehicle_type]
-    if kind.driving is not None:
-        return with_due_rests(problem, decision)
+    decision = with_due_rests(problem, decision)
     for number, each in enumerate(kind.breaks):
         route = schedule(problem, decision)
         begin, end = begin_of(kind, route.trips[0]), route.trips[-1].stops[-1].departure
@@ -26,14 +26,23 @@ def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
         if number in taken or not is_due(each, begin, end):
             continue
         ways = [(wrong, _end(tried), way)
-                for way in _ways(decision, number)
+                for placed in _ways(_unrested(decision), number)
+                for way in [with_due_rests(problem, placed)]
                 for tried in [schedule(problem, way)]
                 for wrong in [any(of is not None for of, _ in
-                                  broken_breaks(problem, kind, tried.trips))]]
+                                  broken_breaks(problem, kind, tried.trips))
+                              or any(True for _ in excesses(kind, tried.trips))]]
         wrong, _, decision = min(ways, key=lambda way: way[:2])
         if wrong:
             break
     return decision
+
+
+def _unrested(decision: RouteDecision) -> RouteDecision:
+    """Return a route whose driver rests nowhere but in breaks that are stated."""
+    return replace(decision, trips=tuple([
+        replace(trip, breaks=tuple([each for each in trip.breaks if each.number != REST]))
+        for trip in decision.trips]))
 
 
 def _end(route: Route) -> int:

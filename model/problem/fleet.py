@@ -197,7 +197,7 @@ class VehicleType:
 
     def _require_driving(self) -> None:
         """Raise `ValueError` unless a driver may rest by rules beside what else is stated."""
-        alone = not (self.breaks or self.flies or self.speed_profile)
+        alone = not (self.flies or self.speed_profile)
         require(alone or self.driving is None, f"vehicle type {self.id} driving", self.driving)
         require(self.max_travel_duration is None or not (self.flies or self.speed_profile),
                 f"vehicle type {self.id} max_travel_duration", self.max_travel_duration)

@@ -1,11 +1,12 @@
 """From the actions of a rollout to the plan they make."""
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 
-from model.engine.breaks import PLACES, RestingDriver, break_times
+from model.engine.breaks import PLACES, BrokenRoute
 from model.engine.instance import Instance
 from model.engine.library import packed
 from model.engine.packing import Packed
@@ -64,49 +65,33 @@ def _trips(problem: Problem, instance: Instance, index: int,
         stops.append(Stop(node, ready - setup, start, leave, setup))
     sorties = read_rows(logs.sortie[0, : count.sorties])
     begin = int(logs.trip[0, 0]["start"])
-    driver = RestingDriver(instance.type[0], index, begin) if kind.driving else None
+    broken = BrokenRoute(instance.type[0], (instance.profile_time[0], instance.profile_factor[0]),
+                         index, begin) if kind.breaks or kind.driving else None
     trips = []
     for first, behind in zip(firsts, [*firsts[1:], count.stops], strict=True):
         flown = tuple(_sortie(problem, row, stops[row.launch_stop].node, first) for row in sorties
                       if first <= row.launch_stop < behind)
         breaks: tuple[TakenBreak, ...] = ()
-        if driver is not None:
-            breaks = _rests(stops, logs, (first, behind), driver)
-        elif kind.breaks:
-            breaks = _breaks(instance, index, stops, logs, (first, behind))
+        if broken is not None:
+            rests = logs.stop[0, first:behind]["rests"].tolist()
+            breaks = _breaks(instance, index, stops[first:behind], rests, broken)
         trips.append(Trip(with_handling(stops[first:behind], kind.launch_duration,
                                         kind.recovery_duration), flown, breaks))
     return tuple(trips)
 
 
-def _breaks(instance: Instance, k: int, stops: Sequence[Stop], logs: VehicleLogs,
-            trip: tuple[int, int]) -> tuple[TakenBreak, ...]:
-    """Return the breaks of a trip whose first stop, and the first behind it, are given."""
-    legs = instance.duration[0, instance.type[0, k].travel]
-    profile = instance.profile_time[0], instance.profile_factor[0]
-    begin = int(logs.trip[0, 0]["start"])
-    taken = []
-    for place in range(trip[0], trip[1] - 1):
-        here, there = stops[place], stops[place + 1]
+def _breaks(instance: Instance, k: int, stops: Sequence[Stop], rests: Sequence[int],
+            broken: BrokenRoute) -> tuple[TakenBreak, ...]:
+    """Return the breaks of a trip, packed as `rests` behind each of its stops."""
+    legs, taken = instance.duration[0, instance.type[0, k].travel], list[TakenBreak]()
+    for place, (here, there) in enumerate(pairwise(stops)):
         duration = legs.item(here.node, there.node)
         if instance.type[0, k].speed_changes < 0:
             duration -= there.setup
-        taken += [TakenBreak(number, place - trip[0], PLACES[where], arrival, start,
-                             start + int(instance.type[0, k].break_duration[number]))
-                  for number, where, arrival, start in break_times(
-                      instance.type[0], profile, k, int(logs.stop[0, place]["rests"]), begin,
-                      here.departure, duration)]
+        taken += [TakenBreak(number, place, PLACES[where], arrival, start, end)
+                  for number, where, arrival, start, end in broken.drive(
+                      rests[place], here.departure, duration)]
     return tuple(taken)
-
-
-def _rests(stops: Sequence[Stop], logs: VehicleLogs, trip: tuple[int, int],
-           driver: RestingDriver) -> tuple[TakenBreak, ...]:
-    """Return the rests of a trip, as `_breaks` those that are stated."""
-    first, behind = trip
-    return tuple([TakenBreak(number, place - first, PLACES[where], begin, begin, end)
-                  for place in range(first, behind - 1) for number, where, begin, end
-                  in driver.drive(int(logs.stop[0, place]["rests"]), stops[place].departure,
-                                  stops[place + 1].arrival)])
 
 
 def _sortie(problem: Problem, row: Any, launch_node: int, first_stop: int) -> Sortie:

@@ -158,11 +158,11 @@ extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k,
         const VehicleType& type = View<VehicleType, 1>(*types)[k];
         const View<Int, 2> written(*times);
         const Rests rests(leg->rests);
-        RestedLeg rested(type, *driver, leg->leave, leg->duration);
+        RestedLeg rested(type, leg->begin, *driver, leg->leave, leg->duration);
         for (Int index = 0; index < rests.count(); ++index) {
-            const Int number = rests.number(index);
-            written(index, 0) = rested.take(number, rests.place(index));
-            written(index, 1) = rest_duration(type, number);
+            written(index, 1) = rested.take(rests.number(index), rests.place(index));
+            written(index, 0) = rested.stood();
+            written(index, 2) = rested.time();
         }
         rested.arrive();
         *driver = rested.driver();
@@ -187,6 +187,7 @@ extern "C" int tandem_break_times(const tandem_vehicle_type_1d* types,
                 written(index, 0) = stood;
                 written(index, 1) = start;
             });
+            written(index, 2) = broken.time();
         }
     });
 }

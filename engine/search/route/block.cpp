@@ -343,7 +343,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         if (stop.kind == end_stop || p + 1 >= stops.size() || waits_for_drones(type)) return -1;
         const Int next = stops[p + 1].node;
         stop.gap = leg(legs, stop.node, next).duration;
-        if (has_driving_rules(type)) stop.gap += duration_of(type, Rests(stop.rests));
+        if (rests_in_gaps(type)) stop.gap += duration_of(type, Rests(stop.rests));
         TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});
         if (truck.resting && stop.rests != 0) {
             there.c = truck.come(stop, next, c);

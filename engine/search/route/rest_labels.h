@@ -24,6 +24,7 @@ struct RestLabel {
     Int depart;    // the latest departure that costs nothing
     Int airborne;  // sum of the take-offs of drones that are out
     Driver driver;
+    Int next;  // the first break, of those due, that isn't taken
     Int count;
     std::array<TakenRest, most_rests_on_route> taken;  // so many of them are written
 };
@@ -31,9 +32,9 @@ struct RestLabel {
 // Tell whether one is no worse than another, whatever comes. Of drones that are out, who left later
 // lasts longer, but is back later.
 inline bool is_no_worse(const RestLabel& one, const RestLabel& other) {
-    return one.airborne == other.airborne && one.time <= other.time && one.cum <= other.cum &&
-           one.depart >= other.depart && one.driver.driven <= other.driver.driven &&
-           one.driver.since >= other.driver.since &&
+    return one.airborne == other.airborne && one.next == other.next && one.time <= other.time &&
+           one.cum <= other.cum && one.depart >= other.depart &&
+           one.driver.driven <= other.driver.driven && one.driver.since >= other.driver.since &&
            one.driver.half_rested >= other.driver.half_rested;
 }
 

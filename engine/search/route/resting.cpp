@@ -19,16 +19,21 @@ using Label = RestLabel;
 using Labels = RestLabels;
 using Taken = TakenRest;
 
+// Return how long the breaks behind a stop make its gap.
+Int resting_in_gap(const VehicleType& type, const Stop& stop) {
+    return rests_in_gaps(type) ? duration_of(type, Rests(stop.rests)) : 0;
+}
+
 // Return how long the leg from a stop is, without setup and rests.
 Int driving_from(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
                  Int p) {
-    return stops[p].gap - duration_of(type, Rests(stops[p].rests)) -
+    return stops[p].gap - resting_in_gap(type, stops[p]) -
            setup_after(data.setup, stops[p].node, stops[p + 1].node);
 }
 
 // Let nobody rest behind a stop. In place.
 void forget_rests(const VehicleType& type, Stop& stop) {
-    stop.gap -= duration_of(type, Rests(stop.rests));
+    stop.gap -= resting_in_gap(type, stop);
     stop.rests = 0;
 }
 
@@ -39,11 +44,18 @@ public:
         : truck_(data, route.type),
           type_(truck_.type),
           stops_(stops.first(route.length)),
-          sorties_(sorties.first(route.sorties)) {}
+          sorties_(sorties.first(route.sorties)) {
+        if (truck_.resting) truck_.begin = begin_of(type_, stops_);
+        for (Int number = 0; number < num_breaks(type_); ++number) {
+            if (!over_before(type_, number, truck_.begin)) {
+                due_[static_cast<std::size_t>(num_due_++)] = number;
+            }
+        }
+    }
 
     bool run() {
         Label first;
-        first.cum = first.airborne = first.count = 0;
+        first.cum = first.airborne = first.next = first.count = 0;
         first.depart = far;
         first.time = begin_of(type_, stops_);
         first.driver = driver_from(type_, first.time);
@@ -133,7 +145,8 @@ private:
     // What a label becomes behind the block that begins with a stop.
     static Label behind_block(Label label, const Stop& stop) {
         label.depart = std::min(label.depart, stop.dep - label.cum);
-        label.cum += stop.d;
+        // With breaks, `d` is none, and when it leaves at best is asked behind.
+        label.cum = std::max(label.cum + stop.d, none);
         label.time = std::max(label.time + stop.d, stop.c);
         return label;
     }
@@ -155,7 +168,8 @@ private:
     // Drive from a stop that is left so to the next.
     void drive(const Label& label, const Way& way) {
         left_ = label.time;
-        ride(label, way, RestedLeg(type_, label.driver, label.time, way.duration));
+        ride(label, way, RestedLeg(type_, truck_.begin, label.driver, label.time, way.duration),
+             RestPlace::departure);
     }
 
     // Leave a block with sorties, reached so, and come to the stop behind it.
@@ -207,7 +221,7 @@ private:
         const auto [p, number, place] = taken;
         Stop& stop = stops_[p];
         stop.rests = Rests(stop.rests).with(number, RestPlace{place}).packed();
-        stop.gap += rest_duration(type_, number);
+        if (rests_in_gaps(type_)) stop.gap += rest_duration(type_, number);
     }
 
     // Return when a stop of a block is left that is reached at `time`; `far` if never, or, at its
@@ -233,8 +247,10 @@ private:
         return sum;
     }
 
-    // Drive a leg, with rests where one has to, and perhaps one at its end.
-    void ride(const Label& label, const Way& way, const RestedLeg& leg) {
+    // Drive what is left of a leg, with rests where one has to, and perhaps one at its end, and
+    // with breaks at this `place` of it and behind.
+    void ride(const Label& label, const Way& way, const RestedLeg& leg, RestPlace place) {
+        take_break(label, way, leg, place);
         if (leg.is_too_long()) {
             rest(label, way, leg, RestPlace::way);
             return;
@@ -248,34 +264,53 @@ private:
         }
     }
 
-    // Take each rest that may come next, and go on. Who has rested where a leg ends has driven
-    // nothing since, but may have taken half a rest.
+    // Take each rest that may come next, and go on.
     void rest(const Label& label, const Way& way, const RestedLeg& leg, RestPlace place) {
-        if (!way.may_rest || label.count == most_rests_on_route ||
-            rests_on(label, way.p) == most_rests) {
+        if (!way.may_rest) return;
+        for (const Int number : {whole_rest, first_part, second_part}) {
+            if (may_rest(type_, leg.driver(), number)) take_one(label, way, leg, number, place);
+        }
+    }
+
+    // Take the next break that is stated, and go on.
+    void take_break(const Label& label, const Way& way, const RestedLeg& leg, RestPlace place) {
+        if (label.next == num_due_) return;
+        const Int number = due_[static_cast<std::size_t>(label.next)];
+        if (is_among(stops_[way.p].heavy, number)) return;
+        Label next = label;
+        ++next.next;
+        if (place == RestPlace::departure) take_one(next, way, leg, number, place);
+        if (place != RestPlace::arrival && may_rest_on_way(type_, number)) {
+            take_one(next, way, leg, number, RestPlace::way);
+        }
+        take_one(next, way, leg, number, RestPlace::arrival);
+    }
+
+    // Take a break or a rest, and go on. Who has rested where a leg ends has driven nothing since,
+    // but may have taken half a rest.
+    void take_one(Label next, const Way& way, const RestedLeg& leg, Int number, RestPlace place) {
+        if (next.count == most_rests_on_route || rests_on(next, way.p) == most_rests) return;
+        RestedLeg rested = leg;
+        if (rested.take(number, place) == none) return;
+        next.taken[static_cast<std::size_t>(next.count++)] = {static_cast<std::int32_t>(way.p),
+                                                              static_cast<std::int8_t>(number),
+                                                              static_cast<std::int8_t>(place)};
+        if (place != RestPlace::arrival) {
+            ride(next, way, rested, place);
             return;
         }
-        for (const Int number : {whole_rest, first_part, second_part}) {
-            if (!may_rest(type_, leg.driver(), number)) continue;
-            RestedLeg rested = leg;
-            if (rested.take(number, place) == none) continue;
-            Label next = label;
-            next.taken[static_cast<std::size_t>(next.count++)] = {static_cast<std::int32_t>(way.p),
-                                                                  static_cast<std::int8_t>(number),
-                                                                  static_cast<std::int8_t>(place)};
-            if (place == RestPlace::way) {
-                ride(next, way, rested);
-            } else {
-                come(next, way, rested);
-                if (number == first_part) rest(next, way, rested, place);
-            }
+        come(next, way, rested);
+        take_break(next, way, rested, place);
+        const bool may_again = number == first_part || is_stated(number);
+        if (may_again && may_need_rest(type_, rested.driver(), way.ahead)) {
+            rest(next, way, rested, place);
         }
     }
 
     // Note that a leg is over.
     void come(Label label, const Way& way, const RestedLeg& leg) {
         label.time = leg.time() + way.setup;
-        label.cum += label.time - left_;
+        if (!truck_.resting) label.cum += label.time - left_;
         label.driver = leg.driver();
         way.there.add(label);
     }
@@ -292,18 +327,23 @@ private:
         return label.taken[static_cast<std::size_t>(index)];
     }
 
-    // Write the rests of the route whose work costs least, and of these that which ends first.
+    // Write the rests of the route whose work costs least, and of these that which ends first. With
+    // breaks, that which ends first.
     bool write() {
         const Label* best = nullptr;
         std::pair<double, Int> least;
         for (const Label& label : *there_) {
             if (!may_end(type_, label.time)) continue;
-            const Int departure = std::min(label.depart, label.time - label.cum);
-            const Int working = label.time - counted_from(type_, departure);
-            if (!may_work(type_, working)) continue;
-            const Rate& rate = truck_.data.rate[truck_.k];
-            const std::pair<double, Int> cost{
-                work_cost(rate, paid_work(type_, label.time, working)), label.time};
+            std::pair<double, Int> cost{0.0, label.time};
+            if (truck_.resting) {
+                if (lacks_break(label)) continue;
+            } else {
+                const Int departure = std::min(label.depart, label.time - label.cum);
+                const Int working = label.time - counted_from(type_, departure);
+                if (!may_work(type_, working)) continue;
+                cost.first =
+                    work_cost(truck_.data.rate[truck_.k], paid_work(type_, label.time, working));
+            }
             if (best == nullptr || cost < least) {
                 best = &label;
                 least = cost;
@@ -314,10 +354,18 @@ private:
         return true;
     }
 
+    // Tell whether a route that has ended should have had a break more.
+    bool lacks_break(const Label& label) const {
+        return label.next < num_due_ && !none_due(type_, due_[static_cast<std::size_t>(label.next)],
+                                                  truck_.begin, label.time);
+    }
+
     Truck truck_;
     const VehicleType& type_;
     View<Stop, 1> stops_;
     View<Sortie, 1> sorties_;
+    Int num_due_ = 0;  // of the breaks that the beginning doesn't come too late for
+    std::array<Int, most_breaks> due_{};
     std::array<Labels, 2> labels_;  // where the truck is, and where it comes, in turn
     Labels* there_ = labels_.data();
     std::array<Labels, 2> inside_rows_;  // likewise within a block
@@ -372,6 +420,47 @@ bool rest_from(const ProblemData& data, Route& route, View<Stop, 1> stops, View<
            drive_as_placed(data, route, stops, sorties);
 }
 
+// Return by how much later than soonest a timed route without drones may begin and end no later.
+Int slack_of_begin(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    const NodeTable places = data.place.by_truck(data.type[route.type]);
+    Int waited = 0, slack = far;
+    for (const Stop& stop : stops.first(route.length)) {
+        if (!has_window(stop)) continue;
+        const Windows place = places[stop.node];
+        slack = std::min(slack, waited + place.as_late(stop.arrival) - stop.arrival);
+        waited += place.waiting(stop.arrival);
+    }
+    return std::min(slack, waited);
+}
+
+// As `drive_by_rules`, of a driver who has breaks, too.
+bool drive_with_breaks(const ProblemData& data, Route& route, View<Stop, 1> stops,
+                       View<Sortie, 1> sorties) {
+    const VehicleType& type = data.type[route.type];
+    const bool driven = drive_as_placed(data, route, stops, sorties);
+    if (driven) {
+        const Int driving = driving_on(data, type, stops.first(route.length));
+        const Int begin = counted_begin(type, begin_of(type, stops));
+        if (!any_break_due(type, route, stops) && needs_no_rest(type, driving, route.end - begin)) {
+            route.driving = driving;
+            return true;
+        }
+    }
+    // Whoever rests is later everywhere, which helps drones alone.
+    if (!driven && route.sorties == 0) return false;
+    const bool may_wait =
+        driven && limits_work(type) && route.sorties == 0 && stops[0].hold == none;
+    const Int slack = may_wait ? slack_of_begin(data, route, stops) : 0;
+    route.driving = far;
+    const Int later = begin_of(type, stops) + slack;
+    const bool rested = rest_from(data, route, stops, sorties, stops[0].hold);
+    if (slack == 0) return rested;
+    // Whoever begins later hasn't worked for so long.
+    const Int end = rested ? route.end : far;
+    if (rest_from(data, route, stops, sorties, later) && route.end <= end) return true;
+    return rested && rest_from(data, route, stops, sorties, none);
+}
+
 }  // namespace
 
 bool any_rest(const VehicleType& type, const Route& route) {
@@ -382,6 +471,7 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
                     View<Sortie, 1> sorties) {
     const VehicleType& type = data.type[route.type];
     clear_rests(type, stops.first(route.length));
+    if (has_breaks(type)) return drive_with_breaks(data, route, stops, sorties);
     if (!drive_as_placed(data, route, stops, sorties)) return false;
     const Int driving = driving_on(data, type, stops.first(route.length));
     const Int soonest = counted_begin(type, begin_of(type, stops));

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from model.engine.breaks import NONE, PLACES, RestingDriver, break_times
+from model.engine.breaks import NONE, PLACES, BrokenRoute, resting_in_gap
 from model.engine.instance import DIMENSIONS_PER_TIER, NO_PROFILE
 from model.engine.library import call, dtype_of, packed
 from model.engine.records import Record, Records, one, read_rows
@@ -187,40 +187,28 @@ def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip
     sorties = read_rows(fleet.sortie[slot, : route.sorties]) if route.sorties > 0 else []
     kind = data.type[route.type]
     handling = (kind.launch_duration, kind.recovery_duration) if kind.flies else (0, 0)
-    driver = RestingDriver(data.type, route.type, halts[0].arrival) if kind.must_rest else None
+    broken = BrokenRoute(data.type, (data.profile_time, data.profile_factor), route.type,
+                         halts[0].arrival) if kind.must_rest or kind.breaks else None
     return tuple(
         Trip(with_handling(halts[first:last + 1], *handling),
              tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last),
-             _rests(halts, rows, (first, last), driver) if driver else
-             _breaks(data, route.type, halts, rows, (first, last)) if kind.breaks else ())
+             _breaks(data.type[route.type], halts, rows, (first, last), broken) if broken else ())
         for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
 
 
-def _breaks(data: ProblemData, k: int, halts: Sequence[Stop], rows: Records,
-            trip: tuple[int, int]) -> tuple[TakenBreak, ...]:
+def _breaks(kind: Any, halts: Sequence[Stop], rows: Records, trip: tuple[int, int],
+            broken: BrokenRoute) -> tuple[TakenBreak, ...]:
     """Return the breaks of a trip, of which the first and the last stop are given."""
-    kind, begin, (first, last) = data.type[k], halts[0].arrival, trip
-    profile = data.profile_time, data.profile_factor
-    taken = []
+    first, last = trip
+    rests, taken = rows["rests"].tolist(), list[TakenBreak]()
     for place in range(first, last):
         setup = halts[place + 1].setup if kind.speed_changes == NO_PROFILE else 0
-        taken += [TakenBreak(number, place - first, PLACES[where], arrival, start,
-                             start + int(kind.break_duration[number]))
-                  for number, where, arrival, start in break_times(
-                      data.type, profile, k, int(rows[place]["rests"]), begin,
-                      halts[place].departure, int(rows[place]["gap"]) - setup)]
+        duration = int(rows[place]["gap"]) - setup - resting_in_gap(kind, rests[place])
+        taken += [TakenBreak(number, place - first, PLACES[where], arrival, start, end)
+                  for number, where, arrival, start, end in broken.drive(
+                      rests[place], halts[place].departure, duration)]
     return tuple(taken)
-
-
-def _rests(halts: Sequence[Stop], rows: Records, trip: tuple[int, int],
-           driver: RestingDriver) -> tuple[TakenBreak, ...]:
-    """Return the rests of a trip, as `_breaks` those that are stated."""
-    first, last = trip
-    return tuple([TakenBreak(number, place - first, PLACES[where], begin, begin, end)
-                  for place in range(first, last) for number, where, begin, end in driver.drive(
-                      int(rows[place]["rests"]), halts[place].departure,
-                      halts[place + 1].arrival)])
 
 
 def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,

@@ -41,6 +41,20 @@ def test_who_drives_for_too_long_rests_and_the_plan_says_by_which_rule(
     assert "DRIVING" in {each["code"] for each in answer["violations"]}
 
 
+@pytest.mark.parametrize(("minutes", "pauses"), [(45, ["lunch"]), (30, ["rest", "lunch"]),
+                                                 (10, ["lunch", "rest"])])
+def test_a_break_that_is_long_enough_is_a_rest_or_a_part_of_one(
+        service: httpx.Client, far: Request, minutes: int, pauses: list[str]) -> None:
+    far["fleet"][0] |= {"costs": {"per_hour": 30}, "breaks": [{
+        "id": "lunch", "duration": 60 * minutes, "at": "anywhere",
+        "start": {"earliest": 12_000, "latest": 13_000}, "after_departure": True}]}
+    plan = planned(service, far)
+    assert [each["id"] for each in breaks_of(plan)] == pauses
+    assert is_feasible(service, far, plan)
+    resting = sum(each["departure"] - each["service_start"] for each in breaks_of(plan))
+    assert resting == 60 * (minutes if minutes == 45 else 45 if minutes == 30 else 55)
+
+
 def test_a_rest_may_lie_in_waiting(service: httpx.Client, far: Request) -> None:
     far["customers"][1]["time_window"] = {"earliest": 14_400}
     waits = planned(service, far)
@@ -121,7 +135,9 @@ def test_us_rules_bound_the_working_day(service: httpx.Client, far: Request) -> 
      "$.fleet[0].driving_rules.break_duration"),
     ({"driving_rules": {"preset": "eu-561", "split": [9]}}, "WRONG_LENGTH",
      "$.fleet[0].driving_rules.split"),
-    ({"breaks": [{"id": "lunch", "duration": 9}]}, "DRIVING_RULES_WITH", "$.fleet[0].breaks"),
+    ({"breaks": [{"id": "rest", "duration": 9}]}, "DUPLICATE_ID", "$.fleet[0].breaks[0].id"),
+    ({"speed_profile": [{"from": 0, "speed_kmh": 50}]}, "DRIVING_RULES_WITH",
+     "$.fleet[0].speed_profile"),
     ({"driving_rules": None, "max_travel_duration": 9, "speed_profile": [
         {"from": 0, "factor": 0.5}]}, "TRAVEL_DURATION_WITH", "$.fleet[0].speed_profile")])
 def test_what_cannot_be_kept_is_told(service: httpx.Client, far: Request, changes: Request,

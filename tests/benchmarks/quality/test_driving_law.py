@@ -8,17 +8,17 @@ import numpy as np
 import pytest
 
 from model.engine.instance import pack
-from model.judge.breaks import BreakDecision
+from model.judge.breaks import BreakDecision, window_of
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import REST, UNLIMITED, DrivingRules, DroneType, Problem
+from model.problem import REST, UNLIMITED, DrivingRules, DroneType, Problem, VehicleType
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from benchmarks.quality.driving_law import Law, offences
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
-from tests.model.tiny_breaks import short_day
+from tests.model.tiny_breaks import short_day, with_breaks
 from tests.model.tiny_driving import drawn_rules, with_driving
 from tests.model.tiny_shipments import with_shipments
 
@@ -33,8 +33,16 @@ def drawn(rng: np.random.Generator) -> Problem:
         truck, driving=drawn_rules(rng), max_travel_duration=int(rng.integers(4, 40)) * MINUTE))
 
 
-State = tuple[int, int, int, int, bool]
-"""Leg, minutes of it that are driven, driven and worked since the last rest, half rested."""
+def with_paid_breaks(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return the same, whose driver may have breaks, too."""
+    kind, = with_breaks(rng, problem).vehicle_types
+    breaks = tuple([replace(each, paid=True, max_load=None) for each in kind.breaks])
+    return replace(problem, vehicle_types=(replace(kind, breaks=breaks),))
+
+
+State = tuple[int, int, int, int, bool, int]
+"""Leg, minutes of it that are driven, driven and worked since the last rest, half rested, and the
+first break that may come next."""
 
 
 def soonest_end(problem: Problem, nodes: tuple[int, ...], start: int) -> float:
@@ -48,40 +56,76 @@ def soonest_end(problem: Problem, nodes: tuple[int, ...], start: int) -> float:
     if (rules.driven_before // MINUTE + sum(legs) > rules.max_driving_per_day // MINUTE
             or sum(legs) * MINUTE > (kind.max_travel_duration or 0)):
         return np.inf
-    first = (0, 0, rules.driven_before // MINUTE, rules.worked_before // MINUTE, False)
+    first = (0, 0, rules.driven_before // MINUTE, rules.worked_before // MINUTE, False, 0)
     at: dict[int, set[State]] = {start: {first}}
     for now in range(start, 61):
         while at.get(now):
             state = at[now].pop()
-            for length, then in _next(problem, nodes, legs, now, state):
+            for length, then in (*_next(problem, nodes, legs, now, state),
+                                 *_breaks(kind, legs, start, now, state)):
                 if then[2] <= limits[0] and then[3] <= limits[1]:
                     if then[0] == len(legs):
-                        return now + length
+                        if not _any_due(kind, then[5], start, now + length):
+                            return now + length
+                        continue
                     if now + length <= 60:
                         at.setdefault(now + length, set()).add(then)
     return np.inf
 
 
+def _any_due(kind: VehicleType, number: int, begin: int, end: int) -> bool:
+    """Tell whether breaks from a number on should have been taken on a route."""
+    return any(window_of(each, begin * MINUTE)[1] < end * MINUTE
+               and window_of(each, begin * MINUTE)[0] + each.duration > begin * MINUTE
+               for each in kind.breaks[number:])
+
+
+def _breaks(kind: VehicleType, legs: list[int], begin: int, now: int,
+            state: State) -> Iterator[tuple[int, State]]:
+    """Yield the breaks that may be taken next, and how long that lasts with waiting."""
+    leg, come, driven, worked, half, number = state
+    rules = kind.driving
+    assert rules is not None
+    for index, each in enumerate(kind.breaks[number:], number):
+        earliest, latest = (instant // MINUTE for instant in window_of(each, begin * MINUTE))
+        start = max(now, earliest)
+        if start > latest or _any_due(replace(kind, breaks=kind.breaks[number:index]), 0, begin,
+                                      999):
+            continue
+        if not (each.anywhere or come in (0, legs[leg])):
+            continue
+        if worked + start - now > rules.max_work // MINUTE:
+            continue
+        then = (leg, come, driven, worked + start - now, half, index + 1)
+        if each.duration >= rules.rest or (half and each.duration >= rules.split[1]):
+            then = leg, come, 0, 0, False, index + 1
+        elif rules.split and each.duration >= rules.split[0]:
+            then = *then[:4], True, index + 1
+        yield start - now + each.duration // MINUTE, then
+
+
 def _next(problem: Problem, nodes: tuple[int, ...], legs: list[int], now: int,
           state: State) -> list[tuple[int, State]]:
     """Return what may be done next, and for how long."""
-    leg, come, driven, worked, half = state
+    leg, come, driven, worked, half, number = state
     rules = problem.vehicle_types[0].driving
     assert rules is not None
-    if leg == len(legs) - 1 and come == legs[leg] - 1:
-        ways = [(1, (leg + 1, 0, driven + 1, worked + 1, half))]
+    ways: list[tuple[int, State]]
+    if leg == len(legs) - 1 and come == legs[leg]:
+        ways = [(0, (leg + 1, 0, driven, worked, half, number))]
     elif come < legs[leg]:
-        ways = [(1, (leg, come + 1, driven + 1, worked + 1, half))]
+        ways = [(1, (leg, come + 1, driven + 1, worked + 1, half, number))]
     else:
         customer = problem.customers[nodes[leg + 1] - 1]
-        ways = [(1, (leg, come, driven, worked + 1, half))]
+        ways = [(1, (leg, come, driven, worked + 1, half, number))]
         if customer.earliest <= now * MINUTE <= customer.latest:
             service = customer.service_duration // MINUTE
-            ways.append((service, (leg + 1, 0, driven, worked + service, half)))
-    ways.append((rules.rest // MINUTE, (leg, come, 0, 0, False)))
+            ways.append((service, (leg + 1, 0, driven, worked + service, half, number)))
+    ways.append((rules.rest // MINUTE, (leg, come, 0, 0, False, number)))
     if rules.split:
         part = rules.split[1 if half else 0] // MINUTE
-        ways.append((part, (leg, come, 0, 0, False) if half else (leg, come, driven, worked, True)))
+        ways.append((part, (leg, come, 0, 0, False, number) if half
+                     else (leg, come, driven, worked, True, number)))
     return ways
 
 
@@ -101,9 +145,11 @@ def cheapest(problem: Problem) -> float:
     return best
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_search_finds_the_cheapest_plan_with_rests(seed: int) -> None:
-    problem = drawn(np.random.default_rng(seed))
+@pytest.mark.parametrize(("seed", "beside"), [*product(range(6), [False]), *product(
+    range(6, 12), [True])])
+def test_search_finds_the_cheapest_plan_with_rests(seed: int, beside: bool) -> None:
+    rng = np.random.default_rng(seed)
+    problem = with_paid_breaks(rng, drawn(rng)) if beside else drawn(rng)
     found = improve(problem, pack([problem]), Solution((), (1, 2)),
                     SearchConfig(turns=200)).solution
     judged = check(problem, found)
@@ -164,7 +210,7 @@ def test_search_finds_the_cheapest_plan_with_rests_while_a_drone_flies(seed: int
     assert rests_by_law(problem, found) == 1
 
 
-CHANGES = with_gaps, with_setups, with_drone_types, with_shipments
+CHANGES = with_gaps, with_setups, with_drone_types, with_shipments, with_breaks
 
 
 def mixed(seed: int) -> Problem:

@@ -21,18 +21,11 @@ Place = tuple[int, int, BreakPlace]  # trip, stop before, where
 def rested(problem: Problem, kind: VehicleType, trips: Trips) -> Iterator[Trips]:
     """Yield a route with all breaks that its driver might take, whole minutes at the wheel before.
     """
-    if kind.driving is not None:
-        for number in range(MOST_RESTS + 1):
-            yield from _with_rests(problem, kind, trips, number)
-        return
-    places = list(_places(trips))
+    most = MOST_RESTS if kind.driving is not None else 0
     for size in range(len(kind.breaks) + 1):
         for numbers in combinations(range(len(kind.breaks)), size):
-            for where in product(range(len(places)), repeat=size):
-                if list(where) == sorted(where):
-                    yield _put(trips, [(places[place], BreakDecision(
-                        number, places[place][1], places[place][2]))
-                        for number, place in zip(numbers, where, strict=True)])
+            for rests in range(most + 1):
+                yield from _with_rests(problem, kind, trips, numbers, rests)
 
 
 def _places(trips: Trips) -> Iterator[Place]:
@@ -42,23 +35,33 @@ def _places(trips: Trips) -> Iterator[Place]:
                 yield index, stop, place  # type: ignore[misc]
 
 
-def _with_rests(problem: Problem, kind: VehicleType, trips: Trips, number: int) -> Iterator[Trips]:
-    rules = kind.driving
-    assert rules is not None
-    lengths = sorted({rules.rest, *rules.split})
+def _with_rests(problem: Problem, kind: VehicleType, trips: Trips, numbers: tuple[int, ...],
+                rests: int) -> Iterator[Trips]:
+    """Yield a route with those breaks, in order, and so many rests."""
+    places = list(_places(trips))
     options = list[tuple[Place, BreakDecision]]()
-    for index, stop, place in _places(trips):
+    for index, stop, place in places if rests else ():
         nodes = trips[index].nodes
         leg = problem.travel[kind.travel].duration.item(nodes[stop], nodes[stop + 1])
         # At the end of a leg it is as at the stop behind.
         driven = range(MINUTE, leg, MINUTE) if place == "way" else range(1)
         options += [((index, stop, place), BreakDecision(REST, stop, place, done, length))
-                    for done in driven for length in lengths]
-    order = {place: rank for rank, place in enumerate(_places(trips))}
-    for chosen in product(options, repeat=number):
-        ranks = [order[place] for place, _ in chosen]
-        if ranks == sorted(ranks):
-            yield _put(trips, list(chosen))
+                    for done in driven for length in _lengths(kind)]
+    order = {place: rank for rank, place in enumerate(places)}
+    stated = [[(place, BreakDecision(number, place[1], place[2])) for place in places]
+              for number in numbers]
+    for which in combinations(range(len(numbers) + rests), rests):
+        left = iter(stated)
+        ways = [options if turn in which else next(left) for turn in range(len(numbers) + rests)]
+        for chosen in product(*ways):
+            ranks = [order[place] for place, _ in chosen]
+            if ranks == sorted(ranks):
+                yield _put(trips, list(chosen))
+
+
+def _lengths(kind: VehicleType) -> list[int]:
+    assert kind.driving is not None
+    return sorted({kind.driving.rest, *kind.driving.split})
 
 
 def least_rest(kind: VehicleType, trips: Trips) -> int:

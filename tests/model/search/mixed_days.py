@@ -63,13 +63,17 @@ def _one_trip(kind: VehicleType) -> VehicleType:
 
 
 def resting(rng: np.random.Generator, problem: Problem) -> Problem:
-    """Return a problem whose drivers make one trip each and have breaks, or rest by rules."""
+    """Return a problem whose drivers make one trip each and have breaks, rest by rules, or both."""
     problem = replace(problem, vehicle_types=tuple(map(_one_trip, problem.vehicle_types)))
     if problem.num_customers > 2 or rng.random() < 0.5:
         problem = with_breaks(rng, problem)
         return replace(problem, vehicle_types=tuple(
             replace(kind, breaks=kind.breaks[:2]) for kind in problem.vehicle_types))
-    return with_driving(rng, problem)
+    problem = with_driving(rng, problem)
+    if rng.random() < 0.4:
+        problem = with_breaks(rng, problem)
+    return replace(problem, vehicle_types=tuple(
+        replace(kind, breaks=kind.breaks[:1]) for kind in problem.vehicle_types))
 
 
 CHANGES: tuple[Change, ...] = (
