@@ -49,10 +49,10 @@ def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
                        f"At most {MOST_IN_ORDER} customers are served in an order: name fewer.")
     if not relation.same_vehicle:
         yield from _across_errors(draft, relation, path)
-    if any(kind.breaks or kind.driving_rules for _, kind in draft.vehicle_types()):
+    if any(kind.driving_rules for _, kind in draft.vehicle_types()):
         yield error_at("RELATION_WITH", (*path, "kind"),
-                       "Breaks can't be placed beside an order yet: leave before out, or breaks "
-                       "and driving_rules.")
+                       "Rests by driving_rules can't be placed beside an order yet: leave before "
+                       "out, or driving_rules.")
 
 
 def _across_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:

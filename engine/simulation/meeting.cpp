@@ -12,6 +12,7 @@
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "simulation/aboard.h"
+#include "simulation/lags.h"
 #include "simulation/vehicle_log.h"
 
 namespace tandem {
@@ -216,12 +217,17 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
     const auto travel = travel_without_setup(setting, here, to);
     const bool is_customer = to >= setting.num_depots;
     const bool attends = asks && out && !may_rest_in_flights(setting.type);
+    const auto ready = [&](Int arrival) {
+        return is_customer && !setting.lag.empty()
+                   ? logged_starts(log).ready_at(setting, to, log.count.stops, arrival + setup)
+                   : arrival + setup;
+    };
     const auto opens = [&](Int arrival) {
-        return is_customer && !attends ? setting.node[to].start_of_service(arrival + setup) - setup
+        return is_customer && !attends ? setting.node[to].start_of_service(ready(arrival)) - setup
                                        : arrival;
     };
     const auto leaves = [&](Int arrival) {
-        return is_customer ? setting.node[to].end_of_service(arrival + setup) : arrival;
+        return is_customer ? setting.node[to].end_of_service(ready(arrival)) : arrival;
     };
     const Int heavy =
         has_breaks(setting.type) ? too_heavy(setting, vehicle, drones, to, is_customer) : 0;

@@ -3,17 +3,28 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include "search/route/block.h"
+#include "search/route/lags.h"
 
 namespace tandem {
 namespace {
 
 constexpr std::size_t most_labels = most_breaks + 1;
 
+// When service began at a stop, or a drone arrived at a customer, and what was noted before.
+struct Noted {
+    Int* at;
+    Int time;
+    Int before;  // number, -1 if none was
+};
+
 // Breaks taken so far, and when the truck then is somewhere, `far` if never.
 struct Label {
     Int time = far;
+    Int excess = 0;                       // by how much somebody is served too long behind another
+    Int noted = -1;                       // the last of what orders look back to
     std::array<Int, most_breaks> stop{};  // by which of those due it is, the stop before it
     std::array<RestPlace, most_breaks> place{};
 
@@ -26,8 +37,14 @@ struct Label {
     }
 };
 
+// Whoever is served too long behind another may not be by other breaks, or if the trip begins
+// later.
 void take_sooner(Label& label, const Label& other) {
-    if (other.time < label.time) label = other;
+    if (other.time == far) return;
+    const bool kept = other.excess <= label.excess;
+    if (label.time == far || other.excess < label.excess || (kept && other.time < label.time)) {
+        label = other;
+    }
 }
 
 class Placing {
@@ -89,7 +106,7 @@ private:
     void pass_block(Int first, Int last) {
         if (behind_ == sortie_) {
             for (Label& label : labels_) {
-                if (label.time < far) label.time = leave_alone(stops_[first], label.time);
+                if (label.time < far) leave_alone(first, label);
             }
             return;
         }
@@ -102,18 +119,59 @@ private:
         sortie_ = behind_;
     }
 
-    // Return when the truck, at a stop without launches at `time`, leaves it; `far` if it can't.
-    Int leave_alone(Stop& stop, Int time) {
+    // Let the truck leave a stop without launches; `far` if it can't.
+    void leave_alone(Int p, Label& label) {
+        Stop& stop = stops_[p];
+        const Int time = label.time;
         truck_.time_alone(stop, time);
-        return time > stop.hi || time < stop.lo ? far : std::max(time + stop.d, stop.c);
+        label.time = time > stop.hi || time < stop.lo ? far : std::max(time + stop.d, stop.c);
+        if (!lags_count(truck_.data) || stop.kind != customer_stop || label.time == far) return;
+        recall(label, p);
+        const Int leave = await_others(truck_, stops_, sorties_, p, time);
+        label.time = leave == far ? far : std::max(label.time, leave);
+        if (label.time < far) note_served(label, p, p);
+    }
+
+    // Write when those were served who are before stop `p`, if orders look back from there. In
+    // place.
+    void recall(const Label& label, Int p) {
+        if (!is_behind(truck_.data.lag, stops_[p].node)) return;
+        recall(label);
+    }
+
+    void recall(const Label& label) {
+        for (Int number = label.noted; number >= 0;) {
+            const Noted& noted = noted_[static_cast<std::size_t>(number)];
+            *noted.at = noted.time;
+            number = noted.before;
+        }
+    }
+
+    void note(Label& label, Int& at) {
+        noted_.push_back({&at, at, label.noted});
+        label.noted = static_cast<Int>(noted_.size()) - 1;
+    }
+
+    // Note when those of a block were served. In place.
+    void note_served(Label& label, Int first, Int last) {
+        label.excess =
+            std::max(label.excess, excess_within(truck_.data, stops_, sorties_, {first, last + 1}));
+        for (Int p = first; p <= last; ++p) {
+            if (stops_[p].kind == customer_stop) note(label, stops_[p].start);
+        }
+        for (Int s = sortie_; s < behind_; ++s) {
+            for (Int visit = 0; visit < sorties_[s].count; ++visit) {
+                note(label, sorties_[s].arrivals[visit]);
+            }
+        }
     }
 
     // Time a block with sorties, after `number` breaks, with none and then with more of them.
     void fly(Int first, Int last, Int number, std::array<Label, most_labels>& left) {
         for (Int q = first; q < last; ++q) stops_[q].rests = 0;
-        Label label = at(number);
-        const Int time = label.time;
-        label.time = leave_block(first, time);
+        const Label come = at(number);
+        Label label = come;
+        leave_block(first, last, label);
         take_sooner(left[static_cast<std::size_t>(number)], label);
         Int from = first;
         for (; number < count_; ++number) {
@@ -123,7 +181,11 @@ private:
                 for (const RestPlace place : {RestPlace::arrival, other_place(number)}) {
                     const Int before = stops_[q].rests;
                     stops_[q].rests = Rests(before).with(due(number), place).packed();
-                    take_sooner(best, label.with(number, q, place, leave_block(first, time)));
+                    Label next = label.with(number, q, place, come.time);
+                    next.excess = come.excess;
+                    next.noted = come.noted;
+                    leave_block(first, last, next);
+                    take_sooner(best, next);
                     stops_[q].rests = before;
                 }
             }
@@ -138,18 +200,22 @@ private:
         }
     }
 
-    // Return when the truck leaves a block with sorties that it reaches at `time`; `far` if it
-    // can't.
-    Int leave_block(Int first, Int time) {
+    // Let the truck leave a block with sorties; `far` if it can't.
+    void leave_block(Int first, Int last, Label& label) {
         for (Int s = sortie_; s < behind_; ++s) sorties_[s].state = sortie_waits;
+        const Int time = label.time;
         BlockSums sums;
         sums.time = time;
         sums.oldest = sortie_;
         sums.launched = launched_;
         sums.first_sortie = first_of_trip_;
-        if (time_block(truck_, stops_, sorties_, first, sums) < 0) return far;
+        label.time = far;
+        if (lags_count(truck_.data)) recall(label);
+        if (time_block(truck_, stops_, sorties_, first, sums) < 0) return;
         const Stop& stop = stops_[first];
-        return time > stop.hi || time < stop.lo ? far : std::max(time + stop.d, stop.c);
+        if (time > stop.hi || time < stop.lo) return;
+        label.time = std::max(time + stop.d, stop.c);
+        if (lags_count(truck_.data)) note_served(label, first, last);
     }
 
     // Where a break is taken that isn't taken where the truck arrives.
@@ -205,13 +271,18 @@ private:
         }
     }
 
+    static bool is_better(const Label& label, const Label& other) {
+        return label.excess < other.excess ||
+               (label.excess == other.excess && label.time < other.time);
+    }
+
     // Write the breaks of the route that ends first, of those that lack none. False: all do.
     bool write() {
         const Label* best = nullptr;
         Int taken = 0;
         for (Int number = 0; number <= count_; ++number) {
             const Label& label = at(number);
-            if (label.time < far && (best == nullptr || label.time < best->time) &&
+            if (label.time < far && (best == nullptr || is_better(label, *best)) &&
                 (number == count_ || none_due(type_, due(number), truck_.begin, label.time))) {
                 best = &label;
                 taken = number;
@@ -234,7 +305,8 @@ private:
     Int count_ = 0;  // of the breaks that the beginning doesn't come too late for
     std::array<Int, most_breaks> due_{};
     std::array<Label, most_labels> labels_;
-    Int sortie_ = 0;  // the first not passed, and the first behind the block
+    std::vector<Noted> noted_;  // nothing without orders
+    Int sortie_ = 0;            // the first not passed, and the first behind the block
     Int behind_ = 0;
     Int launched_ = 0;  // on the trip
     Int first_of_trip_ = 0;

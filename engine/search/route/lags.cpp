@@ -5,12 +5,6 @@
 namespace tandem {
 namespace {
 
-// A part of a route: its stops from one up to another.
-struct Part {
-    Int first;
-    Int behind;
-};
-
 // Call `visit` with the customers of sorties launched in a part, and when service begins there.
 template <class Visit>
 void for_each_flown(const ProblemData& data, View<const Sortie, 1> sorties, Part part,
@@ -131,6 +125,16 @@ Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop
     const auto starts = starts_on(data, stops, flown, part);
     Int most = none;
     for_each_served(data, stops, flown, part, [&](Int node, Int start) {
+        most = std::max(most, excess_of_lags(lags_of(data.lag, node), start, starts));
+    });
+    return most;
+}
+
+Int excess_within(const ProblemData& data, View<const Stop, 1> stops, View<const Sortie, 1> sorties,
+                  Part part) {
+    const auto starts = starts_on(data, stops, sorties, {0, part.behind});
+    Int most = 0;
+    for_each_served(data, stops, sorties, part, [&](Int node, Int start) {
         most = std::max(most, excess_of_lags(lags_of(data.lag, node), start, starts));
     });
     return most;

@@ -13,6 +13,12 @@ inline bool lags_count(const ProblemData& data) { return !data.lag.empty(); }
 // Tell whether anybody is to be served some time behind others whom any vehicle may serve.
 inline bool orders_cross(const ProblemData& data) { return !data.across.empty(); }
 
+// A part of a route: its stops from one up to another.
+struct Part {
+    Int first;
+    Int behind;
+};
+
 // Write from when to when those of a route may be served by whom other routes serve, as these are
 // planned. In place: `data.span`.
 void note_spans(const ProblemData& data, const Fleet& fleet, Int slot);
@@ -43,6 +49,11 @@ bool keeps_all_lags(const ProblemData& data, const Route& route, View<const Stop
 // nobody is.
 Int most_lag_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                     const Trip& trip, View<const Sortie, 1> sorties);
+
+// Return by how much somebody of a part is served too long behind another, there or before it; 0 if
+// nobody is.
+Int excess_within(const ProblemData& data, View<const Stop, 1> stops, View<const Sortie, 1> sorties,
+                  Part part);
 
 // Return when the truck has to leave stop `p` for those to be served in time who are served behind.
 //

@@ -256,7 +256,6 @@ def _stops(plan: dict[str, Any]) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("change", [
-    {"fleet": [{"breaks": [{"id": "rest", "duration": 60, "start": {"latest": 600}}]}]},
     {"fleet": [{"driving_rules": {"preset": "eu-561"}}]}])
 def test_what_is_not_planned_with_an_order_yet_is_refused(
         client: httpx.Client, related: Request, change: dict[str, Any]) -> None:

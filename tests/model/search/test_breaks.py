@@ -1,7 +1,7 @@
 """Breaks are placed as brute force does, and all plans with them keep the rules."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import combinations, permutations, product
 
@@ -19,6 +19,7 @@ from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day, with_breaks
+from tests.model.tiny_company import with_order, with_order_across
 from tests.model.tiny_shipments import with_shipments
 
 pytestmark = pytest.mark.slow
@@ -74,9 +75,15 @@ def cheapest(problem: Problem) -> float:
     return best
 
 
-@pytest.mark.parametrize("seed", range(8))
-def test_search_finds_the_cheapest_plan_with_breaks(seed: int) -> None:
-    problem = drawn(np.random.default_rng(seed))
+def in_order(rng: np.random.Generator) -> Problem:
+    return with_order(rng, drawn(rng))
+
+
+@pytest.mark.parametrize(("draw", "seed"), [
+    *((drawn, seed) for seed in range(8)), *((in_order, seed) for seed in range(3))])
+def test_search_finds_the_cheapest_plan_with_breaks(
+        draw: Callable[[np.random.Generator], Problem], seed: int) -> None:
+    problem = draw(np.random.default_rng(seed))
     found = improve(problem, pack([problem]), Solution((), (1, 2)),
                     SearchConfig(turns=400)).solution
     judged = check(problem, found)
@@ -84,7 +91,7 @@ def test_search_finds_the_cheapest_plan_with_breaks(seed: int) -> None:
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
-CHANGES = with_gaps, with_setups, with_drone_types, with_shipments
+CHANGES = with_gaps, with_setups, with_drone_types, with_shipments, with_order, with_order_across
 
 ONCE_BROKEN = (1155,)
 """Seeds of problems whose rollouts began later than breaks that follow the departure allow."""
