@@ -30,7 +30,7 @@ def named(halt: Mapping[str, Any]) -> tuple[str, str]:
     """Return the kind of a halt of a reply, and its name; a customer's is that among them all."""
     kind, name = halt.get("kind", "customer"), halt["id"]
     if kind in ENDS:
-        return "customer", end_name(name, kind)
+        return "customer", end_name(name, kind, halt.get("part"))
     other = halt.get("alternative")
     return kind, name if other is None else place_name(name, other)
 

@@ -10,13 +10,14 @@ from app.plans.energy import energy_models, energy_wh, left_by_sorties, left_by_
 from app.requests.conversion.units import money, whole
 from app.schemas.customer import place_name
 from app.schemas.driving import REST_ID
+from app.schemas.shipment import end_name
 from model.judge.check import Evaluation
 from model.judge.hubs import taken_at_hubs
 from model.judge.explain import Reason, explain
 from model.judge.fairness import vehicles_lacking
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
-from model.problem import MM_PER_KM, REST, Problem
+from model.problem import MM_PER_KM, REST, Problem, Shipment
 from model.solution import COST_TERMS, Cost, Route, Solution, Sortie, Stop, Trip, Visit
 
 Data = dict[str, Any]
@@ -189,11 +190,27 @@ def place_reply(problem: Problem, node: int) -> Data:
     name, first = problem.customer_at(node).id, problem.first_place(node)
     if node in problem.shipment_at:
         shipment = problem.shipment_at[node]
-        return {"kind": "pickup" if node == shipment.pickup else "delivery", "id": shipment.id}
+        if node == shipment.delivery:
+            return {"kind": "delivery", "id": shipment.id}
+        part = _part(problem, shipment, node)
+        return {"kind": "pickup", "id": shipment.id, **({} if part is None else {"part": part})}
     if node == first:
         return {"id": name}
     own = problem.customer_at(first).id
     return {"id": own, "alternative": name.removeprefix(place_name(own, ""))}
+
+
+def _part(problem: Problem, shipment: Shipment, pickup: int) -> str | None:
+    """Return which of a shipment's `pickups` one is; None if it isn't stated so."""
+    name, before = problem.customer_at(pickup).id, end_name(shipment.id, "pickup", "")
+    return name.removeprefix(before) if name.startswith(before) else None
+
+
+def _left_out(problem: Problem, shipment: Shipment) -> Data:
+    """Return which shipment is left out, and its parts."""
+    parts = [_part(problem, shipment, pickup) for pickup in shipment.pickups]
+    named = {"kind": "shipment", "id": shipment.id}
+    return named if parts == [None] else named | {"parts": parts}
 
 
 def _amounts(problem: Problem, load: Sequence[int]) -> list[float]:
@@ -250,13 +267,13 @@ def _unassigned(problem: Problem, solution: Solution,
     room, unexplained = MOST_REASONS, 0
     for node in solution.unassigned:
         shipment = problem.shipment_at.get(node)
-        if shipment is not None and node == shipment.delivery:
+        if shipment is not None and node != shipment.pickup:
             continue
         reasons = one_per_type(problem, why(node)) if room > 0 else []
         room -= len(reasons)
         unexplained += not reasons
         named = ({"id": problem.customer_at(node).id} if shipment is None
-                 else {"kind": "shipment", "id": shipment.id})
+                 else _left_out(problem, shipment))
         told.append({**named,
                      "reasons": [reason_reply(problem, reason) for reason in reasons]})
     return {"unassigned": told} | ({"unexplained": unexplained} if unexplained else {})

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 from app.schemas.customer import AlternativeInput, place_name
 from app.schemas.errors import InputError
 from app.schemas.request import PlanRequest
-from app.schemas.shipment import ENDS, end_name
 
 _CUSTOMER = re.compile(r"\$\.customers\[(\d+)\](.*)", re.DOTALL)
 _NAMED = re.compile(r"(customers\[\d+\])( has the same id)")
@@ -36,8 +35,7 @@ def added_names(request: PlanRequest) -> Iterator[str]:
         for place in customer.alternatives:
             yield place_name(customer.id, place.id)
     for shipment in request.shipments:
-        for kind in ENDS:
-            yield end_name(shipment.id, kind)
+        yield from [name for name, _ in shipment.named_ends()]
 
 
 def stated_path(request: PlanRequest, path: str) -> str:
@@ -57,11 +55,18 @@ def stated_path(request: PlanRequest, path: str) -> str:
         customer, place = others[index]
         of_place = f".alternatives[{place}]" if OWN.issuperset(part) else ""
         return f"$.customers[{customer}]{of_place}{inner}"
-    index -= len(others)
-    if not 0 <= index < len(ENDS) * len(request.shipments):
+    ends = [(number, end) for number, shipment in enumerate(request.shipments)
+            for _, end in shipment.named_ends()]
+    if not 0 <= index - len(others) < len(ends):
         return path
-    shipment, end = divmod(index, len(ENDS))
+    number, end = ends[index - len(others)]
+    in_parts = bool(request.shipments[number].pickups)
     if inner.startswith(".demand"):
-        return f"$.shipments[{shipment}].amount{inner.removeprefix('.demand')}"
-    own = part in (["id"], ["skills"], ["goods"], ["vehicles"], ["vehicle_costs"])
-    return f"$.shipments[{shipment}]{'' if own else f'.{ENDS[end]}'}{inner}"
+        whose = ".amount"
+        if in_parts:
+            # The sum of all is delivered.
+            whose = f".{'pickups[0]' if end == 'delivery' else end}.amount"
+        return f"$.shipments[{number}]{whose}{inner.removeprefix('.demand')}"
+    own = part in (["skills"], ["goods"], ["vehicles"], ["vehicle_costs"]) or (
+        part == ["id"] and (not in_parts or end == "delivery"))
+    return f"$.shipments[{number}]{'' if own else f'.{end}'}{inner}"

@@ -37,6 +37,8 @@ ErrorCode = Literal[
     "TOO_MANY_PARTS",
     "DUPLICATE_ID",
     "MISSING_DRONE_ID",
+    "PICKUP_OR_PICKUPS",
+    "PICKUPS_WITH",
     "NO_DEPOT",
     "EMPTY_FLEET",
     "UNKNOWN_DEPOT",

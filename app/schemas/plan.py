@@ -31,6 +31,8 @@ STOP_ID_TEXT = (
 ALTERNATIVE_TEXT = (
     "Id of the place among the customer's `alternatives`, where it isn't its own that is used.")
 
+PART_TEXT = "Id of the pickup among the shipment's `pickups`, where it has several."
+
 NOT_READ = "Not read: it is computed anew."
 
 Instant = Annotated[float, Field(ge=-MAX_INSTANT, le=MAX_INSTANT), READ_ANY_INSTANT]
@@ -95,6 +97,7 @@ class StopInput(_Plan):
     kind: StopKind = Field(description=STOP_KIND_TEXT)
     id: str = Field(description=STOP_ID_TEXT)
     alternative: str | None = Field(None, description=ALTERNATIVE_TEXT)
+    part: str | None = Field(None, description=PART_TEXT)
     arrival: Instant = Field(
         description="Arrival; at the trip's first stop, when loading is done."
     )
@@ -112,7 +115,7 @@ class StopInput(_Plan):
     def _name_end(self) -> Self:
         """Name a shipment's end, or another place, as the customer that it is."""
         if self.kind in ENDS:
-            self.__dict__ |= {"kind": "customer", "id": end_name(self.id, self.kind)}
+            self.__dict__ |= {"kind": "customer", "id": end_name(self.id, self.kind, self.part)}
         elif self.alternative is not None:
             self.__dict__["id"] = place_of(self.id, self.alternative)
         return self
@@ -179,7 +182,14 @@ class LeftOutInput(_Plan):
     kind: Literal["customer", "shipment"] = Field(
         "customer", description="What it is; left out of replies for customers.")
     id: str = Field(description="Id of the customer or the shipment.")
+    parts: list[str] = Field([], description="Ids of the shipment's `pickups`, if it has several.")
     reasons: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+
+    def ends(self) -> "list[LeftOutInput]":
+        """Return a shipment's ends as the customers that they are."""
+        return [LeftOutInput(id=name) for name in (
+            *[end_name(self.id, "pickup", part) for part in self.parts or (None,)],
+            end_name(self.id, "delivery"))]
 
 
 class FoundInput(_Plan):
@@ -224,10 +234,10 @@ class PlanInput(_Plan):
 
     @model_validator(mode="after")
     def _name_ends(self) -> Self:
-        """Name both ends of shipments left out as the customers that they are."""
+        """Name all ends of shipments left out as the customers that they are."""
         if any(left_out.kind == "shipment" for left_out in self.unassigned):
             self.__dict__["unassigned"] = tuple(
                 each for left_out in self.unassigned for each in (
                     [left_out] if left_out.kind == "customer"
-                    else [LeftOutInput(id=end_name(left_out.id, kind)) for kind in ENDS]))
+                    else left_out.ends()))
         return self

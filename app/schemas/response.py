@@ -12,7 +12,7 @@ from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.hub import HubReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import (
-    ALTERNATIVE_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
+    ALTERNATIVE_TEXT, PART_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
 )
 from app.schemas.replanned import ReplanReply
 from app.schemas.shipment import EndKind
@@ -52,6 +52,7 @@ class StopReply(_Reply):
     kind: StopKind = Field(description=STOP_KIND_TEXT)
     id: str = Field(description=STOP_ID_TEXT)
     alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
+    part: str | None = Field(None, description=f"{PART_TEXT} Left out where it hasn't.")
     arrival: InstantReply = Field(
         description="Arrival; at the trip's first stop, when loading is done.")
     service_start: InstantReply = Field(description="Start of service; at depots the arrival.")
@@ -192,6 +193,8 @@ class UnassignedReply(_Reply):
     kind: Literal["customer", "shipment"] = Field(
         "customer", description="What it is; left out for customers.")
     id: str = Field(description="Id of the customer or the shipment.")
+    parts: list[str] = Field(
+        [], description="Ids of the shipment's `pickups`; left out if it has but one pickup.")
     reasons: list[ReasonReply] = Field(
         description="Reasons by vehicle type; none where `unexplained` counts the customer.")
 

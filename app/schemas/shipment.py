@@ -1,15 +1,17 @@
-"""A parcel of a request that is fetched at one place and brought to another."""
+"""A parcel of a request that is fetched at one place, or several, and brought to another."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Field, ValidationInfo, field_validator
+from pydantic_core import PydanticCustomError
 
 from app.schemas.customer import CustomerInput, TimeWindowInput, VehiclesInput, Windows
 from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, Demand, Duration, DurationsByType, Goods, Info,
     Input, LocationIndex, Money, Name, PlaceLocation, Skills, VehicleCosts,
 )
+from model.problem import MOST_PICKUPS
 
 EndKind = Literal["pickup", "delivery"]
 ENDS: tuple[EndKind, EndKind] = ("pickup", "delivery")
@@ -41,21 +43,39 @@ class ShipmentEndInput(Input):
         "truck",
         description="Who comes: the truck itself, or either it or a drone of it. What a drone "
         "fetches is aboard the truck from where that recovers it; what one delivers is launched "
-        "at a stop behind.",
+        "at a stop behind. With `pickups` the truck alone.",
     )
 
 
+class ShipmentPickupInput(ShipmentEndInput):
+    """One of several places where a shipment is picked up."""
+
+    id: Name = Field(description="Name of the pickup, unique among those of the shipment.")
+    amount: Demand = Field(description="What is aboard from there to the delivery, per dimension.")
+
+
 class ShipmentInput(Input):
-    """A parcel that one vehicle fetches and brings on the same trip, aboard between."""
+    """A parcel that one vehicle fetches and brings on the same trip, aboard between.
+
+    In parts, if from several places: all of them, or none, before the delivery.
+    """
 
     id: Name = Field(description="Name of the shipment, unique among them.")
-    amount: Demand = Field(description="What is aboard between, per dimension, as `demand`.")
-    pickup: ShipmentEndInput = Field(description="Where it is fetched.")
+    amount: Demand | None = Field(
+        None, description="What is aboard between, per dimension, as `demand`. Null with `pickups`."
+    )
+    pickup: ShipmentEndInput | None = Field(
+        None, description="Where it is fetched. Null with `pickups`."
+    )
+    pickups: Annotated[list[ShipmentPickupInput], Field(max_length=MOST_PICKUPS)] = Field(
+        default_factory=list, json_schema_extra={"default": []}, validate_default=True,
+        description="Where it is fetched in parts instead, in any order, each with an amount.",
+    )
     delivery: ShipmentEndInput = Field(description="Where it is brought.")
     max_time_between: Duration | None = Field(
         None,
-        description="Longest time in seconds from the end of service at the pickup to the start "
-        "of service at the delivery. Null: no limit.",
+        description="Longest time in seconds from the end of service at the pickup, or the first, "
+        "to the start of service at the delivery. Null: no limit.",
     )
     max_detour: Annotated[float, Field(ge=1, le=1_000_000)] | None = Field(
         None,
@@ -82,17 +102,59 @@ class ShipmentInput(Input):
         None, description="Cost of leaving it out, as a customer's."
     )
 
+    @field_validator("pickups")
+    @classmethod
+    def _require_pickups(cls, pickups: list[ShipmentPickupInput],
+                         info: ValidationInfo) -> list[ShipmentPickupInput]:
+        """Refuse both ways of stating pickups at once, and neither."""
+        others = [info.data[name] for name in ("amount", "pickup") if name in info.data]
+        if any((other is None) != bool(pickups) for other in others):
+            raise PydanticCustomError(
+                "PICKUP_OR_PICKUPS", "Where it is fetched is stated by `pickup` and `amount`, or "
+                "by `pickups`, each with an amount of its own: state one of these.")
+        return pickups
+
+    @field_validator("pickups", "delivery")
+    @classmethod
+    def _require_truck(cls, ends: Any, info: ValidationInfo) -> Any:
+        """Refuse drones for what is fetched in parts."""
+        several = isinstance(ends, list)
+        if any(end.served_by != "truck" for end in (ends if several else [ends])) and (
+                several or info.data.get("pickups")):
+            raise PydanticCustomError(
+                "PICKUPS_WITH", "What is fetched at several places is served by the truck alone: "
+                "leave out `served_by`, or state one `pickup`.")
+        return ends
+
+    def named_ends(self) -> list[tuple[str, str]]:
+        """Return the names of its ends among customers, and where it states them."""
+        pickups = [(end_name(self.id, "pickup", part.id), f"pickups[{number}]")
+                   for number, part in enumerate(self.pickups)]
+        return [*(pickups or [(end_name(self.id, "pickup"), "pickup")]),
+                (end_name(self.id, "delivery"), "delivery")]
+
     def ends(self) -> Iterator[CustomerInput]:
         """Yield its ends as customers; only leaving out the first has a cost."""
-        for kind, end in zip(ENDS, (self.pickup, self.delivery), strict=True):
+        for number, (name, end, amount) in enumerate(self._stated_ends()):
+            own = {**dict(end), "id": name, "demand": amount}
+            own.pop("amount", None)
             yield CustomerInput.model_construct(
-                None, **dict(end), id=end_name(self.id, kind), demand=self.amount, pickup=None,
-                skills=self.skills, max_time_aboard=None, goods=self.goods,
-                release_time=0.0, vehicles=self.vehicles,
-                vehicle_costs=self.vehicle_costs if kind == "pickup" else {},
-                unassigned_cost=self.unassigned_cost if kind == "pickup" else 0.0)
+                None, **own, pickup=None, skills=self.skills, max_time_aboard=None,
+                goods=self.goods, release_time=0.0, vehicles=self.vehicles,
+                vehicle_costs={} if number else self.vehicle_costs,
+                unassigned_cost=0.0 if number else self.unassigned_cost)
+
+    def _stated_ends(self) -> Iterator[tuple[str, ShipmentEndInput, list[float]]]:
+        """Yield its ends with their names among customers, and what is fetched or brought there."""
+        whole = self.amount or [sum(amounts) for amounts in zip(
+            *[part.amount for part in self.pickups], strict=False)]
+        if self.pickup is not None:
+            yield end_name(self.id, "pickup"), self.pickup, whole
+        for part in self.pickups:
+            yield end_name(self.id, "pickup", part.id), part, part.amount
+        yield end_name(self.id, "delivery"), self.delivery, whole
 
 
-def end_name(shipment: str, kind: EndKind) -> str:
-    """Return the name of a shipment's end among customers."""
-    return f"{shipment}/{kind}"
+def end_name(shipment: str, kind: EndKind, part: str | None = None) -> str:
+    """Return the name of a shipment's end among customers, of one of several pickups by its id."""
+    return f"{shipment}/{kind}" if part is None else f"{shipment}/{kind}/{part}"

@@ -50,9 +50,17 @@ def ship(rng: random.Random, request: Data) -> None:
                 **({"service_duration": rng.choice((60, 300))} if rng.random() < 0.5 else {}),
                 **({"time_window": a_window(rng)} if rng.random() < 0.2 else {})}
 
+    def amount() -> list[int]:
+        return [rng.randint(0, 2) for _ in range(size)]
+
+    def fetched() -> Data:
+        if rng.random() < 0.7:
+            return {"amount": amount(), "pickup": end()}
+        return {"pickups": [{"id": f"p{part}", "amount": amount(), **end()}
+                            for part in range(rng.randint(1, 3))]}
+
     request["shipments"] = [
-        {"id": f"s{number}", "amount": [rng.randint(0, 2) for _ in range(size)],
-         "pickup": end(), "delivery": end(),
+        {"id": f"s{number}", **fetched(), "delivery": end(),
          **({"max_time_between": rng.choice((900, 1800, 3600))} if rng.random() < 0.4 else {}),
          **({"max_detour": rng.choice((1, 1.5, 3))} if rng.random() < 0.3 else {}),
          **({"unassigned_cost": rng.choice((20, 500))} if rng.random() < 0.2 else {})}

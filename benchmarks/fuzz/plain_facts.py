@@ -125,19 +125,28 @@ def _faults_of_legs(request: Data, route: Data) -> Iterator[str]:
     durations = (request.get("matrices") or {}).get("truck", {}).get("durations")
     if durations is None:
         return
-    places = {**{("launch_site", each["id"]): each for each in request.get("launch_sites", ())},
-              **{("depot", each["id"]): each for each in request["depots"]},
-              **{("customer", each["id"]): each for each in request["customers"]},
-              **{(end, each["id"]): each[end] for each in request.get("shipments", ())
-                 for end in ("pickup", "delivery")}}
+    places: dict[tuple[str, str, str | None], Data] = {
+        **{(kind, each["id"], None): each for kind in ("launch_site", "depot", "customer")
+           for each in request.get(f"{kind}s", ())},
+        **{(kind, each["id"], part): end for each in request.get("shipments", ())
+           for kind, part, end in _ends_of(each)}}
     for trip in route["trips"]:
-        known = [places[stop["kind"], stop["id"]] if not stop.get("alternative")
-                 and (stop["kind"], stop["id"]) in places else None
+        known = [None if stop.get("alternative")
+                 else places.get((stop["kind"], stop["id"], stop.get("part")))
                  for stop in trip["stops"] if stop["kind"] != "break"]
         for origin, to in pairwise(known):
             if origin is not None and to is not None and durations[
                     origin["location_index"]][to["location_index"]] is None:
                 yield f"{route['vehicle']} takes a leg that isn't there"
+
+
+def _ends_of(shipment: Data) -> Iterator[tuple[str, str | None, Data]]:
+    """Yield a shipment's ends by kind and part."""
+    if shipment.get("pickup"):
+        yield "pickup", None, shipment["pickup"]
+    for part in shipment.get("pickups", ()):
+        yield "pickup", part["id"], part
+    yield "delivery", None, shipment["delivery"]
 
 
 def _faults_of_launches(kind: Data, route: Data) -> Iterator[str]:
@@ -157,18 +166,20 @@ def _faults_of_shipments(request: Data, plan: Data) -> Iterator[str]:
     found = dict[str, int]()
     for route in plan["routes"]:
         for trip in route["trips"]:
-            begun, is_stack = dict[str, float](), route["type"] in stacks
+            begun, stack = dict[str, float](), list[str]()
             for stop in trip["stops"]:
-                if stop["kind"] == "delivery" and is_stack and stop["id"] != next(
-                        reversed(begun), None):
-                    yield f"{stop['id']} isn't on top"
                 if stop["kind"] == "pickup":
-                    begun[stop["id"]] = stop["departure"]
+                    begun.setdefault(stop["id"], stop["departure"])
+                    stack.append(stop["id"])
                 elif stop["kind"] == "delivery":
                     found[stop["id"]] = found.get(stop["id"], 0) + 1
-                    if stop["id"] not in begun:
+                    parts = max(1, len(stated[stop["id"]].get("pickups", ())))
+                    if stack.count(stop["id"]) != parts:
                         yield f"{stop['id']} is delivered before its pickup"
                         continue
+                    if route["type"] in stacks and {*stack[-parts:]} != {stop["id"]}:
+                        yield f"{stop['id']} isn't on top"
+                    stack = [name for name in stack if name != stop["id"]]
                     between = stop["service_start"] - begun.pop(stop["id"])
                     longest = stated[stop["id"]].get("max_time_between")
                     if longest is not None and between > longest + SLACK:

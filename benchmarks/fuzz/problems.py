@@ -98,7 +98,8 @@ class Study:
             if not math.isclose(cost, verdict["cost"][term], rel_tol=ROUNDING, abs_tol=1e-6):
                 raise Fault(f"cost by {term}: {cost}, by POST /check {verdict['cost'][term]}")
         served = plan["summary"]["served"]
-        left_out = sum(2 if left.get("kind") == "shipment" else 1 for left in plan["unassigned"])
+        left_out = sum(1 + len(left.get("parts") or [None]) if left.get("kind") == "shipment"
+                       else 1 for left in plan["unassigned"])
         if served + left_out != len(request["customers"]) + len(ends_of(request)):
             raise Fault(f"{served} served and {left_out} left out")
         if not all(left["reasons"] for left in plan["unassigned"]):

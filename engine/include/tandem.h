@@ -70,9 +70,10 @@ typedef struct tandem_hub {
 } tandem_hub;
 
 /* An end of a shipment: the node of the other end, -1 where there is none, and whether the parcel
-   is delivered here. Who stands for a node where that is inserted or left out: the pickup of a
-   shipment, the first of several places of a customer, else the node itself; and the next of those
-   places, the first behind the last. Nobody has a row where there are neither. */
+   is delivered here. Of several pickups, the delivery's other end is the first. Who stands for a
+   node where that is inserted or left out: the first pickup of a shipment, the first of several
+   places of a customer, else the node itself; and the next of those pickups or places, the first
+   behind the last. Nobody has a row where there are neither. */
 typedef struct tandem_pair {
     int64_t partner;
     int64_t is_delivery;
@@ -618,6 +619,7 @@ typedef struct tandem_move {
     int64_t type;
     int64_t halt;    /* the launch site */
     int64_t landing; /* that of recovery, if there are two; of a pair, the stop */
+    int64_t end[8];  /* of several pickups, in order: the stop times 8, and the pickup's number */
 } tandem_move;
 
 /* How many there are of each; the turn; the last stamp that was given. */

@@ -37,7 +37,9 @@ Int asked(const Setting& setting, Int node) {
 // same customer elsewhere.
 bool is_out(View<const Pair, 1> pairs, View<const bool, 1> served, Int candidate, Int other) {
     if (is_delivery(pairs, other)) {
-        return pairs[other].partner != candidate && !served[pairs[other].partner];
+        return std::ranges::any_of(pickups_of(pairs, other), [&](Int pickup) {
+            return pickup != candidate && !served[pickup];
+        });
     }
     return unit_of(pairs, other) == unit_of(pairs, candidate) && !is_paired(pairs, other);
 }

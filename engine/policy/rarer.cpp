@@ -83,18 +83,19 @@ double rest_on_leg(const Duty& duty, const Candidate& candidate) {
 }  // namespace
 
 Int excess_under_way(const Setting& setting, const VehicleLog& log, Int delivery, Int start) {
-    const Int pickup = setting.pair[delivery].partner;
-    for (Int index = log.count.stops - 1; index >= 0; --index) {
-        const LoggedStop& stop = log.stop[index];
-        if (stop.node != pickup) continue;
+    Int most = -far;
+    for (const LoggedStop& stop : log.stop.first(log.count.stops)) {
+        const Int pickup = stop.node;
+        if (!brings(setting.pair, pickup, delivery)) continue;
         const Int left = stop.start + setting.node[pickup].service_duration();
-        return excess_between(setting.max_between, pickup, left, start);
+        most = std::max(most, excess_between(setting.max_between, pickup, left, start));
     }
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
-        if (sortie.node != pickup) continue;
-        return excess_between(setting.max_between, pickup, sortie.ready, start);
+        if (!brings(setting.pair, sortie.node, delivery)) continue;
+        most =
+            std::max(most, excess_between(setting.max_between, sortie.node, sortie.ready, start));
     }
-    return -far;
+    return most;
 }
 
 void describe_rarer(const Duty& duty, const Candidate& candidate, ActionFeatures& feature) {

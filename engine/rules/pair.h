@@ -1,6 +1,9 @@
-// Who belongs together: shipments, parcels fetched at one end and brought to the other on the same
-// trip, later; and places of one customer, of which one is used.
+// Who belongs together: shipments, parcels fetched at one end, or in parts at several, and brought
+// to the other on the same trip, later; and places of one customer, of which one is used.
 #pragma once
+
+#include <algorithm>
+#include <array>
 
 #include "rules/window.h"
 
@@ -24,13 +27,63 @@ inline bool is_delivery(View<const Pair, 1> pairs, Int node) {
     return is_paired(pairs, node) && pairs[node].is_delivery != 0;
 }
 
-// Who stands for a node where customers are inserted or left out: of both ends of a shipment its
+// Whether a part of what is delivered at a node is picked up at another.
+inline bool brings(View<const Pair, 1> pairs, Int node, Int delivery) {
+    return pairs[node].partner == delivery;
+}
+
+// Who stands for a node where customers are inserted or left out: of a shipment's ends its first
 // pickup, of a customer's places the first.
 inline Int unit_of(View<const Pair, 1> pairs, Int node) {
     return some_paired(pairs) ? pairs[node].unit : node;
 }
 
-// Call `visit` with each place of the customer at a node, that node first.
+// Whether a node is an end of a shipment for which another stands.
+inline bool is_other_end(View<const Pair, 1> pairs, Int node) {
+    return is_paired(pairs, node) && pairs[node].unit != node;
+}
+
+constexpr Int most_pickups = 8;
+
+// Where a shipment is picked up, in some order.
+struct Pickups {
+    std::array<Int, most_pickups> node;
+    Int count;
+
+    const Int* begin() const { return node.data(); }
+    const Int* end() const { return node.data() + count; }
+};
+
+// Where a shipment is picked up, by one of its ends.
+inline Pickups pickups_of(View<const Pair, 1> pairs, Int end) {
+    Pickups pickups{};
+    const Int first = pairs[end].unit;
+    Int next = first;
+    do {
+        pickups.node[std::size_t(pickups.count++)] = next;
+        next = pairs[next].next_place;
+    } while (next != first);
+    return pickups;
+}
+
+// Whether a node is the end of a shipment that is picked up in parts.
+inline bool is_gathered(View<const Pair, 1> pairs, Int node) {
+    return is_paired(pairs, node) && pairs[pairs[node].unit].next_place != pairs[node].unit;
+}
+
+// The same pickups in another order, by its number.
+inline Pickups in_order(Pickups pickups, Int number) {
+    for (Int first = 0; first < pickups.count; ++first) {
+        const Int left = pickups.count - first;
+        const auto chosen = pickups.node.begin() + first + number % left;
+        std::rotate(pickups.node.begin() + first, chosen, chosen + 1);
+        number /= left;
+    }
+    return pickups;
+}
+
+// Call `visit` with each place of the customer at a node, that node first; at a shipment's pickup,
+// with all of its pickups.
 template <class Visit>
 void for_each_place(View<const Pair, 1> pairs, Int node, const Visit& visit) {
     visit(node);
@@ -61,11 +114,11 @@ inline Int excess_between(View<const Int, 1> max_between, Int pickup, Int left, 
     return start - left - max_between[pickup];
 }
 
-// Shipments on a trip as its ends are served: whether they are whole, each aboard its truck before
-// it is delivered.
+// Shipments on a trip as its ends are served: whether they are whole, all parts of each aboard its
+// truck before it is delivered.
 //
-// A shipment is aboard from the stop on where its truck picks it up, or recovers the drone that
-// does. It leaves at a later one, where its truck delivers it, or launches the drone that does.
+// A part is aboard from the stop on where its truck picks it up, or recovers the drone that does.
+// It leaves at a later one, where its truck delivers it, or launches the drone that does.
 class WholePairs {
 public:
     explicit WholePairs(View<const Pair, 1> pairs) : pairs_(pairs) {}
@@ -75,9 +128,14 @@ public:
     template <class ComesBefore>
     void serve(Int node, const ComesBefore& comes_before) {
         if (!is_paired(pairs_, node)) return;
-        const bool delivered = pairs_[node].is_delivery != 0;
-        whole_ = whole_ && (!delivered || comes_before(pairs_[node].partner));
-        aboard_ += delivered ? -1 : 1;
+        if (pairs_[node].is_delivery == 0) {
+            ++aboard_;
+            return;
+        }
+        for (const Int pickup : pickups_of(pairs_, node)) {
+            whole_ = whole_ && comes_before(pickup);
+            --aboard_;
+        }
     }
 
     bool are_kept() const { return whole_ && aboard_ == 0; }
@@ -88,26 +146,30 @@ private:
     bool whole_ = true;
 };
 
+// By how many parts of shipments more are aboard behind a node.
+inline Int stacked_at(View<const Pair, 1> pairs, Int node) {
+    if (!is_paired(pairs, node)) return 0;
+    return pairs[node].is_delivery != 0 ? -pickups_of(pairs, node).count : 1;
+}
+
 // Whether each shipment is delivered before all that are picked up before it and not yet delivered:
 // those from `first` on, `behind` not among them, of which `keeps_pairs` holds.
 template <class NodeAt>
 bool keeps_stack(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt& node_at) {
     for (Int p = first; p < behind; ++p) {
         if (node_at(p) < 0 || !is_delivery(pairs, node_at(p))) continue;
-        Int beneath = 0;
-        for (Int q = p - 1; node_at(q) != pairs[node_at(p)].partner; --q) {
+        Int beneath = 0, lacking = pickups_of(pairs, node_at(p)).count;
+        for (Int q = p - 1; lacking > 0; --q) {
             if (node_at(q) < 0 || !is_paired(pairs, node_at(q))) continue;
-            beneath += pairs[node_at(q)].is_delivery != 0 ? 1 : -1;
+            if (brings(pairs, node_at(q), node_at(p))) {
+                --lacking;
+                continue;
+            }
+            beneath -= stacked_at(pairs, node_at(q));
             if (beneath < 0) return false;
         }
     }
     return true;
-}
-
-// By how many shipments more are aboard behind a node.
-inline Int stacked_at(View<const Pair, 1> pairs, Int node) {
-    if (!is_paired(pairs, node)) return 0;
-    return pairs[node].is_delivery != 0 ? -1 : 1;
 }
 
 }  // namespace tandem

@@ -57,8 +57,8 @@ void take_part(const ProblemData& data, const Searcher& whole, Searcher& part,
     std::copy(missing.begin(), missing.end(), part.missing.begin());
     count.customers = 0;
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-        const bool counts = is_delivery(data.pair, node) ||
-                            node == served_place(data, now, unit_of(data.pair, node));
+        const bool counts =
+            is_paired(data.pair, node) || node == served_place(data, now, unit_of(data.pair, node));
         if (counts && now.where[node].slot != elsewhere) ++count.customers;
     }
     part.value->cost = cost + left_out_cost(data, missing, missing.size()) + plan_cost(data, part);

@@ -122,6 +122,12 @@ Room room_of(const OpenVehicle& open) {
             vehicle.flying < setting.type.drones && allows_sorties(setting.type, flown + 1)};
 }
 
+// Tell whether all of a shipment has been picked up.
+bool is_all_aboard(View<const Pair, 1> pairs, View<const bool, 1> served, Int delivery) {
+    return std::ranges::all_of(pickups_of(pairs, delivery),
+                               [&](Int pickup) { return served[pickup]; });
+}
+
 // Write the legal drives and launches of a rollout with an open vehicle; return how many.
 Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1> outlooks) {
     const auto& [instance, state, r, scratch] = rollout;
@@ -161,7 +167,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
         if (is_delivery(setting.pair, node) &&
-            !(laden && state.served(r, setting.pair[node].partner) &&
+            !(laden && is_all_aboard(setting.pair, state.served[r], node) &&
               (node == last || !is_stack(setting.type)))) {
             continue;
         }
@@ -345,10 +351,15 @@ void apply(const Instance& instance, State& state, Int r, Int action) {
     }
     improve_departure(open);
     if (kind != ActionKind::end_trip) {
-        for_each_place(open.setting.pair, target, [&](Int place) {
+        const auto serve = [&](Int place) {
             state.served(r, place) = true;
             --state.num_unserved[r];
-        });
+        };
+        if (is_paired(open.setting.pair, target)) {
+            serve(target);
+        } else {
+            for_each_place(open.setting.pair, target, serve);
+        }
     }
 }
 

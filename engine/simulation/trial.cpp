@@ -16,7 +16,7 @@
 namespace tandem {
 namespace {
 
-constexpr std::size_t most_permuted = 3;  // parcels aboard whose deliveries are tried in all orders
+constexpr std::size_t most_permuted = 3;  // stops for parcels aboard that are tried in all orders
 
 template <class T>
 void copy_rows(View<const T, 1> from, View<T, 1> to, Int count) {
@@ -49,8 +49,8 @@ bool works_within(OpenVehicle& open) {
 // Who is served, in order, before the vehicle goes home.
 using Order = std::vector<Int>;
 
-// The deliveries of what is aboard, or fetched by drones, in the order of their pickups, those by
-// drones last.
+// The deliveries of what is aboard, or fetched by drones, one for each part, in the order of their
+// pickups, those by drones last.
 Order parcels_aboard(const Setting& setting, const VehicleLog& log) {
     Order aboard;
     const Int first = log.trip[log.count.trips - 1].first_stop;
@@ -74,46 +74,136 @@ Order parcels_aboard(const Setting& setting, const VehicleLog& log) {
     return aboard;
 }
 
-// Let who is nearest come next, from a node on. In place.
-void sort_by_nearness(View<const Int, 2> legs, Int from, Order& order) {
-    for (auto next = order.begin(); next != order.end(); ++next) {
-        std::iter_swap(next, std::min_element(next, order.end(), [&](Int one, Int other) {
-                           return std::pair(legs(from, one), one) <
-                                  std::pair(legs(from, other), other);
-                       }));
-        from = *next;
+// A shipment that is aboard, at least in part: where the rest is picked up, and the delivery.
+struct Due {
+    Order lacking;
+    Int delivery;
+};
+
+using Dues = std::vector<Due>;
+
+// What of a shipment isn't aboard yet.
+Order lacking_of(const Setting& setting, const VehicleLog& log, Int delivery) {
+    const auto stops = log.stop.first(log.count.stops);
+    Order lacking;
+    for (const Int pickup : pickups_of(setting.pair, delivery)) {
+        const bool is_aboard = std::any_of(stops.begin(), stops.end(), [&](const LoggedStop& stop) {
+            return stop.node == pickup;
+        });
+        if (!is_aboard) lacking.push_back(pickup);
     }
+    return lacking;
+}
+
+// The shipments aboard, in the order in which their last parts came aboard.
+Dues dues_of(const Setting& setting, const VehicleLog& log, const Order& aboard) {
+    Dues dues;
+    for (auto part = aboard.begin(); part != aboard.end(); ++part) {
+        if (std::find(part + 1, aboard.end(), *part) != aboard.end()) continue;
+        const Int fetched = Int(std::count(aboard.begin(), aboard.end(), *part));
+        const bool is_whole = fetched == pickups_of(setting.pair, *part).count;
+        dues.push_back({is_whole ? Order() : lacking_of(setting, log, *part), *part});
+    }
+    return dues;
+}
+
+// Tell whether the parts of each shipment lie on each other, with no other's between.
+bool lie_together(const Order& aboard) {
+    for (std::size_t part = 1; part < aboard.size(); ++part) {
+        const auto below = aboard.begin() + Int(part) - 1;
+        if (*below != aboard[part] && std::find(aboard.begin(), below, aboard[part]) != below) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// All of some shipments, each picked up before it is delivered.
+Order one_by_one(const Dues& dues) {
+    Order order;
+    for (const Due& due : dues) {
+        order.insert(order.end(), due.lacking.begin(), due.lacking.end());
+        order.push_back(due.delivery);
+    }
+    return order;
+}
+
+// Let who is nearest come next, from a node on, none delivered before it is picked up.
+Order by_nearness(View<const Int, 2> legs, Int from, Dues dues) {
+    Order order;
+    while (!dues.empty()) {
+        std::pair<Int, Int> nearest{unlimited, 0};
+        for (const Due& due : dues) {
+            for (const Int node : due.lacking) {
+                nearest = std::min(nearest, {legs(from, node), node});
+            }
+            if (due.lacking.empty()) {
+                nearest = std::min(nearest, {legs(from, due.delivery), due.delivery});
+            }
+        }
+        from = nearest.second;
+        order.push_back(from);
+        for (Due& due : dues) std::erase(due.lacking, from);
+        std::erase_if(dues, [&](const Due& due) { return due.delivery == from; });
+    }
+    return order;
+}
+
+// Tell whether an order delivers nothing before it is picked up.
+bool is_in_order(const Dues& dues, const Order& order) {
+    return std::ranges::all_of(dues, [&](const Due& due) {
+        const auto delivery = std::ranges::find(order, due.delivery);
+        return std::ranges::all_of(due.lacking, [&](Int pickup) {
+            return std::find(order.begin(), delivery, pickup) != delivery;
+        });
+    });
+}
+
+// Calls `visit` with the orders of some nodes in which nothing is delivered before it is picked up,
+// until one is legal.
+template <class Visit>
+bool any_permutation(const Dues& dues, Order order, const Visit& visit) {
+    std::sort(order.begin(), order.end());
+    do {
+        if (is_in_order(dues, order) && visit(order)) return true;
+    } while (std::next_permutation(order.begin(), order.end()));
+    return false;
+}
+
+// As `any_order`, from a stack: all leave in one order, each once it is whole.
+template <class Visit>
+bool any_unstacking(Dues dues, const Visit& visit) {
+    std::reverse(dues.begin(), dues.end());
+    Order lacking;
+    for (const Due& due : dues) {
+        lacking.insert(lacking.end(), due.lacking.begin(), due.lacking.end());
+    }
+    if (lacking.empty() || lacking.size() > most_permuted) return visit(one_by_one(dues));
+    return any_permutation({}, lacking, [&](const Order& order) {
+        for (Due& due : dues) {
+            std::ranges::sort(due.lacking, {},
+                              [&](Int node) { return std::ranges::find(order, node); });
+        }
+        return visit(one_by_one(dues));
+    });
 }
 
 // Calls `visit` with orders in which what is aboard may be delivered until one is legal: all of few
-// parcels; of more, the nearest first, the one due soonest, and the last that came aboard. What is
-// left of an order once its first is delivered is tried then as well, so that who has a way on
-// always keeps one.
-//
-// From a stack all leave in one order.
+// stops; of more, the nearest first, the one due soonest, and the last that came aboard. What is
+// left of an order once its first is served is tried then as well, so that who has a way on always
+// keeps one.
 template <class Visit>
-bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Order aboard,
+bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Dues dues,
                const Visit& visit) {
-    if (is_stack(setting.type)) {
-        std::reverse(aboard.begin(), aboard.end());
-        return visit(aboard);
-    }
-    if (aboard.size() <= most_permuted) {
-        std::sort(aboard.begin(), aboard.end());
-        do {
-            if (visit(aboard)) return true;
-        } while (std::next_permutation(aboard.begin(), aboard.end()));
-        return false;
-    }
-    std::reverse(aboard.begin(), aboard.end());
-    if (visit(aboard)) return true;
-    std::sort(aboard.begin(), aboard.end(), [&](Int one, Int other) {
-        return std::pair(setting.node[one].closing(), one) <
-               std::pair(setting.node[other].closing(), other);
+    if (is_stack(setting.type)) return any_unstacking(std::move(dues), visit);
+    std::reverse(dues.begin(), dues.end());
+    const Order last_first = one_by_one(dues);
+    if (last_first.size() <= most_permuted) return any_permutation(dues, last_first, visit);
+    if (visit(last_first)) return true;
+    std::ranges::sort(dues, {}, [&](const Due& due) {
+        return std::pair(setting.node[due.delivery].closing(), due.delivery);
     });
-    if (visit(aboard)) return true;
-    sort_by_nearness(legs, here, aboard);
-    return visit(aboard);
+    return visit(one_by_one(dues)) || visit(by_nearness(legs, here, std::move(dues)));
 }
 
 // How far a trip has come, and how long the vehicle has been on legs.
@@ -209,8 +299,10 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     if (!attempt(rollout, open, reload, service)) return false;
     const Int here = log.count.stops - 1;
     const Order aboard = some_paired(setting.pair) ? parcels_aboard(setting, log) : Order();
+    if (is_stack(setting.type) && !lie_together(aboard)) return false;
     bool is_first = true;
-    const bool legal = any_order(setting, legs, vehicle.node, aboard, [&](const Order& order) {
+    const Dues dues = dues_of(setting, log, aboard);
+    const bool legal = any_order(setting, legs, vehicle.node, dues, [&](const Order& order) {
         if (!std::exchange(is_first, false)) attempt(rollout, open, reload, service);
         return serve_and_end(open, legs, way, order);
     });

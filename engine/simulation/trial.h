@@ -24,8 +24,9 @@ constexpr Int no_reload = -1;
 // Tell whether an action on a customer is legal by doing it and the return home on a scratch row.
 //
 // Exact for every customer that the load, the kind and the number of trips allow, while no more
-// than three shipments are aboard, which are delivered on the way home. Of more, some orders are
-// tried. If `reload` is a node, the trip ends there before.
+// than three stops are to be made on the way home for what is aboard: its deliveries, and the
+// pickups of parts that lack. Of more, some orders are tried. If `reload` is a node, the trip ends
+// there before.
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook);
 
 // Tell whether shipments are aboard, or fetched by drones, that have to be delivered before the

@@ -233,14 +233,15 @@ private:
     // Whether a shipment that is delivered was not under way too long, by the stops before `index`.
     bool is_brought_soon(Int node, Int index, Int start) const {
         if (!is_delivery(setting_.pair, node)) return true;
-        const Int pickup = setting_.pair[node].partner;
         for (Int before = index - 1; before >= first_; --before) {
-            if (log_.stop[before].node != pickup) continue;
+            const Int pickup = log_.stop[before].node;
+            if (!brings(setting_.pair, pickup, node)) continue;
             const Int left = served_[static_cast<std::size_t>(before)];
-            return excess_between(setting_.max_between, pickup, left, start) <= 0;
+            if (excess_between(setting_.max_between, pickup, left, start) > 0) return false;
         }
         for (const LoggedSortie& sortie : log_.sortie.first(log_.count.sorties)) {
-            if (sortie.node != pickup) continue;
+            const Int pickup = sortie.node;
+            if (!brings(setting_.pair, pickup, node)) continue;
             return excess_between(setting_.max_between, pickup, sortie.trial_ready, start) <= 0;
         }
         return true;
@@ -414,14 +415,15 @@ Int excess_of_pairs(const Setting& setting, const VehicleLog& log) {
     Int most = -far;
     const auto deliver = [&](Int node, Int start, Int behind) {
         if (!is_delivery(setting.pair, node)) return;
-        const Int pickup = setting.pair[node].partner;
         for (const LoggedStop& before : log.stop.first(behind)) {
-            if (before.node != pickup) continue;
+            const Int pickup = before.node;
+            if (!brings(setting.pair, pickup, node)) continue;
             const Int left = before.start + setting.node[pickup].service_duration();
             most = std::max(most, excess_between(setting.max_between, pickup, left, start));
         }
         for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
-            if (sortie.node != pickup) continue;
+            const Int pickup = sortie.node;
+            if (!brings(setting.pair, pickup, node)) continue;
             most = std::max(most, excess_between(setting.max_between, pickup, sortie.ready, start));
         }
     };

@@ -73,8 +73,8 @@ def weight_rows(problem: Problem, dimension: int, length: int) -> IntArray:
     rows[:, :2] = [(customer.demand[dimension], customer.taken_in[dimension])
                    for customer in problem.customers]
     for each in problem.shipments:
-        rows[each.pickup - problem.num_depots, 1] = each.amount[dimension]
-        rows[each.delivery - problem.num_depots, 1] = -each.amount[dimension]
+        for node in each.nodes:
+            rows[node - problem.num_depots, 1] = each.change_at(node)[dimension]
     return rows
 
 
@@ -87,6 +87,6 @@ def most_asked_for(problem: Problem) -> IntArray:
     amounts = np.array(asked, np.int64).reshape(shape)
     most: IntArray = amounts.max(axis=0)
     for each in problem.shipments:
-        for node in (each.pickup, each.delivery):
-            most[node - problem.num_depots] = each.amount
+        for node in each.nodes:
+            most[node - problem.num_depots] = problem.asked_at(node)
     return most

@@ -246,14 +246,16 @@ def _pack_pairs(instance: Instance, row: int, problem: Problem, kinds: Sequence[
 
     What a drone fetches, its truck may always deliver.
     """
-    ends = write_pairs(problem, instance.pair[row])
+    nodes, number, is_delivery = write_pairs(problem, instance.pair[row]).T
     write_aboard(problem, instance.amount[row], DIMENSIONS_PER_TIER)
     write_limits(problem, [kind for kind, _, _ in kinds], instance.max_between[row])
-    instance.can_drive[row][:, ends] &= instance.can_drive[row][:, ends].all(axis=2)[..., None]
+    drives = instance.can_drive[row]
+    firsts = np.flatnonzero(np.diff(number, prepend=-1))
+    drives[:, nodes] = np.logical_and.reduceat(drives[:, nodes], firsts, axis=1)[:, number]
     stacked = np.array([kind.lifo for kind, _, _ in kinds])
-    instance.can_fly[row][np.ix_(stacked, ends.ravel())] = False
-    driven = instance.can_drive[row][[part_of for _, part_of, _ in kinds]]
-    instance.can_fly[row][:, ends[:, 0]] &= driven[:, ends[:, 0]]
+    instance.can_fly[row][np.ix_(stacked, nodes)] = False
+    driven, pickups = drives[[part_of for _, part_of, _ in kinds]], nodes[is_delivery == 0]
+    instance.can_fly[row][:, pickups] &= driven[:, pickups]
 
 
 def _pack_gaps(rows: Records, customers: Sequence[Customer]) -> None:

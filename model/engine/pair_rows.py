@@ -3,6 +3,7 @@ places of one customer.
 """
 
 from collections.abc import Mapping, Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -27,12 +28,16 @@ def empty_limits(problems: Sequence[Problem], types: int, nodes: int, far: int) 
 
 
 def write_pairs(problem: Problem, rows: Records) -> IntArray:
-    """Write the other end at each end, (node,). In place; return the ends, (shipment, 2)."""
+    """Write the other end at each end, (node,). In place; return the ends, (end, 3).
+
+    Each as its node, the number of its shipment, and whether that is delivered there.
+    """
     for each in problem.shipments:
-        rows[[each.pickup, each.delivery]] = [
-            (each.delivery, 0, each.pickup, each.pickup),
-            (each.pickup, 1, each.pickup, each.delivery)]
-    return np.array([(each.pickup, each.delivery) for each in problem.shipments])
+        rows[each.delivery] = (each.pickup, 1, each.pickup, each.delivery)
+        for pickup, after in pairwise((*each.pickups, each.pickup)):
+            rows[pickup] = (each.delivery, 0, each.pickup, after)
+    return np.array([(node, number, node == each.delivery)
+                     for number, each in enumerate(problem.shipments) for node in each.nodes])
 
 
 def write_choices(problem: Problem, rows: Records) -> None:
@@ -48,10 +53,10 @@ def write_aboard(problem: Problem, rows: IntArray, size: int) -> None:
     At a delivery that is less than nothing.
     """
     for each in problem.shipments:
-        amount = np.zeros(rows.shape[1] * size, np.int64)
-        amount[:len(each.amount)] = each.amount
-        rows[each.pickup, :, size:2 * size] = amount.reshape(-1, size)
-        rows[each.delivery, :, size:2 * size] = -amount.reshape(-1, size)
+        for node in each.nodes:
+            amount = np.zeros(rows.shape[1] * size, np.int64)
+            amount[:problem.num_dimensions] = each.change_at(node)
+            rows[node, :, size:2 * size] = amount.reshape(-1, size)
 
 
 def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray) -> None:
@@ -59,9 +64,10 @@ def write_limits(problem: Problem, kinds: Sequence[VehicleType], rows: IntArray)
     for index, kind in enumerate(kinds):
         duration = problem.travel[kind.travel].duration
         for each in problem.shipments:
-            limit = each.longest_between(duration.item(each.pickup, each.delivery))
-            if limit is not None:
-                rows[index, each.pickup] = min(limit, rows.item(index, each.pickup))
+            for pickup in each.pickups if each.is_limited else ():
+                limit = each.longest_between(duration.item(pickup, each.delivery))
+                if limit is not None:
+                    rows[index, pickup] = min(limit, rows.item(index, pickup))
 
 
 def lag_rows(problems: Sequence[Problem], nodes: int) -> dict[str, Records]:

@@ -9,28 +9,26 @@ from model.solution import Trip
 def change_aboard(problem: Problem, node: int) -> tuple[int, ...] | None:
     """Return by how much a stop at a shipment's end changes what is aboard; None elsewhere."""
     each = problem.shipment_at.get(node)
-    if each is None:
-        return None
-    return each.amount if node == each.pickup else tuple([-amount for amount in each.amount])
+    return None if each is None else each.change_at(node)
 
 
 def flown_out(problem: Problem, node: int) -> tuple[int, ...]:
     """Return what a truck's drone brings to a customer, from aboard its truck."""
     each = problem.shipment_at.get(node)
-    if each is None or node == each.pickup:
+    if each is None or node != each.delivery:
         return problem.customer_at(node).demand
-    return each.amount
+    return each.total
 
 
 def flown_back(problem: Problem, node: int) -> tuple[int, ...]:
     """Return what a truck's drone takes along from a customer."""
     each = problem.shipment_at.get(node)
-    return each.amount if each is not None and node == each.pickup else (
+    return each.change_at(node) if each is not None and node != each.delivery else (
         problem.customer_at(node).taken_in)
 
 
 def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
-    """Yield whoever serves an end of a shipment whose other end isn't where it should be, and why.
+    """Yield whoever serves an end of a shipment whose others aren't where they should be, and why.
 
     As part of a path. A parcel is aboard its truck from the stop on where that picks it up, or
     recovers the drone that does; it is so as the truck comes to the stop where it delivers it, or
@@ -43,12 +41,12 @@ def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
         each = problem.shipment_at.get(node)
         if each is None:
             continue
-        other = each.delivery if node == each.pickup else each.pickup
-        if other not in position:
+        others = each.pickups if node == each.delivery else (each.delivery,)
+        if not position.keys() >= {*others}:
             yield where, f"the other end of shipment {each.id} isn't on this trip"
-        elif node == each.delivery and position[other][1] >= index:
+        elif node == each.delivery and max(position[other][1] for other in others) >= index:
             yield where, (f"shipment {each.id} is delivered before it is picked up"
-                          if driven.issuperset((node, other)) else
+                          if driven.issuperset((node, *others)) else
                           f"shipment {each.id} isn't aboard as its truck comes to where it leaves")
 
 
@@ -61,7 +59,7 @@ def _flown_ends(problem: Problem, trip: Trip) -> Iterator[tuple[int, tuple[str, 
         for number, visit in enumerate(sortie.visits):
             each = problem.shipment_at.get(visit.node)
             if each is not None:
-                stop = sortie.recovery_stop if visit.node == each.pickup else sortie.launch_stop
+                stop = sortie.launch_stop if visit.node == each.delivery else sortie.recovery_stop
                 yield visit.node, (f".sorties[{index}].visits[{number}]", stop)
 
 
@@ -69,29 +67,30 @@ def times_between(problem: Problem, kind: VehicleType,
                   trip: Trip) -> Iterator[tuple[str, str, int]]:
     """Yield deliveries, as part of a path, of which shipment, and how much too long it was aboard.
 
-    From the end of service at its pickup to the start of service; at most 0 if it wasn't.
+    From the end of service at its pickup, or any, to the start of service; at most 0 if it wasn't.
     """
     if not problem.limits_time_between:
         return
     duration = problem.travel[kind.travel].duration
-    left: dict[int, int] = {}  # by delivery
+    left: dict[int, int] = {}  # by pickup
     served = []
     for index, stop in trip.numbered_stops:
         each = problem.shipment_at.get(stop.node)
-        if each is not None and stop.node == each.pickup:
+        if each is not None and stop.node != each.delivery:
             service = kind.service_at(problem.customer_at(stop.node))
-            left[each.delivery] = stop.service_start + service
+            left[stop.node] = stop.service_start + service
         served.append((f".stops[{index}]", stop.node, stop.service_start))
     for index, sortie in enumerate(trip.sorties):
         for number, visit in enumerate(sortie.visits):
             each = problem.shipment_at.get(visit.node)
-            if each is not None and visit.node == each.pickup:
-                left[each.delivery] = visit.departure
+            if each is not None and visit.node != each.delivery:
+                left[visit.node] = visit.departure
             served.append((f".sorties[{index}].visits[{number}]", visit.node, visit.service_start))
     for where, node, start in served:
-        if node not in left:
+        each = problem.shipment_at.get(node)
+        if each is None or node != each.delivery:
             continue
-        each = problem.shipment_at[node]
-        limit = each.longest_between(duration.item(each.pickup, each.delivery))
-        if limit is not None:
-            yield where, each.id, start - left[node] - limit
+        excess = [start - left[pickup] - limit for pickup in each.pickups if pickup in left
+                  and (limit := each.longest_between(duration.item(pickup, node))) is not None]
+        if excess:
+            yield where, each.id, max(excess)

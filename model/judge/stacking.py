@@ -13,13 +13,14 @@ def unstacked(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
     Parcels from the depot lie at the bottom. What is brought there stays, so it lies on no
     shipment, and nothing that leaves later lies beneath it.
     """
-    stack: list[int] = []  # nodes of deliveries
+    stack: list[int] = []  # nodes of deliveries, once for each part
     for index, (leaves, comes) in enumerate(moved_at(problem, trip)):
         where, each = f".stops[{index}]", problem.shipment_at.get(trip.stops[index].node)
         if leaves and stack:
             yield where, "a shipment lies on a parcel that leaves here"
         if each is not None and each.delivery == trip.stops[index].node:
-            if each.delivery in stack and stack[-1] != each.delivery:
+            parts = stack.count(each.delivery)
+            if any(node != each.delivery for node in stack[len(stack) - parts:]):
                 yield where, f"another shipment lies on {each.id}"
             stack = [node for node in stack if node != each.delivery]
         elif each is not None:

@@ -1,8 +1,8 @@
 """Trips on which one customer is tried alone, on a vehicle that nobody else uses."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
-from itertools import islice
+from itertools import islice, permutations
 from typing import NamedTuple
 
 import numpy as np
@@ -18,6 +18,9 @@ from model.solution import Solution
 
 MAX_LAUNCH_PLACES = 4
 """Other customers' places, nearest first, where a drone is tried if it fails from the depot."""
+
+MOST_ORDERS = 24
+"""Orders of a shipment's pickups that are tried: all of four."""
 
 MAX_HOSTS = 4
 """Other customers, nearest first, to whom something is delivered before a pickup is tried."""
@@ -49,7 +52,7 @@ class Attempt(NamedTuple):
         return {violation.code for violation in self.evaluation.violations}
 
 
-def small_problem(problem: Problem, kind: int, nodes: list[int],
+def small_problem(problem: Problem, kind: int, nodes: Sequence[int],
                   drones: DroneType | None = None, sites: tuple[int, ...] = ()) -> Problem:
     """Return a problem of one type of vehicle, where it begins and ends, and some customers.
 
@@ -97,6 +100,8 @@ def _judge(problem: Problem, decision: TripDecision) -> Attempt:
 
 def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
     """Return a trip by a type that serves a shipment alone; by truck if no other is allowed."""
+    if shipment.more:
+        return _try_parts(problem, kind, shipment)
     ends = [shipment.pickup, shipment.delivery]
     by_truck = _judge(*_alone(small_problem(problem, kind, ends), ()))
     if not by_truck.codes:
@@ -126,6 +131,16 @@ def _alone(small: Problem, flown: Collection[int]) -> tuple[Problem, TripDecisio
     if 1 in flown:
         sorties.append(SortieDecision((delivery,), last, last))
     return small, TripDecision(nodes, tuple(sorties))
+
+
+def _try_parts(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
+    """Return a trip by truck that picks up a shipment in parts, in the best of some orders."""
+    small = small_problem(problem, kind, shipment.nodes)
+    *pickups, delivery = range(small.num_depots, small.num_nodes)
+    home = small.vehicle_types[0].ends_at
+    tried = [_judge(small, TripDecision((0, *order, delivery, home)))
+             for order in islice(permutations(pickups), MOST_ORDERS)]
+    return min(tried, key=lambda each: (len(each.codes), each.evaluation.cost.total))
 
 
 def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:

@@ -16,7 +16,7 @@ from model.problem.quantities import (
 from model.problem.relation import (
     MOST_IN_ORDER, MOST_RELATIONS, SINCE_PLAN_START, Lag, Relation, RelationKind,
 )
-from model.problem.shipment import Shipment
+from model.problem.shipment import MOST_PICKUPS, Part, Shipment
 from model.problem.storms import MAX_STORMS, Storms
 from model.problem.straight import Points, StraightLegs
 from model.problem.travel import Travel
@@ -24,10 +24,11 @@ from model.problem.travel import Travel
 __all__ = [
     "FULL_SPEED", "MAX_BATTERY", "MAX_BREAKS", "MAX_DIMENSIONS", "MAX_MONEY", "MAX_POINTS",
     "MAX_POWER", "MAX_QUANTITY", "MAX_STORMS", "MICROJOULES_PER_WH", "MM_PER_KM",
-    "MOST_INCOMPATIBLE", "MOST_IN_ORDER", "MOST_RELATIONS", "MS_PER_HOUR", "REST",
+    "MOST_INCOMPATIBLE", "MOST_IN_ORDER", "MOST_PICKUPS", "MOST_RELATIONS", "MS_PER_HOUR", "REST",
     "SINCE_PLAN_START", "UNLIMITED", "UNREACHABLE", "USUAL_DECIMALS", "Balance", "Before",
     "BoolArray", "Break", "Customer", "Depot", "DepotKind", "DrivingRules", "DroneType", "Energy",
     "Fairness", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Lag", "Measure",
-    "Overtime", "Pickups", "Points", "Problem", "Relation", "RelationKind", "ServedBy", "Shipment",
-    "SpeedProfile", "Storms", "StraightLegs", "Travel", "UIntArray", "VehicleType", "within_hours",
+    "Overtime", "Part", "Pickups", "Points", "Problem", "Relation", "RelationKind", "ServedBy",
+    "Shipment", "SpeedProfile", "Storms", "StraightLegs", "Travel", "UIntArray", "VehicleType",
+    "within_hours",
 ]

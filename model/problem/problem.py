@@ -112,17 +112,10 @@ class Problem:
                     customer.served_by)
 
     def _require_pairs(self) -> None:
-        ends = [node for each in self.shipments for node in (each.pickup, each.delivery)]
+        ends = [node for each in self.shipments for node in each.nodes]
         require(len(set(ends)) == len(ends), "shipments' ends", ends)
-        for node in ends:
-            end = self.customer_at(node)
-            require(not any(end.demand) and not any(end.pickup), f"customer {end.id} demand",
-                     end.demand)
         for each in self.shipments:
-            require(len(each.amount) == self.num_dimensions, f"shipment {each.id} amount",
-                     each.amount)
-            goods = [self.customer_at(node).goods for node in (each.pickup, each.delivery)]
-            require(goods[0] == goods[1], f"shipment {each.id} goods", goods)
+            each.require_ends([self.customer_at(node) for node in each.nodes])
 
     def _require_choices(self) -> None:
         nodes = [node for places in self.choices for node in places]
@@ -261,15 +254,15 @@ class Problem:
     @cached_property
     def shipment_at(self) -> dict[int, Shipment]:
         """The shipment of each node that is an end of one."""
-        return {node: each for each in self.shipments for node in (each.pickup, each.delivery)}
+        return {node: each for each in self.shipments for node in each.nodes}
 
     def shipments_among(self, nodes: Sequence[int]) -> tuple[Shipment, ...]:
-        """Return the shipments both ends of which are among some nodes, by their numbers there."""
+        """Return the shipments all ends of which are among some nodes, by their numbers there."""
         if not self.shipments:
             return ()
         number = {node: index for index, node in enumerate(nodes)}
         return tuple([each.renumbered(number) for each in self.shipments
-                      if each.pickup in number and each.delivery in number])
+                      if number.keys() >= {*each.nodes}])
 
     @cached_property
     def _places(self) -> dict[int, tuple[int, ...]]:
@@ -278,8 +271,8 @@ class Problem:
 
     @cached_property
     def other_nodes(self) -> frozenset[int]:
-        """Nodes for which others stand: deliveries of shipments, and customers' other places."""
-        return frozenset([each.delivery for each in self.shipments]).union(
+        """Nodes for which others stand: shipments' ends but the first, customers' other places."""
+        return frozenset([node for each in self.shipments for node in each.nodes[1:]]).union(
             *(places[1:] for places in self.choices))
 
     def first_place(self, node: int) -> int:
@@ -364,7 +357,7 @@ class Problem:
         """Return the most that a customer alone asks to be aboard, by dimension."""
         each, customer = self.shipment_at.get(node), self.customer_at(node)
         if each is not None:
-            return each.amount
+            return each.total if node == each.delivery else each.change_at(node)
         return tuple(map(max, customer.demand, customer.taken_in))
 
     def setup_between(self, origin: int, to: int) -> int:

@@ -319,13 +319,13 @@ def _end(route: Route) -> int:
 
 
 def _aboard(problem: Problem, vehicle: Vehicle) -> list[int]:
-    """Return the deliveries of the shipments aboard."""
+    """Return where the shipments aboard, at least in part, have still to be served."""
     if vehicle.is_idle or not vehicle.trips:
         return []
     last = vehicle.trips[-1]
     seen = {*last.nodes, *(flight.customer for flight in last.flights)}
-    return [each.delivery for each in problem.shipments
-            if each.pickup in seen and each.delivery not in seen]
+    return [node for each in problem.shipments if seen & {*each.pickups}
+            for node in each.nodes if not seen & {node, each.delivery}]
 
 
 def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) -> bool:

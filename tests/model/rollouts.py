@@ -239,8 +239,10 @@ def in_other_units(problem: Problem, units: Units) -> Problem:
         problem, customers=tuple(map(units.customer, problem.customers)),
         vehicle_types=tuple(map(units.vehicle_type, problem.vehicle_types)),
         travel=tuple(map(units.travel, problem.travel)),
-        shipments=tuple(replace(each, amount=units.amounts(each.amount))
-                        for each in problem.shipments),
+        shipments=tuple(replace(
+            each, amount=units.amounts(each.amount), more=tuple(
+                replace(part, amount=units.amounts(part.amount)) for part in each.more))
+            for each in problem.shipments),
         relations=tuple(map(units.relation, problem.relations)),
         vehicle_costs=None if problem.vehicle_costs is None
         else problem.vehicle_costs * units.money,

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.problem import Problem, Shipment
+from model.problem import Customer, Part, Problem, Shipment
 from tests.model.tiny import MINUTE
 
 
@@ -34,16 +34,39 @@ def with_shipments(rng: np.random.Generator, problem: Problem, most: int = 3) ->
         shipments.append(Shipment(
             str(index), pickup, delivery, amount,
             _limit(rng, 3, 25, MINUTE), _limit(rng, 1, 4, 1000)))
+    _gather(chosen, problem.num_depots, customers, shipments)
     kinds = tuple(replace(kind, lifo=bool(rng.random() < 0.3)) for kind in problem.vehicle_types)
-    taken = {node for each in shipments for node in (each.pickup, each.delivery)}
+    taken = {node for each in shipments for node in each.nodes}
     return replace(
         problem, customers=tuple(customers), shipments=tuple(shipments), vehicle_types=kinds,
         relations=tuple(each for each in problem.relations if taken.isdisjoint(each.nodes)))
 
 
+def _gather(chosen: list[int], num_depots: int, customers: list[Customer],
+            shipments: list[Shipment]) -> None:
+    """Let who is left, two at most, be further pickups of the first shipment. In place."""
+    rng = np.random.default_rng(chosen)
+    left = chosen[2 * len(shipments):][:int(rng.integers(0, 3))]
+    first = shipments[0]
+    nothing = (0,) * len(first.amount)
+    ends = [node - num_depots for node in first.nodes] if left else []
+    for place in ends:
+        customers[place] = replace(customers[place], served_by="truck")
+    for place in left:
+        customers[place] = replace(
+            customers[place], demand=nothing, pickup=(), release_time=0, max_time_aboard=None,
+            goods=customers[first.pickup - num_depots].goods, served_by="truck",
+            unassigned_cost=0.0)
+    shipments[0] = replace(first, more=tuple(
+        Part(num_depots + place, tuple(rng.integers(0, 3, len(first.amount)).tolist()))
+        for place in left))
+
+
 def with_flown_shipments(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem of shipments that drones may fetch and deliver, most of which can."""
     problem = with_shipments(rng, problem, 2)
+    problem = replace(problem, shipments=tuple(replace(each, more=())
+                                               for each in problem.shipments))
     ends = problem.shipment_at.keys()
     kinds = tuple(replace(kind, lifo=False, max_stops=None, capacity=tuple(
         2 * amount + 3 for amount in kind.capacity), drones=kind.drones and replace(

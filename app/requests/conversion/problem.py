@@ -18,9 +18,9 @@ from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.customer import place_name
 from app.schemas.request import PlanRequest
-from app.schemas.shipment import ENDS, end_name
 from model.problem import (
-    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Problem, Relation, Shipment,
+    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Part, Problem, Relation,
+    Shipment,
 )
 
 
@@ -177,12 +177,13 @@ def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],
     place = {customer.id: index for index, customer in enumerate(customers)}
     changed, shipments = list(customers), list[Shipment]()
     for stated in request.shipments:
-        pickup, delivery = (place[end_name(stated.id, kind)] for kind in ENDS)
-        amount = customers[pickup].demand
-        for index in (pickup, delivery):
-            changed[index] = replace(customers[index], demand=(0,) * len(amount))
+        *pickups, delivery = (place[name] for name, _ in stated.named_ends())
+        for index in (*pickups, delivery):
+            changed[index] = replace(customers[index],
+                                     demand=(0,) * len(customers[index].demand))
+        first, *more = (Part(num_depots + index, customers[index].demand) for index in pickups)
         shipments.append(Shipment(
-            stated.id, num_depots + pickup, num_depots + delivery, amount,
+            stated.id, first.pickup, num_depots + delivery, first.amount,
             optional_thousandths(stated.max_time_between),
-            optional_thousandths(stated.max_detour)))
+            optional_thousandths(stated.max_detour), tuple(more)))
     return tuple(changed), tuple(shipments)

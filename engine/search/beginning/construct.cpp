@@ -25,7 +25,7 @@ void disband(const ProblemData& data, Searcher& searcher) {
     for (Int node = 0; node < now.where.size(); ++node) {
         if (now.where[node].slot < 0) continue;
         now.where[node].slot = nowhere;
-        if (!is_delivery(data.pair, node)) {
+        if (!is_other_end(data.pair, node)) {
             searcher.missing[count.missing++] = unit_of(data.pair, node);
         }
     }
@@ -37,7 +37,7 @@ Int absences_of(const ProblemData& data, const Searcher& searcher, Int slot) {
     const Fleet& now = searcher.now;
     Int sum = 0;
     for (const Stop& stop : now.stop[slot].first(now.route[slot].length)) {
-        if (stop.kind == customer_stop && !is_delivery(data.pair, stop.node)) {
+        if (stop.kind == customer_stop && !is_other_end(data.pair, stop.node)) {
             sum += 1 + searcher.absences[stop.node];
         }
     }
@@ -57,7 +57,7 @@ void give_up_route(const ProblemData& data, Searcher& searcher) {
     for (const Stop& stop : now.stop[slot].first(route.length)) {
         if (stop.kind != customer_stop) continue;
         now.where[stop.node].slot = nowhere;
-        if (is_delivery(data.pair, stop.node)) continue;
+        if (is_other_end(data.pair, stop.node)) continue;
         searcher.missing[count.missing++] = stop.node;
         cost += data.unassigned_cost + data.unassigned_more[stop.node];
     }

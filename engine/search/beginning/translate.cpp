@@ -27,7 +27,7 @@ void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& a
     for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
             for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-                if (data.can(k, by_drone, node) && !is_delivery(data.pair, node) &&
+                if (data.can(k, by_drone, node) && !is_other_end(data.pair, node) &&
                     !data.deadline.passed() &&
                     serve_alone(data, fleet, slot, k, node, by_drone == 1)) {
                     alone(k, by_drone, node) = fleet.cost[slot];
@@ -59,7 +59,7 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     count.customers = 0;
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         const Int unit = unit_of(data.pair, node);
-        if (unit == node || is_delivery(data.pair, node)) ++count.customers;
+        if (unit == node || is_other_end(data.pair, node)) ++count.customers;
         if (unit == node && now.where[served_place(data, now, node)].slot == nowhere) {
             searcher.missing[count.missing++] = node;
         }

@@ -12,6 +12,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
+#include "search/insertion/parts.h"
 #include "search/route/block.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
@@ -297,6 +298,7 @@ bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, 
 
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                  bool by_drone) {
+    if (is_gathered(data.pair, node)) return serve_parts_alone(data, fleet, slot, k, node);
     const bool one_place = data.type[k].begins_at == data.type[k].ends_at;
     const Int first_way = by_drone ? from_start : by_truck;
     const Int options = by_drone && !one_place ? ways - from_start : 1;
@@ -337,11 +339,11 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int slot = move.slot, to = fleet.route.size() - 1;
     const Int k = fleet.route[slot].type, kind = move.kind;
     const Int depot = data.type[k].depot;
-    const Int partner = is_paired(data.pair, node) ? data.pair[node].partner : nowhere;
+    const bool whole = is_paired(data.pair, node);
     if (data.evaluation[k].priced || has_driving_rules(data.type[k]) ||
-        (is_apart(data, k) && kind >= new_trip) || partner >= 0) {
+        (is_apart(data, k) && kind >= new_trip) || whole) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
-        apply(depot, sequence_in(fleet, to), move, node, partner);
+        apply(depot, sequence_in(fleet, to), move, node, data.pair);
         if (!refresh_cost(data, fleet, to)) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
@@ -352,7 +354,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const bool alone = kind == new_trip || kind == flight_trip || kind == halt_trip;
     const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
-    apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node, partner);
+    apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node, data.pair);
     give_releases(fleet, to, alone, trip, release);
     double cost =
         price_part(data, fleet, slot, part, to) + vehicle_cost_at(data.vehicle_cost, k, node);

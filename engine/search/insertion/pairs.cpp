@@ -11,6 +11,7 @@
 #include "rules/start.h"
 #include "search/insertion/flown_pairs.h"
 #include "search/insertion/newcomer.h"
+#include "search/insertion/parts.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -241,6 +242,13 @@ void scan_pair(const Insertion& insertion, Int slot) {
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
         const Trip& trip = fleet.trip(slot, index);
         if (!goods_may_join(data, fleet, slot, index, node)) continue;
+        if (is_gathered(data.pair, node)) {
+            const Int ends = pickups_of(data.pair, node).count + 1;
+            if (allows_stops(data.type[k], stops_on(trip) + ends)) {
+                scan_parts(insertion, slot, trip, walked);
+            }
+            continue;
+        }
         mark_fits(data, fleet, slot, trip, node, searcher.scratch->fits);
         if (allows_stops(data.type[k], stops_on(trip) + ends_of_pair)) {
             PairScan scan(insertion, slot, trip);
@@ -255,7 +263,7 @@ void scan_pair_beside(const Insertion& insertion) {
     const Fleet& fleet = searcher.now;
     const View<Int, 1> seen = searcher.scratch->moved;
     Int found = 0;
-    for (const Int end : {node, data.pair[node].partner}) {
+    const auto look_beside = [&](Int end) {
         for (const Int other : data.granular[end]) {
             if (other < 0) break;
             const Int slot = fleet.where[other].slot;
@@ -265,7 +273,9 @@ void scan_pair_beside(const Insertion& insertion) {
             seen[found++] = slot;
             scan_pair(insertion, slot);
         }
-    }
+    };
+    for (const Int pickup : pickups_of(data.pair, node)) look_beside(pickup);
+    look_beside(data.pair[node].partner);
 }
 
 void try_pair_trips(const Insertion& insertion, Int slot) {
@@ -280,6 +290,10 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
     const Int partner = data.pair[node].partner;
     for (move.first = -1; move.first < length; ++move.first) {
         if (move.first >= 0 && stops[move.first].kind != end_stop) continue;
+        if (is_gathered(data.pair, node)) {
+            try_parts_trip(insertion, slot, move.first);
+            continue;
+        }
         for_each_server(data, move.type, node, [&](Int fetching) {
             move.drone = fetching;
             for_each_server(data, move.type, partner, [&](Int bringing) {

@@ -97,8 +97,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const Int former = route.type;
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
-    const Int partner = is_paired(data.pair, node) ? data.pair[node].partner : nowhere;
-    apply(data.type[route.type].depot, sequence_in(now, slot), move, node, partner);
+    apply(data.type[route.type].depot, sequence_in(now, slot), move, node, data.pair);
     const bool allowed = refresh(data, now, slot) && hubs_suffice(data, searcher);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);
@@ -148,6 +147,7 @@ Int find_best(const Insertion& insertion, Int home, bool opens, bool scan_all) {
     const Best untried = best;
     Int chosen = node;
     find(insertion, home, opens, scan_all);
+    if (is_paired(data.pair, node)) return node;
     for_each_place(data.pair, node, [&](Int place) {
         if (place == node) return;
         Best there = untried;

@@ -39,6 +39,14 @@ void put_sortie(Sortie& sortie, Int launch, Int recovery, Int drone, Int node) {
     sortie.nodes[0] = node;
 }
 
+// Let several pickups come where a move says, those that come last first. In place.
+void insert_pickups(const Sequence& sequence, const Move& move, const Pickups& pickups) {
+    for (Int rank = pickups.count - 1; rank >= 0; --rank) {
+        const Int stop = move.end[rank] / most_pickups, number = move.end[rank] % most_pickups;
+        insert_stops(sequence, stop + 1, {{pickups.node[std::size_t(number)], customer_stop}});
+    }
+}
+
 }  // namespace
 
 void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits) {
@@ -86,8 +94,10 @@ void join_sortie(Sortie& sortie, Int place, Int node) {
     ++sortie.count;
 }
 
-void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int partner) {
+void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
+           View<const Pair, 1> pair) {
     const auto& [route, stops, sorties] = sequence;
+    const Int partner = is_paired(pair, node) ? pair[node].partner : nowhere;
     const Visit start{depot, start_stop}, end{depot, end_stop}, served{node, customer_stop};
     const Int behind = move.first + 1;
     switch (move.kind) {
@@ -155,6 +165,14 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int 
             } else {
                 insert_stops(sequence, behind + 1, {served});
             }
+            break;
+        case all_ends:
+            insert_stops(sequence, move.last + 1, {{partner, customer_stop}});
+            insert_pickups(sequence, move, pickups_of(pair, node));
+            break;
+        case parts_trip:
+            insert_stops(sequence, behind, {start, {partner, customer_stop}, end});
+            insert_pickups(sequence, move, pickups_of(pair, node));
             break;
         case halt_trip:
             insert_stops(sequence, behind, {start, {move.halt, halt_stop}, end});

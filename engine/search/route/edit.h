@@ -46,10 +46,16 @@ constexpr Int by_truck_and_drone = 15;  // the pickup behind stop `first`, the d
                                         // from the former stop `last` to `landing`
 constexpr Int by_drone_and_truck = 16;  // the pickup on a sortie from stop `first` to `landing`,
                                         // the delivery behind the former stop `last`
-constexpr Int by_drones = 17;  // the pickup on a sortie from stop `first` to `last`, the delivery
-                               // on one from `halt` to `landing` by drone `sortie`
-constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
-                               // site and back there
+constexpr Int by_drones = 17;   // the pickup on a sortie from stop `first` to `last`, the delivery
+                                // on one from `halt` to `landing` by drone `sortie`
+constexpr Int all_ends = 18;    // several pickups as `end` tells, the delivery behind them or the
+                                // former stop `last`
+constexpr Int parts_trip = 19;  // both on a trip of their own behind stop `first`, in that order
+constexpr Int halt_trip = 14;   // on a trip of its own behind stop `first`, by drone from a launch
+                                // site and back there
+
+// One of several pickups in a move: its number among them, behind a former stop.
+constexpr Int picked_behind(Int stop, Int number) { return stop * most_pickups + number; }
 
 // Tell whether a customer is served by way of stops more at launch sites.
 inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }
@@ -97,8 +103,8 @@ void add_first_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int rec
 // Let a sortie serve a customer before its customer number `place`. In place.
 void join_sortie(Sortie& sortie, Int place, Int node);
 
-// Customers to be removed, in the order in which they were marked, each once. Of a shipment both
-// ends are, for which the pickup stands; for a customer's places the first does.
+// Customers to be removed, in the order in which they were marked, each once. Of a shipment all
+// ends are, for which the first pickup stands; for a customer's places the first does.
 struct Removed {
     View<bool, 1> marked;  // (node,)
     View<Int, 1> absent;   // who was absent before comes first
@@ -108,7 +114,10 @@ struct Removed {
     void mark(Int node) {
         if (marked[node]) return;
         marked[node] = true;
-        if (is_paired(pair, node)) marked[pair[node].partner] = true;
+        if (is_paired(pair, node)) {
+            for (const Int pickup : pickups_of(pair, node)) marked[pickup] = true;
+            marked[pair[unit_of(pair, node)].partner] = true;
+        }
         absent[count++] = unit_of(pair, node);
     }
 
@@ -118,9 +127,9 @@ struct Removed {
     }
 };
 
-// Insert a customer, on trips from a depot; of a shipment its pickup, and its delivery `partner`.
-// In place.
-void apply(Int depot, const Sequence& sequence, const Move& move, Int node, Int partner);
+// Insert a customer, on trips from a depot; of a shipment, by its first pickup, all ends. In place.
+void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
+           View<const Pair, 1> pair);
 
 // Write a route that serves one customer in one of the `ways`, by a `drone`, or from a launch site.
 // In place.

@@ -46,20 +46,22 @@ Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop
     Int most = -far;
     const auto deliver = [&](Int node, Int arrival, Int behind) {
         if (!is_delivery(data.pair, node)) return;
-        const Int pickup = data.pair[node].partner;
         const Int start = places[node].start_of_service(arrival);
         for (Int q = behind - 1; q > trip.first; --q) {
-            if (stops[q].kind != customer_stop || stops[q].node != pickup) continue;
+            const Int pickup = stops[q].node;
+            if (stops[q].kind != customer_stop || !brings(data.pair, pickup, node)) continue;
             const Int left = places[pickup].end_of_service(stops[q].arrival);
             most = std::max(most, excess_between(limits, pickup, left, start));
         }
         for (const Sortie& sortie : sorties.first(route.sorties)) {
-            const Int* fetched = std::find(sortie.nodes, sortie.nodes + sortie.count, pickup);
-            if (fetched == sortie.nodes + sortie.count) continue;
-            const Int row = row_of_drone(data.type, route.type, sortie.drone);
-            const Int left = data.place.by_air(data.type[row])[pickup].end_of_service(
-                sortie.arrivals[fetched - sortie.nodes]);
-            most = std::max(most, excess_between(limits, pickup, left, start));
+            for (Int visit = 0; visit < sortie.count; ++visit) {
+                const Int pickup = sortie.nodes[visit];
+                if (!brings(data.pair, pickup, node)) continue;
+                const Int row = row_of_drone(data.type, route.type, sortie.drone);
+                const Int left = data.place.by_air(data.type[row])[pickup].end_of_service(
+                    sortie.arrivals[visit]);
+                most = std::max(most, excess_between(limits, pickup, left, start));
+            }
         }
     };
     for (Int p = trip.first; p <= trip.last; ++p) {

@@ -76,9 +76,9 @@ class Model:
                          & (end <= kind.latest)
                          & [customer.skills <= kind.skills for customer in customers]
                          & (True if problem.may_serve is None else problem.may_serve[number]))
-        # Of a shipment, both ends are or none.
+        # Of a shipment, all ends are or none.
         for each in problem.shipments:
-            ends = [each.pickup - first, each.delivery - first]
+            ends = [node - first for node in each.nodes]
             servable[ends] = servable[ends].all()
         return [self.nodes.jobs[index] for index in np.flatnonzero(servable)]
 

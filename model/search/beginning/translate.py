@@ -136,11 +136,13 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
 
 
 def left_out(data: ProblemData, searcher: Searcher) -> tuple[int, ...]:
-    """Return the customers that the best plan leaves out, both ends of a shipment."""
+    """Return the customers that the best plan leaves out, all ends of a shipment."""
     missing = searcher.best_missing[: searcher.count.best_missing].tolist()
     if len(data.pair):
-        partners = data.pair["partner"][missing]
-        missing += partners[partners >= 0].tolist()
+        # Who stands for a shipment has all others of it behind.
+        is_end, unit = data.pair["partner"] >= 0, data.pair["unit"]
+        missing += np.flatnonzero(
+            is_end & np.isin(unit, missing) & (unit != np.arange(len(unit)))).tolist()
     return tuple(sorted(missing))
 
 

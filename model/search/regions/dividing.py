@@ -36,7 +36,7 @@ def divide(problem: Problem, plan: Solution, count: int,
     heir_of = dict(zip(plan.unassigned, heirs.tolist(), strict=True))
     for each in problem.shipments:
         if each.pickup in heir_of:
-            heir_of[each.delivery] = heir_of[each.pickup]
+            heir_of |= dict.fromkeys(each.nodes, heir_of[each.pickup])
     _gather_company(problem, plan, owner, heir_of)
     for node, heir in heir_of.items():
         left_out[heir].append(node)

@@ -208,6 +208,84 @@ def test_a_stack_is_unloaded_from_its_top(searching: httpx.Client, paired: Reque
     assert nested["cost"]["total"] > crossed["cost"]["total"]
 
 
+@pytest.fixture
+def gathered(paired: Request) -> Request:
+    """Return the same with a shipment that is fetched in two parts."""
+    paired["shipments"] = [{
+        "id": "s1", "pickups": [
+            {"id": "farm", "location": [3, 0], "amount": [1], "info": {"notes": "ring"}},
+            {"id": "mill", "location": [0, 2], "amount": [2], "service_duration": 60}],
+        "delivery": {"location": [1, 0]}}]
+    paired["customers"] = [{"id": "A", "location": [3, 4], "demand": [1]}]
+    paired["fleet"][0] |= {"capacity": [9], "max_trips": 1, "count": 1}
+    return paired
+
+
+def test_a_shipment_is_fetched_in_parts(searching: httpx.Client, gathered: Request) -> None:
+    plan = searching.post("/plan", json=gathered).json()
+    PlanReply.model_validate(plan)
+    [trip] = plan["routes"][0]["trips"]
+    told = [(stop["kind"], stop["id"], stop.get("part")) for stop in trip["stops"]]
+    last = told.index(("delivery", "s1", None))
+    parts = {part: trip["stops"][told.index(("pickup", "s1", part))] for part in ("farm", "mill")}
+    assert parts["farm"]["info"] == {"notes": "ring"}
+    assert all(told.index(("pickup", "s1", part)) < last for part in parts)
+    assert trip["stops"][last]["load"][0] <= trip["stops"][last - 1]["load"][0] - 3
+    checked = searching.post("/check", json={"problem": gathered, "plan": plan}).json()
+    assert checked["feasible"], checked
+    assert checked["summary"] == plan["summary"]
+    again = searching.post("/plan", json=gathered | {"replan": {"plan": plan}}).json()
+    assert again["cost"]["total"] == pytest.approx(plan["cost"]["total"])
+    for name in ("s1/pickup/farm", "s1/pickup/mill", "s1/delivery"):
+        for question in "/explain", "/fit":
+            reply = searching.post(question, json={
+                "problem": gathered, "plan": plan, "customer": name})
+            assert reply.status_code == 200, reply.text
+    # On the way, it is brought to its end.
+    terms = {"plan": plan, "freeze_before": parts["mill"]["departure"]}
+    later = searching.post("/plan", json=gathered | {"replan": terms}).json()
+    assert stops_of(later) == stops_of(plan)
+    lacking = [stop for stop in trip["stops"] if stop.get("part") != "mill"]
+    judged = searching.post("/check", json={"problem": gathered, "plan": plan | {
+        "routes": [plan["routes"][0] | {"trips": [trip | {"stops": lacking}]}]}}).json()
+    assert {"PAIR"} <= {violation["code"] for violation in judged["violations"]}
+
+
+def test_a_shipment_in_parts_is_left_out_as_one(searching: httpx.Client,
+                                                gathered: Request) -> None:
+    gathered["shipments"][0]["pickups"][1]["amount"] = [9]
+    plan = searching.post("/plan", json=gathered).json()
+    PlanReply.model_validate(plan)
+    left_out, = plan["unassigned"]
+    assert (left_out["id"], left_out["parts"]) == ("s1", ["farm", "mill"])
+    assert left_out["reasons"][0]["code"] == "CAPACITY"
+    checked = searching.post("/check", json={"problem": gathered, "plan": plan}).json()
+    assert checked["feasible"], checked
+    gathered["shipments"][0]["pickups"][1]["amount"] = [1]
+    # Its parts are under way from the first on.
+    gathered["shipments"][0]["max_time_between"] = 30
+    left_out, = searching.post("/plan", json=gathered).json()["unassigned"]
+    assert left_out["reasons"][0]["code"] == "TIME_BETWEEN"
+
+
+@pytest.mark.parametrize(("wrong", "code", "path"), [
+    ({"pickup": {"location": [0, 0]}}, "PICKUP_OR_PICKUPS", "$.shipments[0].pickups"),
+    ({"amount": [1]}, "PICKUP_OR_PICKUPS", "$.shipments[0].pickups"),
+    ({"pickups": []}, "PICKUP_OR_PICKUPS", "$.shipments[0].pickups"),
+    ({"pickups": [{"id": "farm", "location": [0, 0], "amount": [1, 1]}]},
+     "DIMENSION_MISMATCH", "$.shipments[0].pickups[0].amount"),
+    ({"pickups": 2 * [{"id": "farm", "location": [0, 0], "amount": [1]}]},
+     "DUPLICATE_ID", "$.shipments[0].pickups[1].id"),
+    ({"delivery": {"location": [1, 0], "served_by": "either"}},
+     "PICKUPS_WITH", "$.shipments[0].delivery"),
+])
+def test_what_is_wrong_with_parts_is_told(searching: httpx.Client, gathered: Request,
+                                          wrong: Request, code: str, path: str) -> None:
+    gathered["shipments"][0] |= wrong
+    errors = searching.post("/plan", json=gathered).json()["errors"]
+    assert (code, path) in [(error["code"], error["path"]) for error in errors], errors
+
+
 def test_errors_of_ends_are_told_where_the_request_states_them(searching: httpx.Client,
                                                                paired: Request) -> None:
     paired["shipments"][0]["delivery"]["time_window"] = {"earliest": 20, "latest": 10}

@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from model.judge.timing import SortieDecision, TripDecision
-from model.problem import Shipment
+from model.problem import Part, Shipment
 from tests.model.judge.test_loads import codes, judged
 
 FLOWN = (Shipment("x", 1, 3, (1000,)),)
@@ -21,6 +21,37 @@ def test_what_was_loaded_last_is_unloaded_first(tiny_problem, customers, truck, 
     assert codes(judged(replace(stack, shipments=DIRECT), TripDecision(nodes, start=0))) == broken
     free = replace(tiny_problem(*ends, truck=truck), shipments=DIRECT)
     assert codes(judged(free, TripDecision(nodes, start=0))) == []
+
+
+@pytest.mark.parametrize(("nodes", "broken", "stacked"), [
+    ((0, 3, 1, 2, 4, 0), [], []), ((0, 1, 3, 2, 4, 0), [], ["LIFO"]),
+    ((0, 2, 1, 4, 3, 0), ["PAIR"], []),  # the last part comes too late
+    ((0, 1, 2, 4, 0), ["PAIR"], [])])  # one lacks
+def test_a_shipment_has_several_pickups(tiny_problem, customers, truck, nodes, broken, stacked):
+    ends = [replace(each, demand=(0,), served_by="truck") for each in customers]
+    parts = (Shipment("x", 1, 4, (1000,), more=(Part(2, (2000,)), Part(3, (500,)))),)
+    problem = replace(tiny_problem(*ends, truck=truck), shipments=parts)
+    assert codes(judged(problem, TripDecision(nodes, start=0))) == broken
+    other = (replace(parts[0], more=parts[0].more[:1]),)
+    stack = tiny_problem(*ends, truck=replace(truck, lifo=True))
+    # Who is at 3 has something to be picked up, which stays on top of what came before.
+    stack = replace(stack, shipments=other, customers=(
+        *stack.customers[:2], replace(stack.customers[2], pickup=(1,)), *stack.customers[3:]))
+    assert codes(judged(stack, TripDecision(nodes, start=0))) == stacked
+
+
+def test_the_first_of_several_pickups_counts(tiny_problem, customers, truck):
+    ends = [replace(each, demand=(0,), served_by="truck") for each in customers]
+    problem = tiny_problem(*ends, truck=truck)
+    leg = problem.travel[0].duration.item(2, 3)
+    for nodes, spare in ((0, 1, 2, 3, 0), 1), ((0, 1, 2, 3, 0), 0), ((0, 2, 1, 3, 0), 0):
+        limit = leg + problem.travel[0].duration.item(1, 2) + ends[1].service_duration
+        parts = Shipment("x", 1, 3, (1000,), limit - 1 + spare, more=(Part(2, (0,)),))
+        trip = TripDecision(nodes, start=0)
+        late = codes(judged(replace(problem, shipments=(parts,)), trip))
+        assert late == ([] if spare else ["TIME_BETWEEN"]), nodes
+    with pytest.raises(ValueError, match="amount"):
+        replace(problem, shipments=(replace(parts, more=(Part(2, (0, 0)),)),))
 
 
 @pytest.mark.parametrize(("demand", "pickup", "nodes", "broken"), [

@@ -358,6 +358,7 @@ export default {
     notBy: 'Nicht mit',
     costsBy: 'Kosten mit',
     servedAt: 'Bedient bei',
+    part: 'Teil',
     leftOut: 'Nicht eingeplant',
     costs: 'kostet {{price}}',
     served: 'Bedient',
@@ -1637,6 +1638,9 @@ export default {
     TWO_SPEEDS: 'Geben Sie die Geschwindigkeit an oder den Faktor, nicht beides.',
     SPEED_PROFILE_ORDER: 'Geschwindigkeiten nach Uhrzeit müssen der Reihe nach stehen.',
     MISSING_DRONE_ID: 'Jede Drohnenart braucht einen Namen.',
+    PICKUPS_WITH: 'Was mehrere Abholungen hat, stellt das Fahrzeug selbst zu.',
+    PICKUP_OR_PICKUPS:
+      'Geben Sie eine Abholung und die Menge an oder mehrere Abholungen, jede mit ihrer Menge.',
     POWER_OR_PRESET: 'Geben Sie eine Vorlage oder die Leistung an.',
     CHARGE_WITHOUT_ENERGY: 'Zum Laden muss bekannt sein, was der Akku fasst.',
     WIND_HOURS: 'Die Stunden des Winds passen nicht zusammen.',

@@ -107,6 +107,7 @@ export function haltFacts(halt) {
   ];
   if (!isVisit(halt)) facts[0][0] = t('about.vehicle');
   if (halt.alternative) facts.push([t('about.servedAt'), halt.alternative]);
+  if (halt.part) facts.push([t('about.part'), halt.part]);
   if (halt.setup > 0) facts.push([t('about.setsUp'), duration(halt.setup)]);
   if (halt.waiting > 0) {
     facts.push([

@@ -2,7 +2,7 @@
 
 import { t } from '../texts.js';
 import { getIn, setIn } from './paths.js';
-import { ENDS, visitName } from './visits.js';
+import { endsOf } from './visits.js';
 
 /**
  * Return a place's coordinates, null where it has none, or only an address.
@@ -44,8 +44,8 @@ export function soughtIn(request) {
     );
   });
   request?.shipments?.forEach((shipment, at) =>
-    ENDS.forEach((kind) => add(shipment[kind]?.location,
-      `c:${visitName({ kind, id: shipment.id })}`, ['shipments', at, kind, 'location'])),
+    endsOf(shipment).forEach(({ name, keys, end }) =>
+      add(end?.location, `c:${name}`, ['shipments', at, ...keys, 'location'])),
   );
   request?.fleet.forEach(({ id, start_location: start, end }, at) => {
     add(start, `start ${id}`, ['fleet', at, 'start_location']);

@@ -188,6 +188,7 @@ function haltOf(key, reply, trip, source) {
     kind: reply.kind,
     id: reply.id,
     alternative: reply.alternative ?? null,
+    part: reply.part ?? null,
     trip,
     vehicle: trip.vehicle,
     source,

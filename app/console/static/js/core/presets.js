@@ -27,10 +27,17 @@ function blankShipment({ depots = [], fleet = [] }) {
   return { amount, pickup: { location }, delivery: { location } };
 }
 
+/** Return one of several pickups, at a depot until its place is stated. */
+function blankPickup(request) {
+  const { amount, pickup } = blankShipment(request);
+  return { amount, ...pickup };
+}
+
 /** Return what a field of the fleet begins with when it is added, undefined for nothing known. */
 export function presetOf(name, request) {
   if (name === 'drones') return assumedDrones(request);
   if (name === 'shipments') return blankShipment(request);
+  if (name === 'pickups') return blankPickup(request);
   const [depot] = request.depots ?? [];
   return name === 'launch_sites' && placeOf(depot) ? { location: placeOf(depot) } : undefined;
 }

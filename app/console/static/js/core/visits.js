@@ -12,25 +12,53 @@ export function isVisit({ kind }) {
 }
 
 /** Return what a visit is called among all: a shipment's delivery `parcel/delivery`. */
-export function visitName({ kind, id }) {
-  return ENDS.includes(kind) ? `${id}/${kind}` : id;
+export function visitName({ kind, id, part = null }) {
+  if (!ENDS.includes(kind)) return id;
+  return part === null ? `${id}/${kind}` : `${id}/${kind}/${part}`;
+}
+
+/**
+ * Return the ends of a shipment: `{name, keys, end, amount}`, the keys of where it states them.
+ *
+ * What is delivered of several pickups is the sum of their amounts.
+ */
+export function endsOf({ id, amount, pickup, pickups = [], delivery }) {
+  const parts = pickups.map((end, at) => ({
+    name: visitName({ kind: 'pickup', id, part: end.id }), keys: ['pickups', at], end,
+    amount: end.amount,
+  }));
+  const whole = amount ?? sums(pickups.map((part) => part.amount ?? []));
+  if (pickup) parts.push({ name: `${id}/pickup`, keys: ['pickup'], end: pickup, amount: whole });
+  return [...parts, { name: `${id}/delivery`, keys: ['delivery'], end: delivery, amount: whole }];
+}
+
+function sums([first = [], ...rest]) {
+  return first.map((amount, place) =>
+    rest.reduce((sum, other) => sum + (other[place] ?? 0), amount));
 }
 
 /** Return a request's customers, and the ends of its shipments as such. */
 export function visitsOf({ customers, shipments = [] }) {
   if (!shipments.length) return customers;
-  return [...customers, ...shipments.flatMap(endsOf)];
+  return [...customers, ...shipments.flatMap(visitsTo)];
 }
 
-function endsOf({ id, amount, pickup, delivery, max_time_between: _, max_detour: __, ...whole }) {
-  return [[ENDS[0], pickup], [ENDS[1], delivery]].map(([kind, end]) => ({
-    ...whole, served_by: 'truck', ...end, id: visitName({ kind, id }), demand: amount,
+function visitsTo(shipment) {
+  const { pickup: _, pickups: __, delivery: ___, max_time_between: _4, max_detour: _5,
+    ...whole } = shipment;
+  return endsOf(shipment).map(({ name, end, amount }) => ({
+    ...whole, served_by: 'truck', ...end, id: name, demand: amount,
   }));
+}
+
+function namesOf({ id, parts = [] }) {
+  const pickups = parts.length ? parts : [null];
+  return [...pickups.map((part) => visitName({ kind: 'pickup', id, part })), `${id}/delivery`];
 }
 
 /** Return who is left out, by the names of visits. */
 export function leftOutOf({ unassigned }) {
   return unassigned.flatMap((out) => out.kind === 'shipment'
-    ? ENDS.map((kind) => ({ ...out, id: visitName({ kind, id: out.id }) }))
+    ? namesOf(out).map((id) => ({ ...out, id }))
     : [out]);
 }

@@ -295,7 +295,7 @@ function WordsField({ name, keys, request, onChange, errors, help }) {
 }
 
 /** What entries that are added are called, with a number. */
-const STEMS = { drones: 'drone', launch_sites: 'site', shipments: 'shipment' };
+const STEMS = { drones: 'drone', launch_sites: 'site', shipments: 'shipment', pickups: 'pickup' };
 
 function ListField({ name, schema, keys, request, onChange, nullable, errors, choices, help }) {
   const schemas = useStore((state) => state.schemas);

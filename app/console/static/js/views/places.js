@@ -6,7 +6,7 @@ import { number } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { placeOf } from '../core/places.js';
 import { labelOf } from '../core/schema.js';
-import { ENDS, visitName } from '../core/visits.js';
+import { endsOf } from '../core/visits.js';
 import { html } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { Field, Fields } from './form.js';
@@ -16,8 +16,8 @@ import { t } from '../texts.js';
 export function Shipments({ request }) {
   const schemas = useStore((state) => state.schemas);
   const selection = useStore((state) => state.selection);
-  const isSelected = request.shipments?.some(({ id }) =>
-    ENDS.some((kind) => selection === `c:${visitName({ kind, id })}`));
+  const isSelected = request.shipments?.some((shipment) =>
+    endsOf(shipment).some(({ name }) => selection === `c:${name}`));
   return html`<details class="card" open=${isSelected}><summary>${labelOf('shipments')}
       <span class="right">${number(request.shipments?.length ?? 0, 0)}</span></summary>
     <div class="inside"><${Field} name="shipments" keys=${['shipments']} request=${request}
