@@ -1,6 +1,9 @@
 #include "search/insertion/pairs.h"
 
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <tuple>
 
 #include "rules/driving.h"
 #include "rules/drone_types.h"
@@ -23,6 +26,8 @@ namespace tandem {
 namespace {
 
 constexpr Int ends_of_pair = 2;
+constexpr Int most_timed = 16;  // places on a trip that are timed at once
+constexpr Int most_tried = 4;   // so many, one after another, until the vehicle can come to one
 
 // Marks the stops of a trip that a vehicle may leave with a shipment's amount more aboard.
 void mark_fits(const ProblemData& data, const Fleet& fleet, Int slot, const Trip& trip, Int pickup,
@@ -66,6 +71,7 @@ public:
           pickup_(newcomer_for(data_, type_, insertion.node)),
           delivery_(newcomer_for(data_, type_, data_.pair[insertion.node].partner)),
           fits_(insertion.searcher.scratch->fits),
+          time_rate_(data_.evaluation[route_.type].timed ? rate_.time : 0.0),
           stops_cost_(double(ends_of_pair) * rate_.stop +
                       vehicle_cost_at(data_.vehicle_cost, route_.type, pickup_.node) +
                       vehicle_cost_at(data_.vehicle_cost, route_.type, delivery_.node)) {}
@@ -78,21 +84,22 @@ public:
         }
     }
 
-    // Tries all places, timing the route anew for each that may be the best.
-    void time_all() {
-        for (Int p = trip_.first; p < trip_.last; ++p) {
-            Int further = distance_from(pickup_.inward, stops_[p].node), above = 0;
-            for (Int q = p; q < trip_.last && fits_[q] && !data_.deadline.passed(); ++q) {
-                if (q > p) {
-                    further = driven_on(further, p, q);
-                    if (!goes_past(q, above)) break;
-                }
-                if (above > 0) continue;
-                const Int detour = further + delivered_behind(p, q);
-                if (data_.strategy.give_up_early && cost_of(detour) >= best_.cost) continue;
-                const Move move = move_to(p, q);
-                if (best_.takes(price_move(data_, fleet_, move, pickup_.node))) best_.move = move;
+    // Tries the places that look cheapest, timing the route anew for each, and others if the
+    // vehicle can come to none of them.
+    void time_cheapest() {
+        std::optional<Spot> last;
+        bool possible = false;
+        for (Int tried = 0; tried < most_tried && !possible; ++tried) {
+            const Spots spots = cheapest_behind(last);
+            for (Int i = 0; i < spots.count && !data_.deadline.passed(); ++i) {
+                last = spots.list[static_cast<std::size_t>(i)];
+                if (data_.strategy.give_up_early && last->least >= best_.cost) continue;
+                const Move move = move_to(last->p, last->q);
+                const double cost = price_move(data_, fleet_, move, pickup_.node);
+                possible = possible || cost < infeasible;
+                if (best_.takes(cost)) best_.move = move;
             }
+            if (spots.count < most_timed) return;
         }
     }
 
@@ -102,6 +109,69 @@ private:
     struct Way {
         Int leave, cum, depart, further;
     };
+
+    // Where both ends may come; what that costs at least, and about.
+    struct Spot {
+        double about, least;
+        Int p, q;
+
+        bool operator<(const Spot& other) const {
+            return std::tie(about, p, q) < std::tie(other.about, other.p, other.q);
+        }
+    };
+
+    // The first few by what they cost about, in that order.
+    struct Spots {
+        std::array<Spot, most_timed> list;
+        Int count = 0;
+
+        void note(const Spot& spot) {
+            if (count == most_timed && !(spot < list.back())) return;
+            if (count < most_timed) ++count;
+            auto place = list.begin() + count - 1;
+            for (; place > list.begin() && spot < place[-1]; --place) *place = place[-1];
+            *place = spot;
+        }
+    };
+
+    // The cheapest of those that come behind `last`.
+    Spots cheapest_behind(const std::optional<Spot>& last) const {
+        Spots spots;
+        for (Int p = trip_.first; p < trip_.last; ++p) {
+            const Leg out = leg_from(pickup_.inward, stops_[p].node);
+            const Int arrival = stops_[p].leave + out.duration;
+            if (pickup_.place.too_late(arrival)) continue;
+            const Int aboard = pickup_.place.end_of_service(arrival);
+            const Leg apart = more_behind(pickup_, p);
+            Int above = 0;
+            for (Int q = p; q < trip_.last && fits_[q]; ++q) {
+                if (q > p && !goes_past(q, above)) break;
+                if (delivery_.place.too_late(std::max(aboard, stops_[q].leave))) break;
+                if (above > 0) continue;
+                const Leg more = q == p ? more_together(out, q) : more_behind(delivery_, q, apart);
+                const double least = cost_of(more.distance);
+                const Spot spot{least + double(more.duration) * time_rate_, least, p, q};
+                if (!last || *last < spot) spots.note(spot);
+            }
+        }
+        return spots;
+    }
+
+    // How much longer and further it is by one end behind a stop, beside another detour.
+    Leg more_behind(const Newcomer& end, Int p, Leg beside = {0, 0}) const {
+        const auto [out, on, distance] =
+            end.detour(stops_[p].node, stops_[p + 1].node, stops_[p].leg);
+        return {beside.duration + out.duration + on.duration - stops_[p].gap,
+                beside.distance + distance};
+    }
+
+    // How much longer and further it is by both ends behind a stop, from which `out` leads.
+    Leg more_together(const Leg& out, Int p) const {
+        const Leg aboard = leg_to(pickup_.onward, delivery_.node);
+        const Leg on = leg_to(delivery_.onward, stops_[p + 1].node);
+        return {out.duration + aboard.duration + on.duration - stops_[p].gap,
+                out.distance + aboard.distance + on.distance - stops_[p].leg};
+    }
 
     double cost_of(Int detour) const { return double(detour) * rate_.distance + stops_cost_; }
 
@@ -210,6 +280,7 @@ private:
     const Newcomer pickup_;
     const Newcomer delivery_;
     const View<bool, 1> fits_;
+    const double time_rate_;
     const double stops_cost_;
 };
 
@@ -252,7 +323,7 @@ void scan_pair(const Insertion& insertion, Int slot) {
         mark_fits(data, fleet, slot, trip, node, searcher.scratch->fits);
         if (allows_stops(data.type[k], stops_on(trip) + ends_of_pair)) {
             PairScan scan(insertion, slot, trip);
-            walked ? scan.walk() : scan.time_all();
+            walked ? scan.walk() : scan.time_cheapest();
         }
         scan_flown(insertion, slot, trip);
     }
