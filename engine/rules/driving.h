@@ -84,6 +84,23 @@ inline void pause(const VehicleType& type, Driver& driver, Int length, Int end) 
     if ((first > 0 || second > 0) && length >= first) driver.half_rested = 1;
 }
 
+// How long a driver rests at least who has so much `driving` before him, of all that `lasts` so
+// long.
+inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, Int driving,
+                      Int lasting) {
+    Int times = 0;
+    if (driver.driven + driving > type.max_driving) {
+        times = (driver.driven + driving - 1) / type.max_driving;
+    }
+    if (limits_work(type))
+        times = std::max(times, (now - driver.since + lasting - 1) / type.max_work);
+    if (times <= 0) return 0;
+    const Int first = rest_duration(type, first_part), second = rest_duration(type, second_part);
+    const Int whole = rest_duration(type, whole_rest);
+    const Int each = first > 0 || second > 0 ? std::min(whole, first + second) : whole;
+    return (driver.half_rested == 1 ? std::min(each, second) : each) + (times - 1) * each;
+}
+
 // A leg that a driver who may have to rest has before him, on a route that begins at `begin`.
 class RestedLeg {
 public:

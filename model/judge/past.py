@@ -7,12 +7,12 @@ the end.
 """
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal, NamedTuple
 
 from model.judge.clock import service_start
 from model.judge.launches import launch_begins
-from model.problem import UNREACHABLE, Problem, VehicleType
+from model.problem import REST, UNREACHABLE, Problem, VehicleType
 from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
 
 
@@ -223,7 +223,24 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
     landed = [_landed(problem, vehicle_type, sortie, nodes, len(stops), now) for sortie in flown]
     return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),
                      known.aboard, "nothing" if is_home else "home",
-                     _before(known.breaks, stops))
+                     _before(known.breaks, stops) if is_home
+                     else _taken_by(vehicle_type, known.breaks, len(stops) - 1, now))
+
+
+def _taken_by(kind: VehicleType, breaks: Sequence[TakenBreak], last: int,
+              now: int) -> tuple[TakenBreak, ...]:
+    """Return the breaks on the legs to a stop, and those that are over behind it.
+
+    Of one at the end of a leg that leads elsewhere now all is known but that it was on the way.
+    """
+    found = [taken for taken in breaks if taken.stop < last]
+    for taken in [taken for taken in breaks if taken.stop == last and taken.end <= now]:
+        if taken.place == "arrival":
+            if taken.number != REST and not kind.breaks[taken.number].anywhere:
+                break
+            taken = replace(taken, place="way")
+        found.append(taken)
+    return tuple(found)
 
 
 def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: list[int],

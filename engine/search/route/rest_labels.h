@@ -10,9 +10,10 @@
 
 namespace tandem {
 
-// Which rest is taken, on the leg behind which stop, and where.
+// Which rest is taken, on the leg behind which stop, and where, and the one before it.
 struct TakenRest {
     std::int32_t stop;
+    std::int32_t before;  // among those taken, -1 if there is none
     std::int8_t number;
     std::int8_t place;
 };
@@ -24,9 +25,10 @@ struct RestLabel {
     Int depart;    // the latest departure that costs nothing
     Int airborne;  // sum of the take-offs of drones that are out
     Driver driver;
-    Int next;  // the first break, of those due, that isn't taken
-    Int count;
-    std::array<TakenRest, most_rests_on_route> taken;  // so many of them are written
+    std::int32_t next;    // the first break, of those due, that isn't taken
+    std::int32_t count;   // of rests
+    std::int32_t on_leg;  // of these, on the leg
+    std::int32_t last;    // among those taken, -1 if there is none
 };
 
 // Tell whether one is no worse than another, whatever comes. Of drones that are out, who left later
@@ -46,10 +48,11 @@ public:
     void clear() { count_ = 0; }
 
     // Keep a label unless another is no worse; where there are too many, that goes which is last.
-    void add(const RestLabel& label) {
+    // Tell whether it is kept.
+    bool add(const RestLabel& label) {
         std::size_t kept = 0;
         for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label_[index], label)) return;
+            if (is_no_worse(label_[index], label)) return false;
         }
         for (std::size_t index = 0; index < count_; ++index) {
             if (is_no_worse(label, label_[index])) continue;
@@ -59,12 +62,14 @@ public:
         count_ = kept;
         if (count_ < most) {
             label_[count_++] = label;
-            return;
+            return true;
         }
         RestLabel& last = *std::max_element(
             label_.begin(), label_.end(),
             [](const RestLabel& one, const RestLabel& other) { return one.time < other.time; });
-        if (label.time < last.time) last = label;
+        if (label.time >= last.time) return false;
+        last = label;
+        return true;
     }
 
 private:
@@ -72,6 +77,31 @@ private:
 
     std::array<RestLabel, most> label_;
     std::size_t count_ = 0;
+};
+
+// The rests of all labels, each of which knows its last one.
+class TakenRests {
+public:
+    const TakenRest& operator[](std::int32_t index) const {
+        return taken_[static_cast<std::size_t>(index)];
+    }
+    std::int32_t count() const { return count_; }
+    bool is_full() const { return count_ == most; }
+
+    // Note a rest; returns its number.
+    std::int32_t add(const TakenRest& rest) {
+        taken_[static_cast<std::size_t>(count_)] = rest;
+        return count_++;
+    }
+
+    // Forget those from a number on, which no label has.
+    void forget(std::int32_t count) { count_ = count; }
+
+private:
+    static constexpr std::int32_t most = 8192;
+
+    std::array<TakenRest, most> taken_;
+    std::int32_t count_ = 0;
 };
 
 }  // namespace tandem

@@ -74,6 +74,21 @@ def test_reply_tells_of_parcels_of_a_trip_that_vanishes(searching: httpx.Client,
     assert plan["summary"]["served"] == 3
 
 
+@pytest.mark.parametrize(("drive", "anywhere"), [(0, False), (20, True), (60, True)])
+def test_a_break_that_was_over_before_a_vehicle_broke_down_stays(
+        searching: httpx.Client, street: Request, drive: float, anywhere: bool) -> None:
+    street["fleet"][0]["breaks"] = [{
+        "id": "nap", "duration": 30, "start": {"earliest": 120 + drive, "latest": 180},
+        "at": "anywhere" if anywhere else "stop"}]
+    plan = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120),
+                   ("break", "nap", 120 + drive, 150 + drive), ("customer", "b", 210, 330),
+                   ("depot", "hub", 450, 450))
+    plan["routes"][0]["trips"][0]["stops"][3]["service_start"] = 270
+    street["customers"][1]["time_window"] = {"earliest": 270}
+    found = replanned(searching, street, plan, 220, unavailable=["van-1"])
+    assert times(found, "van-1")[2] == ("nap", 120 + drive, 150 + drive)
+
+
 def test_nothing_is_told_of_parcels_if_no_vehicle_is_broken(searching: httpx.Client,
                                                             street: Request) -> None:
     assert "parcels" not in replanned(searching, street, TOUR, 150)["replan"]
