@@ -1,7 +1,7 @@
 """The parts of a request that fit the schema, and what is said of those that don't make sense."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import NamedTuple
 
 import numpy as np
@@ -67,6 +67,7 @@ class Draft:
     fairness: FairnessInput | None = None
     relations: Sequence[RelationInput] = ()
     shipment_ends: frozenset[str] = frozenset()  # names among customers
+    delivery_of: Mapping[str, str] = field(default_factory=dict)  # by name of any end
     added: frozenset[str] = frozenset()  # names among customers of ends, and of other places
 
     def places(self, customers: bool = True) -> Iterator[Placed]:

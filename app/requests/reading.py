@@ -157,6 +157,8 @@ def _whole_draft(request: PlanRequest) -> Draft:
         launch_sites=request.launch_sites,
         fairness=request.fairness,
         relations=request.relations,
+        delivery_of={name: each.named_ends()[-1][0] for each in request.shipments
+                     for name, _ in each.named_ends()},
         shipment_ends=frozenset(end.id for each in request.shipments for end in each.ends()),
         added=frozenset(added_names(request)),
     )

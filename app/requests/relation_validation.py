@@ -17,10 +17,10 @@ def relation_errors(draft: Draft) -> Errors:
         seen = set[str]()
         for place, name in enumerate(relation.customers):
             path = ("relations", index, "customers", place)
-            if name in draft.added:
+            if name in draft.added - draft.shipment_ends:
                 yield error_at("UNKNOWN_CUSTOMER", path,
-                               f"{name!r} is an end of a shipment, or another place of a customer: "
-                               "name customers alone, of whom relations say the same at any place.")
+                               f"{name!r} is another place of a customer: name customers, of whom "
+                               "relations say the same at any place.")
             elif are_known and name not in known:
                 yield error_at("UNKNOWN_CUSTOMER", path,
                                f"The request has no customer {name!r}: use a customer's id.")
@@ -28,8 +28,35 @@ def relation_errors(draft: Draft) -> Errors:
                 yield error_at("DUPLICATE_ID", path,
                                f"{name!r} is named twice: name each customer once.")
             seen.add(name)
+        yield from _shipment_errors(draft, relation, ("relations", index, "customers"))
         yield from _lag_errors(draft, relation, ("relations", index))
     yield from _contradictions(draft)
+
+
+def _unit_of(draft: Draft, name: str) -> str:
+    """Return the delivery of the shipment whose end is named; else the name."""
+    return draft.delivery_of.get(name, name)
+
+
+def _units(draft: Draft, relation: RelationInput) -> list[str]:
+    return sorted({_unit_of(draft, name) for name in relation.customers})
+
+
+def _shipment_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
+    """Say which relations name several ends of a shipment in vain."""
+    units = dict[str, str]()
+    for place, name in enumerate(relation.customers):
+        unit = _unit_of(draft, name)
+        other = units.setdefault(unit, name)
+        is_brought = unit != name and unit in relation.customers[:place]
+        if other != name and (relation.kind == "apart"
+                              or (relation.kind == "before" and is_brought)):
+            yield error_at("CONTRADICTION", (*path, place),
+                           "One trip fetches a shipment, and then brings it: leave "
+                           f"{name!r} out, or {unit if is_brought else other!r}.")
+    if relation.kind == "together" and len(units) < 2:
+        yield error_at("WRONG_LENGTH", path, "It names one shipment alone, whose ends go together "
+                       "anyhow: name more, or leave it out.")
 
 
 def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
@@ -90,7 +117,7 @@ def _contradictions(draft: Draft) -> Errors:
     apart: dict[frozenset[str], int] = {}
     for index, relation in enumerate(draft.relations):
         if relation.kind == "apart":
-            for pair in combinations(sorted(set(relation.customers)), 2):
+            for pair in combinations(_units(draft, relation), 2):
                 apart[frozenset(pair)] = min(index, apart.get(frozenset(pair), index))
     behind: dict[tuple[str, str], int] = {}
     for index, relation in enumerate(draft.relations):
@@ -120,7 +147,7 @@ def _keeps_together(relation: RelationInput) -> bool:
 def _contradicted(draft: Draft, relation: RelationInput,
                   apart: Mapping[frozenset[str], int]) -> tuple[list[str], int] | None:
     """Return two customers of a relation who can't both be served, and what keeps them apart."""
-    for pair in combinations(sorted(set(relation.customers)), 2):
+    for pair in combinations(_units(draft, relation), 2):
         other = apart.get(frozenset(pair))
         if other is not None and (relation.scope == "trip"
                                   or draft.relations[other].scope == "vehicle"):

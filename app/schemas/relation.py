@@ -20,7 +20,8 @@ class RelationInput(Input):
         "(`before`), or they are kept `apart`."
     )
     customers: Annotated[list[Name], Field(min_length=2, max_length=MAX_RELATED)] = Field(
-        description="Ids of customers; ends of shipments are none."
+        description="Ids of customers, and of ends of shipments, such as `s1/pickup`, which stand "
+        "for the shipment where there is no order."
     )
     scope: Literal["vehicle", "trip"] = Field(
         "vehicle",

@@ -232,12 +232,21 @@ bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, Way way,
            allows_stops(type, served_on_trip(open.log) + static_cast<Int>(order.size()));
 }
 
+// Tell whether who has been served lets a customer come next.
+bool may_join(const Setting& setting, const Vehicle& vehicle, Int node) {
+    if (!some_apart(setting.goods)) return true;
+    const Goods& company = setting.goods[node];
+    return go_together(company, vehicle.barred_on_trip, vehicle.barred_on_vehicle) &&
+           joins_anybody(company, vehicle.parted) &&
+           joins_trip(company, vehicle.kept_on_trip, vehicle.kept_by_vehicle);
+}
+
 // Serve some and go home, from where the trip has come so far; false if that isn't legal.
 bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Way way, const Order& order) {
     auto& [setting, vehicle, log, drones] = open;
     if (!is_within_reach(open, legs, way, order)) return false;
     for (const Int node : order) {
-        if (!drive(open, node)) return false;
+        if (!may_join(setting, vehicle, node) || !drive(open, node)) return false;
     }
     return drive(open, setting.type.ends_at) && may_end(setting.type, vehicle.free) &&
            none_due(setting.type, vehicle.rested, log.trip[0].start, vehicle.free) &&

@@ -15,7 +15,8 @@ def company_rows(problem: Problem) -> list[tuple[int, int, int, int, int]]:
             continue
         # Apart: whoever is held bars all others like him.
         fields = (3 if on_trip else 4,) if kept else (0, 1 if on_trip else 2)
-        for node in relation.nodes:
+        # Whoever brings a shipment fetches it: its pickup stands for both ends.
+        for node in set(map(problem.unit_of, relation.nodes)):
             for field in fields:
                 rows[node - first][field] |= next_bit[kept]
         next_bit[kept] <<= 1

@@ -107,6 +107,10 @@ def _shipment_left_out(problem: Problem, solution: Solution, index: int,
     if attempt.evaluation.violations:
         violation = attempt.evaluation.violations[0]
         return Reason(index, violation.code, f"Alone on {vehicle_type.id}: {violation.message}.")
+    for node in shipment.nodes:
+        related = _in_company(problem, solution, index, node)
+        if related is not None:
+            return related
     cost = ceil(attempt.evaluation.cost.total * 100) / 100
     left_out = problem.cost_of_leaving_out(problem.customer_at(shipment.pickup))
     used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
@@ -229,8 +233,8 @@ def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -
     if node not in problem.lags_across:
         return None
     names, bound = who_waits(problem, solution, node)
-    if bound is problem or (bound is not None and any(
-            not attempt.codes for attempt in attempts(bound, index, node))):
+    if bound is problem or (bound is not None and (node in problem.shipment_at or any(
+            not attempt.codes for attempt in attempts(bound, index, node)))):
         return None
     return Reason(index, "RELATION", f"{problem.vehicle_types[index].id} can't serve it in its "
                   f"order with {names}, as the plan serves these.")

@@ -15,7 +15,7 @@ from model.problem.fleet import VehicleType
 from model.problem.quantities import (
     MAX_DIMENSIONS, MOST_INCOMPATIBLE, USUAL_DECIMALS, BoolArray, FloatArray, require, require_rate,
 )
-from model.problem.relation import MOST_RELATIONS, SINCE_PLAN_START, Lag, Relation
+from model.problem.relation import MOST_RELATIONS, SINCE_PLAN_START, Lag, Relation, by_node
 from model.problem.shipment import Shipment
 from model.problem.travel import Travel
 
@@ -42,7 +42,7 @@ class Problem:
     may_stop: BoolArray | None = None  # (vehicle type, depot) at launch sites; None: any at any
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
-    relations: tuple[Relation, ...] = ()  # of customers who are no ends of shipments
+    relations: tuple[Relation, ...] = ()
     shipments: tuple[Shipment, ...] = ()  # whose ends are customers that ask for nothing else
     choices: tuple[tuple[int, ...], ...] = ()
     """Nodes of one customer's places, of which one is used, his own first. It alone has a cost of
@@ -104,8 +104,8 @@ class Problem:
         apart = sum(each.kind == "apart" for each in self.relations) + len(named)
         require(max(together, apart) <= MOST_RELATIONS, "relations", len(self.relations))
         for each in self.relations:
-            require(self.num_depots <= min(each.nodes) and max(each.nodes) < self.num_nodes
-                    and self.shipment_at.keys().isdisjoint(each.nodes), "relations", each.nodes)
+            require(self.num_depots <= min(each.nodes) and max(each.nodes) < self.num_nodes,
+                    "relations", each.nodes)
         for node in self.lags_across:
             customer = self.customer_at(node)
             require(customer.served_by == "truck", f"customer {customer.id} served_by",
@@ -256,6 +256,10 @@ class Problem:
         """The shipment of each node that is an end of one."""
         return {node: each for each in self.shipments for node in each.nodes}
 
+    def unit_of(self, node: int) -> int:
+        """Return the pickup of the shipment that a node is an end of; else the node."""
+        return self.shipment_at[node].pickup if node in self.shipment_at else node
+
     def shipments_among(self, nodes: Sequence[int]) -> tuple[Shipment, ...]:
         """Return the shipments all ends of which are among some nodes, by their numbers there."""
         if not self.shipments:
@@ -330,23 +334,16 @@ class Problem:
     @cached_property
     def lags(self) -> dict[int, tuple[Lag, ...]]:
         """How much later than others each customer is served behind whom there are some."""
-        found: dict[int, tuple[Lag, ...]] = {}
-        for node, lag in chain.from_iterable([
-                each.lags(self.first_place) for each in self.relations]):
-            found[node] = (*found.get(node, ()), lag)
-        return found
+        return by_node(chain.from_iterable([
+            each.lags(self.first_place) for each in self.relations]))
 
     @cached_property
     def lags_across(self) -> dict[int, tuple[Lag, ...]]:
         """How much later or sooner than others, on any vehicles, customers of orders are served."""
-        found: dict[int, tuple[Lag, ...]] = {}
-        for node, lag in chain.from_iterable([
-                each.lags_across(self.first_place) for each in self.relations]):
-            found[node] = (*found.get(node, ()), lag)
-        for node, each in enumerate(self.customers, self.num_depots):
-            if each.span is not None:
-                found[node] = (*found.get(node, ()), Lag(SINCE_PLAN_START, *each.span))
-        return found
+        since = [(node, Lag(SINCE_PLAN_START, *each.span)) for node, each
+                 in enumerate(self.customers, self.num_depots) if each.span is not None]
+        return by_node(chain(*[
+            each.lags_across(self.first_place) for each in self.relations], since))
 
     @cached_property
     def limits_time_between(self) -> bool:

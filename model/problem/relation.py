@@ -1,6 +1,6 @@
 """Who goes with whom, who doesn't, and who is served before whom."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal, NamedTuple
@@ -29,6 +29,14 @@ class Lag(NamedTuple):
     node: int  # the one who is served before, or `SINCE_PLAN_START`
     least: int
     most: int
+
+
+def by_node(lags: Iterable[tuple[int, Lag]]) -> dict[int, tuple[Lag, ...]]:
+    """Return all lags of each node."""
+    found: dict[int, tuple[Lag, ...]] = {}
+    for node, lag in lags:
+        found[node] = (*found.get(node, ()), lag)
+    return found
 
 
 @dataclass(frozen=True, slots=True)

@@ -44,7 +44,8 @@ def company_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequenc
         for kind in range(len(kinds)):
             if (relation.keeps_together or kind in owners) and not _may_join(
                     problem, kept, relation, owners.get(kind)):
-                table[kind] &= [node not in relation.nodes for node in nodes]
+                units = set(map(problem.unit_of, relation.nodes))
+                table[kind] &= [problem.unit_of(node) not in units for node in nodes]
         if relation.keeps_together and relation.scope == "vehicle":
             _keep_by_carriers(problem, relation, kept, owners, nodes, table)
     return table

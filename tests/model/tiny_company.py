@@ -16,7 +16,7 @@ def with_relations(rng: np.random.Generator, problem: Problem) -> Problem:
         return Relation("together" if rng.random() < 0.6 else "apart", some(),
                         "trip" if rng.random() < 0.4 else "vehicle")
 
-    return _with_drawn(rng, replace(problem, relations=()), draw)
+    return _with_drawn(rng, replace(problem, relations=()), draw, False)
 
 
 def companions(problem: Problem, nodes: Iterable[int]) -> set[int]:
@@ -48,10 +48,14 @@ def with_order_across(rng: np.random.Generator, problem: Problem) -> Problem:
 
 
 def _with_drawn(rng: np.random.Generator, problem: Problem,
-                draw: Callable[[Callable[[], tuple[int, ...]]], Relation]) -> Problem:
-    """Return a problem with one relation more, or two, between two or three of its customers."""
-    ends = problem.shipment_at
-    free = [node for node in range(problem.num_depots, problem.num_nodes) if node not in ends]
+                draw: Callable[[Callable[[], tuple[int, ...]]], Relation],
+                is_ordered: bool = True) -> Problem:
+    """Return a problem with one relation more, or two, between two or three of its customers.
+
+    Where there is no order, pickups stand for shipments.
+    """
+    free = [node for node in range(problem.num_depots, problem.num_nodes)
+            if is_ordered or problem.unit_of(node) == node]
     if len(free) < 2:
         return problem
 

@@ -1,6 +1,6 @@
 """`PlanRequest` -> `Problem` and planning options; quantities are rounded here, once."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths, thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.customer import place_name
+from app.schemas.relation import RelationInput
 from app.schemas.request import PlanRequest
 from model.problem import (
     Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Part, Problem, Relation,
@@ -152,8 +153,16 @@ def _relations(request: PlanRequest, num_depots: int) -> tuple[Relation, ...]:
         return ()
     node = {customer.id: index for index, customer in enumerate(request.customers, num_depots)}
     places = {chosen[0]: chosen for chosen in _choices(request, num_depots)}
+    unit = {name: each.named_ends()[0][0] for each in request.shipments
+            for name, _ in each.named_ends()}
+
+    def named(each: RelationInput) -> Iterable[str]:
+        if each.kind == "before":
+            return each.customers
+        return dict.fromkeys([unit.get(name, name) for name in each.customers])
+
     return tuple(Relation(each.kind, tuple([
-        place for name in each.customers for place in places.get(node[name], (node[name],))
+        place for name in named(each) for place in places.get(node[name], (node[name],))
     ]), each.scope, thousandths(each.min_lag), optional_thousandths(each.max_lag),
         each.kind == "before" and not each.same_vehicle)
         for each in request.relations)

@@ -50,7 +50,7 @@ Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop
         for (Int q = behind - 1; q > trip.first; --q) {
             const Int pickup = stops[q].node;
             if (stops[q].kind != customer_stop || !brings(data.pair, pickup, node)) continue;
-            const Int left = places[pickup].end_of_service(stops[q].arrival);
+            const Int left = places[pickup].end_of_service(as_if_reached(data, stops[q]));
             most = std::max(most, excess_between(limits, pickup, left, start));
         }
         for (const Sortie& sortie : sorties.first(route.sorties)) {
@@ -65,7 +65,9 @@ Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop
         }
     };
     for (Int p = trip.first; p <= trip.last; ++p) {
-        if (stops[p].kind == customer_stop) deliver(stops[p].node, stops[p].arrival, p);
+        if (stops[p].kind == customer_stop) {
+            deliver(stops[p].node, as_if_reached(data, stops[p]), p);
+        }
     }
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         if (sortie.launch < trip.first || sortie.launch > trip.last) continue;

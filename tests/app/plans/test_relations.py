@@ -1,5 +1,6 @@
 """Who goes with whom, over HTTP and back."""
 
+from collections.abc import Callable
 from typing import Any
 
 import httpx
@@ -86,8 +87,14 @@ def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(service: httpx.Cli
     ([{"kind": "together", "customers": ["A", "B"], "scope": "trip"},
       {"kind": "apart", "customers": ["A", "B"], "scope": "trip"}],
      [("CONTRADICTION", "$.relations[0]")]),
-    ([{"kind": "together", "customers": ["A", "s/pickup"]}],
+    ([{"kind": "together", "customers": ["A", "E/locker"]}],
      [("UNKNOWN_CUSTOMER", "$.relations[0].customers[1]")]),
+    ([{"kind": "together", "customers": ["s/pickup", "s/delivery"]}],
+     [("WRONG_LENGTH", "$.relations[0].customers")]),
+    ([{"kind": "before", "customers": ["s/delivery", "A", "s/pickup"]}],
+     [("CONTRADICTION", "$.relations[0].customers[2]")]),
+    ([{"kind": "apart", "customers": ["s/delivery", "A"]},
+      {"kind": "before", "customers": ["A", "s/pickup"]}], [("CONTRADICTION", "$.relations[1]")]),
     ([{"kind": "before", "customers": ["A", "B"]}, {"kind": "before", "customers": ["B", "A"]}],
      [("CONTRADICTION", "$.relations[1]")]),
     ([{"kind": "before", "customers": ["A", "B"], "min_lag": 9, "max_lag": 8}],
@@ -253,6 +260,36 @@ def test_who_was_served_holds_back_whom_an_order_puts_behind(
 def _stops(plan: dict[str, Any]) -> dict[str, Any]:
     return {stop["id"]: stop for route in plan["routes"] for trip in route["trips"]
             for stop in trip["stops"]}
+
+
+@pytest.mark.parametrize(("relation", "holds"), [
+    ({"kind": "together", "customers": ["D", "s/delivery"]},
+     lambda own, start: own["D"] == own["s/pickup"]),
+    ({"kind": "apart", "customers": ["A", "s/delivery"]},
+     lambda own, start: own["A"] != own["s/pickup"]),
+    ({"kind": "before", "customers": ["s/delivery", "A"], "min_lag": 600},
+     lambda own, start: start["A"] - start["s/delivery"] >= 600),
+    ({"kind": "before", "customers": ["A", "s/pickup"], "same_vehicle": False},
+     lambda own, start: start["A"] <= start["s/pickup"]),
+    ({"kind": "before", "customers": ["s/pickup", "s/delivery"], "min_lag": 3600},
+     lambda own, start: start["s/delivery"] - start["s/pickup"] >= 3600)])
+def test_ends_of_shipments_go_with_whom_relations_say(
+        service: httpx.Client, related: Request, relation: dict[str, Any],
+        holds: Callable[[dict[str, str], dict[str, float]], bool]) -> None:
+    related["shipments"] = [{"id": "s", "amount": [1], "pickup": {"location": [-9, 1]},
+                             "delivery": {"location": [-7, 1]}}]
+    related["fleet"][0]["max_trips"] = 3
+    related["relations"] = [relation]
+    plan = service.post("/plan", json=related).json()
+    assert plan["unassigned"] == []
+    own, start = dict[str, str](), dict[str, float]()
+    for route in plan["routes"]:
+        for stop in (stop for trip in route["trips"] for stop in trip["stops"][1:-1]):
+            name = stop["id"] if stop["kind"] == "customer" else f"s/{stop['kind']}"
+            own[name], start[name] = route["vehicle"], stop["service_start"]
+    assert holds(own, start)
+    checked = service.post("/check", json={"problem": related, "plan": plan}).json()
+    assert checked["feasible"], checked
 
 
 @pytest.mark.parametrize("change", [
