@@ -18,6 +18,7 @@ from model.search.beginning.packing import (
     comes_by_trips, packed_anew, packed_plan, timed, with_single_trips,
 )
 from model.search.beginning.translate import best_plan, make_searcher
+from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
@@ -37,8 +38,9 @@ from model.solution import Solution, renumbered
 BY_TRUCK_FROM, BY_TRUCK_SHARE = 30, 0.15
 """Number of customers from which on a plan with drones begins with trucks alone, and the share."""
 
-BY_TRIP_SHARE, BY_TRIP_COOLED = 0.8, 0.6
-"""The share that trips of who flies take first, and through how much of the cooling they go."""
+BY_TRIP_SHARE, BY_TRIP_SHARE_FOR_FEWER, BY_TRIP_COOLED = 0.8, 0.6, 0.6
+"""The share that trips of who flies take first, the same where fewer vehicles may be tried then,
+and through how much of the cooling they go."""
 
 MOST_BEGINNING = 0.05
 """Share of the time after which no other type of vehicle is tried at the beginning; thousands of
@@ -123,6 +125,11 @@ class _Team:
     def over(self, span: Span = WHOLE) -> bool:
         """Tell whether the search, or a span of it, ends."""
         return self.limits.over(self.workers[0].turns, span)
+
+    def share(self) -> float:
+        """Return the share of the search that is over; 1 once it must end."""
+        turns = self.workers[0].turns
+        return 1.0 if self.over() else self.limits.share(turns)
 
     def search(self, crew: Crew | Starts, span: Span, rounds: float = math.inf) -> None:
         """Search in rounds until the end of a span, or for a number of rounds; for one at least."""
@@ -212,7 +219,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
                 found = _plan_by_truck(task)
             elif not solution.routes and comes_by_trips(problem):
                 found = _plan_by_trip(task)
-                task = replace(task, config=replace(config, cooled=BY_TRIP_COOLED))
+                task = replace(task, by_trip=True, config=replace(config, cooled=BY_TRIP_COOLED))
             if alarm.has_rung:
                 return found
             return _improved(task, found.solution, trucks_first, on_progress)
@@ -231,6 +238,7 @@ class _Task:
     limits: Limits
     alarm: Alarm
     reading: Reading
+    by_trip: bool = False  # it goes on from trips that were packed
 
 
 def _improved(task: _Task, solution: Solution, from_trucks: bool,
@@ -263,7 +271,12 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
 
     crew = Crew(data, problem.coordinates[numbering.node], whole, seeds[1:])
     with ThreadPoolExecutor(config.threads) as pool, suppress(EndedError):
-        _search(_Team(whole, workers, limits, pool, after_round), data, crew, seeds[1:])
+        team = _Team(whole, workers, limits, pool, after_round)
+        if task.by_trip and fewer_may_pay(problem):
+            team.search(crew, WHOLE, rounds=1)
+            FewerFlown(problem, data, whole, node, team.share).run(
+                lambda: team.search(crew, WHOLE, rounds=1))
+        _search(team, data, crew, seeds[1:])
     found = whole
     with suppress(EndedError):
         found = packed_anew(problem, data, whole, node)
@@ -370,7 +383,7 @@ def _plan_by_trip(task: _Task) -> Improved:
     """Return a plan whose trips were found as if each were a vehicle's own, then packed."""
     single = with_single_trips(task.problem)
     found = _beforehand(replace(task, problem=single, instance=pack([single], False)),
-                        BY_TRIP_SHARE)
+                        BY_TRIP_SHARE_FOR_FEWER if fewer_may_pay(task.problem) else BY_TRIP_SHARE)
     data = make_data(task.problem, task.instance, task.config.moves, task.neighbourhood)
     return replace(found, solution=timed(task.problem, data, task.neighbourhood.numbering,
                                          packed_plan(task.problem, found.solution)))

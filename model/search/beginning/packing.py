@@ -33,11 +33,6 @@ SOONER = 0.3
 """What putting off the trips behind counts, by what waiting does."""
 
 
-FEW_LEFT_OUT = 3
-"""Trips that may be left out where that saves a vehicle: its customers fit into others at the
-least, and no move of a search empties a vehicle of many trips."""
-
-
 def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
                   nodes: Sequence[int] | None = None, beside: Sequence[Route] = (),
                   orders: int = 1) -> list[Route]:
@@ -45,8 +40,7 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
 
     Those with the least leeway come first, each where its vehicle waits least before and behind; on
     another vehicle where it fits between no trips. What no vehicle can fly is left out, or for what
-    routes `beside` leave no batteries, fewest customers first. Of several `orders` the best counts,
-    and a few trips are left out, too, where that saves a vehicle that costs something.
+    routes `beside` leave no batteries, fewest customers first. Of several `orders` the best counts.
     Routes have no times yet. `nodes` are the problem's, by the numbers that trips have.
     """
     kind = problem.vehicle_types[k]
@@ -56,11 +50,6 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
     timing = _Timing(problem, kind, nodes or range(problem.num_nodes))
     legs = [leg for leg in map(timing.leg, trips) if leg is not None]
     rows = _best_packed(kind, legs, stock.chargers, orders)
-    if orders > 1 and kind.fixed_cost > 0 and len(rows) > 1:
-        fewer = _best_packed(replace(kind, count=len(rows) - 1, numbers=()), legs, stock.chargers,
-                             orders)
-        if _num_trips(rows) - _num_trips(fewer) <= FEW_LEFT_OUT:
-            rows = fewer
     return [Route(k, number, tuple([_trip(kind, leg.trip) for leg in row.legs]))
             for number, row in enumerate(rows)]
 
@@ -88,6 +77,25 @@ def with_single_trips(problem: Problem) -> Problem:
         if kind.flies and kind.max_trips > 1 else kind for kind in problem.vehicle_types]))
 
 
+def packed_in_fewer(problem: Problem, k: int, routes: Sequence[Route],
+                    nodes: Sequence[int]) -> list[Route]:
+    """Return routes with the trips of a type on one vehicle fewer, and what that leaves out.
+
+    They have no times yet. `nodes` are the problem's, by the numbers that routes have.
+    """
+    others = [route for route in routes if route.vehicle_type != k]
+    kinds = list(problem.vehicle_types)
+    kinds[k] = replace(kinds[k], count=len(routes) - len(others) - 1, numbers=())
+    fewer = replace(problem, vehicle_types=tuple(kinds))
+    return others + packed_routes(fewer, k, _customers(routes, k), nodes, others)
+
+
+def _customers(routes: Sequence[Route], k: int) -> list[list[int]]:
+    """Return the customers of each trip of a type."""
+    return [[stop.node for stop in trip.stops[1:-1]]
+            for route in routes if route.vehicle_type == k for trip in route.trips]
+
+
 def _hourly(problem: Problem, kind: VehicleType) -> float:
     """Return what an hour in the air costs of a vehicle; nothing where days have no end."""
     over = min(kind.latest, max([customer.latest for customer in problem.customers]))
@@ -105,8 +113,7 @@ def packed_plan(problem: Problem, single: Solution) -> Solution:
     packed = {k for k, kind in enumerate(kinds) if kind.flies and kind.max_trips > 1}
     routes = [route for route in single.routes if route.vehicle_type not in packed]
     for k in sorted(packed):
-        trips = [[stop.node for stop in route.trips[0].stops[1:-1]]
-                 for route in single.routes if route.vehicle_type == k]
+        trips = _customers(single.routes, k)
         routes += packed_routes(problem, k, trips, None, routes, ORDERS)
     return Solution(tuple(routes), single.unassigned)
 
@@ -122,8 +129,7 @@ def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
                 nodes: Sequence[int]) -> Searcher:
     """Return a search's best plan with the trips of who flies packed anew, if that costs less.
 
-    Else the search as it is. No move of a search empties a vehicle of many trips. `nodes` are the
-    problem's by the search's numbers.
+    Else the search as it is. `nodes` are the problem's by the search's numbers.
     """
     packed = {k for k, kind in enumerate(problem.vehicle_types)
               if kind.flies and kind.max_trips > 1}
@@ -132,9 +138,7 @@ def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
     made = list(read_routes(data, searcher))
     routes = [route for route in made if route.vehicle_type not in packed]
     for k in sorted(packed):
-        trips = [[stop.node for stop in trip.stops[1:-1]]
-                 for route in made if route.vehicle_type == k for trip in route.trips]
-        routes += packed_routes(problem, k, trips, nodes, routes)
+        routes += packed_routes(problem, k, _customers(made, k), nodes, routes)
     found = make_searcher(problem, data, Solution(tuple(routes), left_out(data, searcher)),
                           np.random.SeedSequence(0))
     return found if found.value.best < searcher.value.best else searcher

@@ -10,9 +10,15 @@ from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Customer, Depot, DroneType, Energy, Problem, Travel, VehicleType
 from model.search.beginning.packing import (
-    comes_by_trips, packed_plan, packed_routes, with_single_trips,
+    comes_by_trips, packed_in_fewer, packed_plan, packed_routes, with_single_trips,
 )
+from model.search.beginning.translate import best_plan, make_searcher
+from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.improve import SearchConfig, improve
+from model.search.neighbourhood.neighbourhood import make_neighbourhood
+from model.search.problem_data import make_data
+from model.search.route.engine import ANY, anneal
+from model.search.strategy import ALL_MOVES
 from model.solution import Route, Solution, Stop, Trip
 
 MINUTE = 60_000
@@ -121,6 +127,49 @@ def test_a_search_ends_with_its_trips_on_as_few_vehicles_as_may_be() -> None:
     assert evaluation.violations == ()
     assert found.unassigned == ()
     assert len(found.routes) < 8
+
+
+def in_fewer(problem: Problem) -> Solution:
+    """Return what a search by fewer vehicles makes of a trip and a vehicle for each customer."""
+    instance, nodes = pack([problem]), list(range(problem.num_nodes))
+    neighbourhood = make_neighbourhood(problem, instance, along=False)
+    data = make_data(problem, instance, ALL_MOVES, neighbourhood)
+    plan = Solution(tuple([Route(0, node - 1, (Trip(tuple([Stop(stop, 0, 0, 0)
+                                                          for stop in (0, node, 0)])),))
+                           for node in nodes[1:]]))
+    whole = make_searcher(problem, data, plan, np.random.SeedSequence(1))
+    rounds = iter(np.linspace(0.0, 1.0, 200).tolist())
+    FewerFlown(problem, data, whole, nodes, lambda: next(rounds)).run(
+        lambda: anneal(data, whole, 20, ANY))
+    assert data.type["count"].tolist() == [kind.count for kind in problem.vehicle_types]
+    return best_plan(data, whole, nodes)
+
+
+def test_fewer_fly_where_that_costs_less() -> None:
+    """Each of two has to leave at once: a trip of both takes one vehicle, which costs less."""
+    problem = street(order("a", latest=2), order("b", latest=3))
+    found = in_fewer(problem)
+    assert [[stop.node for stop in trip.stops] for route in found.routes
+            for trip in route.trips] == [[0, 1, 2, 0]]
+    assert check(problem, found).violations == ()
+
+
+def test_as_many_fly_as_before_where_fewer_cannot() -> None:
+    problem = street(order("a", latest=2), order("b", latest=3), kind=replace(DRONE, max_stops=1))
+    found = in_fewer(problem)
+    assert len(found.routes) == 2
+    assert found.unassigned == ()
+    assert check(problem, found).violations == ()
+
+
+def test_trips_on_one_vehicle_fewer_leave_out_whom_they_must() -> None:
+    problem = street(order("a", latest=2), order("b", latest=3), order("c"))
+    routes = packed_routes(problem, 0, [(1,), (2,), (3,)])
+    assert len(routes) == 2
+    fewer, = packed_in_fewer(problem, 0, routes, range(4))
+    assert {stop.node for trip in fewer.trips for stop in trip.stops[1:-1]} in ({1, 3}, {2, 3})
+    assert fewer_may_pay(problem)
+    assert not fewer_may_pay(replace(problem, vehicle_types=(replace(DRONE, fixed_cost=0.0),)))
 
 
 def test_joined_trips_last_in_the_air_and_on_the_battery() -> None:
