@@ -43,7 +43,7 @@ class ShipmentEndInput(Input):
         "truck",
         description="Who comes: the truck itself, or either it or a drone of it. What a drone "
         "fetches is aboard the truck from where that recovers it; what one delivers is launched "
-        "at a stop behind. With `pickups` the truck alone.",
+        "at a stop behind, or fetched on the same sortie. With `pickups` the truck alone.",
     )
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 from itertools import combinations
 
-from model.judge.pairs import change_aboard, flown_back, flown_out
+from model.judge.pairs import brought_within, change_aboard, flown_back, flown_out
 from model.problem import Customer, Problem, VehicleType
 from model.solution import Sortie, Trip
 
@@ -48,12 +48,16 @@ def trip_loads(problem: Problem, kind: VehicleType, trip: Trip) -> list[Amount]:
 def _add_shipments(problem: Problem, trip: Trip, loads: list[Amount]) -> None:
     """Add what is aboard of shipments on leaving each stop. In place.
 
-    Drones leave with what they deliver, and bring what they fetch where they are recovered.
+    Drones leave with what they deliver, and bring what they fetch where they are recovered, but for
+    what they deliver themselves.
     """
     served = [[stop.node] for stop in trip.stops]
     for sortie in trip.sorties:
+        within = brought_within(problem, sortie)
         for visit in sortie.visits:
             each = problem.shipment_at.get(visit.node)
+            if each is not None and each.delivery in within:
+                continue
             fetches = each is not None and visit.node == each.pickup
             served[sortie.recovery_stop if fetches else sortie.launch_stop].append(visit.node)
     aboard = (0,) * problem.num_dimensions
@@ -88,14 +92,16 @@ def _by_stop(problem: Problem, trip: Trip, flown_at: list[int]) -> list[list[Cus
 def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
     """Return what a drone carries at take-off, then when it leaves each customer."""
     load = (0,) * problem.num_dimensions
-    loads = [load]
+    loads, within = [load], brought_within(problem, sortie)
     for visit in reversed(sortie.visits):
-        load = _plus(load, flown_out(problem, visit.node))
+        if visit.node not in within:
+            load = _plus(load, flown_out(problem, visit.node))
         loads.append(load)
     loads.reverse()
     taken = (0,) * problem.num_dimensions
     for index, visit in enumerate(sortie.visits, 1):
-        taken = _plus(taken, flown_back(problem, visit.node))
+        change = change_aboard(problem, visit.node) if visit.node in within else None
+        taken = _plus(taken, change or flown_back(problem, visit.node))
         loads[index] = _plus(loads[index], taken)
     return loads
 

@@ -3,13 +3,24 @@
 from collections.abc import Iterator
 
 from model.problem import Problem, VehicleType
-from model.solution import Trip
+from model.solution import Sortie, Trip
 
 
 def change_aboard(problem: Problem, node: int) -> tuple[int, ...] | None:
     """Return by how much a stop at a shipment's end changes what is aboard; None elsewhere."""
     each = problem.shipment_at.get(node)
     return None if each is None else each.change_at(node)
+
+
+def brought_within(problem: Problem, sortie: Sortie) -> set[int]:
+    """Return the deliveries of what a drone has fetched before on the same sortie."""
+    fetched, within = set[int](), set[int]()
+    for visit in sortie.visits:
+        each = problem.shipment_at.get(visit.node)
+        if each is not None and visit.node == each.delivery and fetched.issuperset(each.pickups):
+            within.add(visit.node)
+        fetched.add(visit.node)
+    return within
 
 
 def flown_out(problem: Problem, node: int) -> tuple[int, ...]:
@@ -32,8 +43,9 @@ def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
 
     As part of a path. A parcel is aboard its truck from the stop on where that picks it up, or
     recovers the drone that does; it is so as the truck comes to the stop where it delivers it, or
-    launches the drone that does.
+    launches the drone that does. Both ends may be served on one sortie.
     """
+    within = {node for sortie in trip.sorties for node in brought_within(problem, sortie)}
     position = {stop.node: (f".stops[{index}]", index) for index, stop in trip.numbered_stops}
     position |= _flown_ends(problem, trip)
     driven = {stop.node for stop in trip.customer_stops}
@@ -44,7 +56,8 @@ def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
         others = each.pickups if node == each.delivery else (each.delivery,)
         if not position.keys() >= {*others}:
             yield where, f"the other end of shipment {each.id} isn't on this trip"
-        elif node == each.delivery and max(position[other][1] for other in others) >= index:
+        elif node == each.delivery and node not in within and (
+                max(position[other][1] for other in others) >= index):
             yield where, (f"shipment {each.id} is delivered before it is picked up"
                           if driven.issuperset((node, *others)) else
                           f"shipment {each.id} isn't aboard as its truck comes to where it leaves")

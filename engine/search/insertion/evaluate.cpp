@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "guard.h"
+#include "randomness.h"
 #include "rules/drone_types.h"
 #include "rules/flown_trip.h"
 #include "rules/leg.h"
@@ -272,14 +273,15 @@ Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1>
     return {cost, time, cum, depart};
 }
 
-// How many ways there are to deliver what a route fetches alone: by truck, or by a drone of a row.
+// How many ways there are to deliver what a route fetches alone: by truck, by a drone of a row, or
+// on the sortie that fetches it.
 Int ways_to_deliver(const ProblemData& data, Int k, Int node) {
     const bool flies = is_pickup(data.pair, node) && data.can(k, 1, data.pair[node].partner);
-    return flies ? 1 + num_drone_rows(data.type, k) : 1;
+    return flies ? num_drone_rows(data.type, k) + 2 : 1;
 }
 
-// Lets a route deliver what it fetches alone in one of these ways, a drone from where the route
-// ends; false if it may not. In place.
+// Lets a route deliver what it fetches alone in one of these ways, another drone from where the
+// route ends; false if it may not. In place.
 bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, Int way) {
     if (!is_pickup(data.pair, node)) return true;
     const auto& [route, stops, sorties] = sequence;
@@ -288,51 +290,92 @@ bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, 
         insert_stops(sequence, end, {{delivery, customer_stop}});
         return true;
     }
+    if (way > num_drone_rows(data.type, route.type)) {
+        const bool fetched = route.sorties > 0;
+        const Int row = fetched ? row_of_drone(data.type, route.type, sorties[0].drone) : 0;
+        if (!fetched || data.visits[row] < 2 || !data.can(row, 1, delivery)) return false;
+        join_sortie(sorties[0], 1, delivery);
+        return true;
+    }
     const Int row = drone_row_at(data.type, route.type, way - 1);
     if (!data.can(row, 1, delivery)) return false;
     add_sortie(route, sorties, end, end, first_drone(data.type, route.type, row), delivery);
     return true;
 }
 
+// The ways in which a route of a type serves a customer alone, or a shipment, by its pickup.
+class WaysAlone {
+public:
+    WaysAlone(const ProblemData& data, Int k, Int node, bool by_drone)
+        : data_(data),
+          k_(k),
+          node_(node),
+          by_drone_(by_drone),
+          options_(by_drone && data.type[k].begins_at != data.type[k].ends_at ? ways - from_start
+                                                                              : 1),
+          halts_(by_drone && has_halts(data) ? data.near_halts.shape(1) : 0),
+          flights_(by_drone ? options_ * num_drone_rows(data.type, k) : 1),
+          begun_(flights_ + ways_by_halt * halts_ * num_drone_rows(data.type, k)) {}
+
+    Int number() const { return begun_ * ways_to_deliver(data_, k_, node_); }
+
+    // Writes a route that serves it in one of them; false if that may not be. In place.
+    bool serve(const Fleet& fleet, Int slot, Int way) const {
+        const Int option = way % begun_;
+        const bool halting = option >= flights_;
+        const Int place = halting ? (option - flights_) / ways_by_halt : option;
+        const Int row = drone_row_at(data_.type, k_, place / (halting ? halts_ : options_));
+        if (by_drone_ && !data_.can(row, 1, node_)) return false;
+        Int begun = (by_drone_ ? from_start : by_truck) + option % options_, halt = nowhere;
+        if (halting) {
+            begun = at_halt + (option - flights_) % ways_by_halt;
+            halt = data_.near_halts(node_, place % halts_);
+            if (halt < 0) return false;
+        }
+        begin_route(sequence_in(fleet, slot), data_.type[k_], k_, node_, begun,
+                    first_drone(data_.type, k_, row), halt);
+        return deliver_alone(data_, sequence_in(fleet, slot), node_, way / begun_) &&
+               refresh(data_, fleet, slot);
+    }
+
+private:
+    const ProblemData& data_;
+    const Int k_;
+    const Int node_;
+    const bool by_drone_;
+    const Int options_;
+    const Int halts_;
+    const Int flights_;
+    const Int begun_;
+};
+
 }  // namespace
 
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                  bool by_drone) {
     if (is_gathered(data.pair, node)) return serve_parts_alone(data, fleet, slot, k, node);
-    const bool one_place = data.type[k].begins_at == data.type[k].ends_at;
-    const Int first_way = by_drone ? from_start : by_truck;
-    const Int options = by_drone && !one_place ? ways - from_start : 1;
-    const Int rows = num_drone_rows(data.type, k);
-    const Int flights = by_drone ? options * rows : 1;
-    const Int halts = by_drone && has_halts(data) ? data.near_halts.shape(1) : 0;
-    const Int begun = flights + ways_by_halt * halts * rows;
-    const Int number = begun * ways_to_deliver(data, k, node);
+    const WaysAlone all(data, k, node, by_drone);
     double best = infeasible;
     Int chosen = 0;
     bool done = false;
     // The last time, the best of them is written once more.
-    for (Int tried = 0; tried < (number == 1 ? number : number + 1); ++tried) {
-        const Int whole = tried == number ? chosen : tried, option = whole % begun;
-        const bool halting = option >= flights;
-        const Int place = halting ? (option - flights) / ways_by_halt : option;
-        const Int row = drone_row_at(data.type, k, place / (halting ? halts : options));
-        done = !by_drone || data.can(row, 1, node);
-        const Int way =
-            halting ? at_halt + (option - flights) % ways_by_halt : first_way + option % options;
-        const Int halt = halting ? data.near_halts(node, place % halts) : nowhere;
-        if (halting && halt < 0) done = false;
-        if (done) {
-            begin_route(sequence_in(fleet, slot), data.type[k], k, node, way,
-                        first_drone(data.type, k, row), halt);
-            done = deliver_alone(data, sequence_in(fleet, slot), node, whole / begun) &&
-                   refresh(data, fleet, slot);
-        }
+    for (Int tried = 0; tried < (all.number() == 1 ? 1 : all.number() + 1); ++tried) {
+        const Int way = tried == all.number() ? chosen : tried;
+        done = all.serve(fleet, slot, way);
         if (done && fleet.cost[slot] < best) {
             best = fleet.cost[slot];
-            chosen = whole;
+            chosen = way;
         }
     }
     return done;
+}
+
+bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+                        View<std::uint64_t, 1> rng) {
+    const WaysAlone driven(data, k, node, false), flown(data, k, node, true);
+    const Int way = below(rng, driven.number() + flown.number());
+    return way < driven.number() ? driven.serve(fleet, slot, way)
+                                 : flown.serve(fleet, slot, way - driven.number());
 }
 
 double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node) {

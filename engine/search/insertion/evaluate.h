@@ -13,6 +13,10 @@ constexpr double infeasible = 1e300;
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                  bool by_drone);
 
+// Writes the route that serves a shipment alone in some way, drawn of all. False if it may not.
+bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+                        View<std::uint64_t, 1> rng);
+
 // Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be.
 double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node);
 

@@ -24,6 +24,7 @@ namespace {
 constexpr Int most_places = 96;  // of an end on a trip
 constexpr Int most_priced = 64;  // of pairs of them
 constexpr Int by_wheels = -1;    // instead of a row of drones
+constexpr Int by_same = -2;      // likewise, of a delivery by the sortie that fetches
 
 // Where an end is served: by truck behind stop `first`, or by a drone of a row from `first` to
 // `last`.
@@ -93,6 +94,7 @@ public:
         const bool fetches = fly(pickup_, pickups), brings = fly(delivery_, deliveries);
         if (brings) drive(pickup_, pickups);
         if (fetches) drive(delivery_, deliveries);
+        if (fetches && brings) fly_both();
         for (const EndPlace& pickup : pickups.items()) {
             for (const EndPlace& delivery : deliveries.items()) join(pickup, delivery);
         }
@@ -142,13 +144,12 @@ private:
         const Rate& rate = data_.rate[row];
         const LegRow inward = legs_to(data_.back, drone.drone_travel, node);
         const LegRow onward = legs_from(data_.leg, drone.home_travel, node);
-        const auto may_meet = [&](Int here) {
-            return is_launch_place(data_.no_launch, here) && in_range(data_, drone, here, node);
-        };
         const bool crosses = data_.strategy.crossings && !waits_for_drones(type_);
         for (Int launch = trip_.first; launch <= trip_.last; ++launch) {
             const Leg out = leg_from(inward, stops_[launch].node);
-            if (is_dear(flown_cost(rate, out.distance)) || !may_meet(stops_[launch].node)) continue;
+            if (is_dear(flown_cost(rate, out.distance)) ||
+                !may_meet(drone, stops_[launch].node, node))
+                continue;
             const Int last = crosses ? std::min(trip_.last, launch + max_span) : launch;
             for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
                  ++recovery) {
@@ -156,11 +157,53 @@ private:
                 const double cost = flown_cost(rate, out.distance + home.distance);
                 const Flight flight{drone, data_.place.by_air(drone)[node], out.duration,
                                     home.duration};
-                if (!is_dear(cost) && may_meet(stops_[recovery].node) && flight.can_serve()) {
+                if (!is_dear(cost) && may_meet(drone, stops_[recovery].node, node) &&
+                    flight.can_serve()) {
                     places.add({cost, row, launch, recovery});
                 }
             }
         }
+    }
+
+    // Lists sorties that serve both ends. In place.
+    void fly_both() {
+        for (Int row = first_drone_row(data_.type, route_.type); row >= 0;
+             row = next_drone_row(data_.type, row)) {
+            if (data_.visits[row] > 1 && data_.can(row, 1, pickup_) &&
+                data_.can(row, 1, delivery_) &&
+                has_battery(data_.type, route_, fleet_.sortie[slot_], trip_, row)) {
+                fly_both_by(row);
+            }
+        }
+    }
+
+    void fly_both_by(Int row) {
+        const VehicleType& drone = data_.type[row];
+        const Rate& rate = data_.rate[row];
+        const LegRow inward = legs_to(data_.back, drone.drone_travel, pickup_);
+        const LegRow onward = legs_from(data_.leg, drone.home_travel, delivery_);
+        const Int between =
+            leg(legs_of(data_.leg, drone.drone_travel), pickup_, delivery_).distance;
+        const bool crosses = data_.strategy.crossings && !waits_for_drones(type_);
+        for (Int launch = trip_.first; launch <= trip_.last; ++launch) {
+            const Int from = stops_[launch].node;
+            const Int out = distance_from(inward, from) + between;
+            if (is_dear(flown_cost(rate, out)) || !may_meet(drone, from, pickup_)) continue;
+            const Int last = crosses ? std::min(trip_.last, launch + max_span) : launch;
+            for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
+                 ++recovery) {
+                const Int to = stops_[recovery].node;
+                const double cost = flown_cost(rate, out + distance_to(onward, to));
+                if (!is_dear(cost) && may_meet(drone, to, delivery_)) {
+                    pairs_.add({cost, {cost, row, launch, recovery}, {0.0, by_same, 0, 0}});
+                }
+            }
+        }
+    }
+
+    // Whether drones of a type that serve a customer may be launched or recovered at a node.
+    bool may_meet(const VehicleType& drone, Int here, Int customer) const {
+        return is_launch_place(data_.no_launch, here) && in_range(data_, drone, here, customer);
     }
 
     // Lists a shipment at two places if the truck holds it between, and a drone flies one. In
@@ -179,7 +222,7 @@ private:
     }
 
     Int drone_for(const EndPlace& place) const {
-        if (place.row == by_wheels) return nowhere;
+        if (place.row < 0) return nowhere;
         return free_drone(data_, fleet_, slot_, {2 * place.first, 2 * place.last}, place.row);
     }
 
@@ -189,8 +232,7 @@ private:
         move.slot = slot_;
         move.type = route_.type;
         const Int fetching = drone_for(pickup), bringing = drone_for(delivery);
-        if ((pickup.row != by_wheels && fetching < 0) ||
-            (delivery.row != by_wheels && bringing < 0)) {
+        if ((pickup.row != by_wheels && fetching < 0) || (delivery.row >= 0 && bringing < 0)) {
             return;
         }
         move.first = pickup.first;
@@ -199,6 +241,10 @@ private:
             move.last = delivery.first;
             move.landing = delivery.last;
             move.drone = bringing;
+        } else if (delivery.row == by_same) {
+            move.kind = on_one_flight;
+            move.last = pickup.last;
+            move.drone = fetching;
         } else if (delivery.row == by_wheels) {
             move.kind = by_drone_and_truck;
             move.last = delivery.first;

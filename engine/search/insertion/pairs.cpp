@@ -294,6 +294,12 @@ void for_each_server(const ProblemData& data, Int k, Int node, const Visit& visi
     }
 }
 
+// Whether a drone that fetches a shipment may deliver it on the same sortie.
+bool may_bring_within(const ProblemData& data, Int k, Int drone, Int delivery) {
+    const Int row = row_of_drone(data.type, k, drone);
+    return data.visits[row] > 1 && data.can(row, 1, delivery);
+}
+
 // Whether all that matters of a route's times is known at its stops.
 bool is_walked(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
@@ -367,6 +373,10 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
         }
         for_each_server(data, move.type, node, [&](Int fetching) {
             move.drone = fetching;
+            if (fetching >= 0 && may_bring_within(data, move.type, fetching, partner)) {
+                move.sortie = on_same_flight;
+                if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+            }
             for_each_server(data, move.type, partner, [&](Int bringing) {
                 move.sortie = bringing;
                 if (best.takes(price_move(data, fleet, move, node))) best.move = move;

@@ -34,6 +34,8 @@ constexpr Int few_to_sort = 64;
 // How often those come first whom it costs most to leave out, where that differs.
 constexpr double dearest_first = 0.5;
 
+constexpr double opened_anyhow = 0.3;  // share of shipments that drones may fly
+
 // By how much, at most, what the plan as a whole would cost more is taken to count in a turn, since
 // it is estimated.
 constexpr double heaviest = 2.0;
@@ -66,13 +68,23 @@ double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_
     }
 }
 
+// Tells whether a shipment opens a route in any way that goes, by a draw: what is cheapest for it
+// alone binds truck and drones, whatever comes then.
+bool opens_anyhow(const ProblemData& data, const Searcher& searcher, Int node, Int k) {
+    return is_pickup(data.pair, node) &&
+           (data.can(k, 1, node) || data.can(k, 1, data.pair[node].partner)) &&
+           uniform(searcher.rng) < opened_anyhow;
+}
+
 // Serves a customer by a route of its own. False if no slot is free.
 bool open_route(const ProblemData& data, const Searcher& searcher, Int node, Int k, bool by_drone) {
     const Fleet& now = searcher.now;
     const Int slot = free_slot(data, searcher, k);
     if (slot < 0) return false;
     touch(searcher, slot);
-    if (!serve_alone(data, now, slot, k, node, by_drone)) {
+    if (!(opens_anyhow(data, searcher, node, k) &&
+          serve_alone_anyhow(data, now, slot, k, node, searcher.rng)) &&
+        !serve_alone(data, now, slot, k, node, by_drone)) {
         now.route[slot].length = 0;
         now.cost[slot] = 0.0;
         return false;

@@ -11,10 +11,6 @@ namespace tandem {
 
 void charge(NodeTable places, const TravelLegs& legs, const TravelLegs& homeward,
             const VehicleType& type, Sortie& sortie, Int node) {
-    sortie.taken = 0;
-    for (Int index = 0; index < sortie.count; ++index) {
-        sortie.taken += weight_flown_back(places[sortie.nodes[index]]);
-    }
     Int left = battery_of(type), aboard = sortie.taken, most = aboard, flown = 0;
     Int here = sortie.home;
     for (Int index = sortie.count - 1; index >= 0; --index) {

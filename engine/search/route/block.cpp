@@ -6,6 +6,8 @@
 #include "rules/energy.h"
 #include "rules/flight.h"
 #include "rules/launch_place.h"
+#include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "search/route/batteries.h"
 #include "search/route/lags.h"
@@ -267,6 +269,17 @@ void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
     stops[last].idle = 0;
 }
 
+// Return what weighs of that which a drone brings to its recovery.
+Int weight_home(const ProblemData& data, NodeTable places, const Sortie& sortie) {
+    Int weight = 0;
+    for (Int visit = 0; visit < sortie.count; ++visit) {
+        if (!is_fetched_within(data.pair, sortie.nodes, sortie.count, visit)) {
+            weight += weight_flown_back(places[sortie.nodes[visit]]);
+        }
+    }
+    return weight;
+}
+
 }  // namespace
 
 void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> sorties) {
@@ -278,6 +291,7 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
         sortie.held = none;
         sortie.limit = endurance_of(drone_data.type);
         if (is_limited(drone_data.type)) {
+            sortie.taken = weight_home(truck.data, drone_data.places, sortie);
             charge(drone_data.places, drone_data.legs, drone_data.homeward, drone_data.type, sortie,
                    stops[sortie.launch].node);
         }

@@ -47,6 +47,13 @@ void insert_pickups(const Sequence& sequence, const Move& move, const Pickups& p
     }
 }
 
+// Let the sortie that fetches a shipment alone deliver it, too. In place.
+void bring_within(const Route& route, View<Sortie, 1> sorties, Int pickup, Int delivery) {
+    for (Sortie& sortie : sorties.first(route.sorties)) {
+        if (sortie.nodes[0] == pickup) join_sortie(sortie, 1, delivery);
+    }
+}
+
 }  // namespace
 
 void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits) {
@@ -153,8 +160,17 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
             add_sortie(route, sorties, move.first, move.last, move.drone, node);
             add_first_sortie(route, sorties, move.halt, move.landing, move.sortie, partner);
             break;
+        case on_one_flight:
+            add_sortie(route, sorties, move.first, move.last, move.drone, node);
+            bring_within(route, sorties, node, partner);
+            break;
         case pair_trip:
             insert_stops(sequence, behind, {start, end});
+            if (move.sortie == on_same_flight) {
+                add_sortie(route, sorties, behind, behind, move.drone, node);
+                bring_within(route, sorties, node, partner);
+                break;
+            }
             if (move.sortie >= 0) {
                 add_sortie(route, sorties, behind + 1, behind + 1, move.sortie, partner);
             } else {

@@ -41,7 +41,8 @@ constexpr Int both_ends = 12;  // both ends of a shipment: the pickup behind sto
                                // delivery behind the pickup or the former stop `last`
 constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`; the pickup by
                                // `drone` from its start, the delivery by drone `sortie` from its
-                               // end, or by truck where these are `nowhere`
+                               // end, or by truck where these are `nowhere`; or `on_same_flight`
+constexpr Int on_same_flight = -2;
 constexpr Int by_truck_and_drone = 15;  // the pickup behind stop `first`, the delivery on a sortie
                                         // from the former stop `last` to `landing`
 constexpr Int by_drone_and_truck = 16;  // the pickup on a sortie from stop `first` to `landing`,
@@ -51,8 +52,9 @@ constexpr Int by_drones = 17;   // the pickup on a sortie from stop `first` to `
 constexpr Int all_ends = 18;    // several pickups as `end` tells, the delivery behind them or the
                                 // former stop `last`
 constexpr Int parts_trip = 19;  // both on a trip of their own behind stop `first`, in that order
-constexpr Int halt_trip = 14;   // on a trip of its own behind stop `first`, by drone from a launch
-                                // site and back there
+constexpr Int on_one_flight = 20;  // both on a sortie from stop `first` to `last`
+constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
+                               // site and back there
 
 // One of several pickups in a move: its number among them, behind a former stop.
 constexpr Int picked_behind(Int stop, Int number) { return stop * most_pickups + number; }

@@ -153,7 +153,10 @@ bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Tr
     for (const Sortie& sortie : sorties) {
         if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
         for (Int visit = 0; visit < sortie.count; ++visit) {
-            serve(sortie.nodes[visit], sortie.launch);
+            pairs.serve(sortie.nodes[visit], [&](Int pickup) {
+                return is_brought_within(data.pair, sortie.nodes, visit) ||
+                       comes_before(pickup, sortie.launch);
+            });
         }
     }
     return pairs.are_kept();

@@ -15,9 +15,10 @@ struct Flown {
     bool may;
 };
 
-// Return the cargo of serving a customer by drone; a shipment that is delivered was aboard.
-Cargo cargo_flown(const ProblemData& data, Int node, Int tier) {
-    if (!is_delivery(data.pair, node)) return cargo_for(data.amount, node, tier);
+// Return the cargo of serving a customer by drone; a shipment that is delivered was aboard, unless
+// it was fetched `within` the sortie.
+Cargo cargo_flown(const ProblemData& data, Int node, bool within, Int tier) {
+    if (within || !is_delivery(data.pair, node)) return cargo_for(data.amount, node, tier);
     Cargo cargo = no_cargo;
     cargo.delivered = cargo.most = minus(nothing, picked_of(data.amount, node, tier));
     return cargo;
@@ -26,7 +27,10 @@ Cargo cargo_flown(const ProblemData& data, Int node, Int tier) {
 // Let shipments that a sortie delivers leave the truck where it is launched. In place.
 void unload_shipments(const ProblemData& data, const Sortie& sortie, StopLoad& launch, Int tier) {
     for (Int visit = 0; visit < sortie.count; ++visit) {
-        if (!is_delivery(data.pair, sortie.nodes[visit])) continue;
+        if (!is_delivery(data.pair, sortie.nodes[visit]) ||
+            is_brought_within(data.pair, sortie.nodes, visit)) {
+            continue;
+        }
         // They didn't come from the depot.
         const Amount change = picked_of(data.amount, sortie.nodes[visit], tier);
         add_left(launch, change, 0);
@@ -41,16 +45,16 @@ Flown flown(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int
     const VehicleType& type = data.type[k];
     Cargo cargo = no_cargo;
     bool in_order = true;
-    const auto visit = [&](Int next) {
-        const Cargo more = cargo_flown(data, next, tier);
+    const auto visit = [&](Int next, bool within) {
+        const Cargo more = cargo_flown(data, next, within, tier);
         in_order = in_order && may_follow(type, cargo, more);
         cargo = followed(cargo, more);
     };
     for (Int index = 0; index < sortie.count; ++index) {
-        if (index == place) visit(node);
-        visit(sortie.nodes[index]);
+        if (index == place) visit(node, false);
+        visit(sortie.nodes[index], is_brought_within(data.pair, sortie.nodes, index));
     }
-    if (place == sortie.count) visit(node);
+    if (place == sortie.count) visit(node, false);
     return {cargo, in_order && lifts(type, cargo.most, tier)};
 }
 

@@ -160,6 +160,30 @@ def test_a_drone_fetches_what_its_truck_delivers(searching: httpx.Client, paired
             assert reply.status_code == 200, reply.text
 
 
+def test_a_sortie_serves_both_ends(searching: httpx.Client, paired: Request) -> None:
+    paired["customers"] = [{"id": "A", "location": [4, 0], "demand": [1], "served_by": "truck"}]
+    paired["shipments"] = [{
+        "id": "s1", "amount": [1], "pickup": {"location": [4, 9], "served_by": "either"},
+        "delivery": {"location": [5, 9], "served_by": "either"}}]
+    paired["fleet"][0] |= {"capacity": [1], "count": 1, "max_trips": 1, "drones": {
+        "count": 1, "capacity": [1], "endurance": 36000, "costs": {"per_km": 0.01},
+        "max_customers_per_sortie": 2, "energy": {
+            "battery_wh": 4000, "kg_per_unit": 2,
+            "power": {"cruise_w": 400, "cruise_w_per_kg": 50}}}}
+    plan = searching.post("/plan", json=paired).json()
+    PlanReply.model_validate(plan)
+    [trip] = plan["routes"][0]["trips"]
+    [sortie] = trip["sorties"]
+    assert [(visit["kind"], visit["id"]) for visit in sortie["customers"]] == [
+        ("pickup", "s1"), ("delivery", "s1")]
+    assert {tuple(stop["load"]) for stop in trip["stops"][1:]} == {(0,)}
+    checked = searching.post("/check", json={"problem": paired, "plan": plan}).json()
+    assert checked["feasible"]
+    again = searching.post("/plan", json=paired | {
+        "replan": {"plan": plan, "freeze_before": sortie["launch_time"]}}).json()
+    assert again["routes"] == plan["routes"]
+
+
 def test_a_shipment_left_out_is_told_that_drones_could_fetch_it(searching: httpx.Client,
                                                                 paired: Request) -> None:
     paired["customers"] = []

@@ -147,3 +147,23 @@ def test_no_drone_serves_an_end_whose_other_is_nowhere(tiny_problem, customers, 
     problem = replace(tiny_problem(a, b, c, truck=replace(truck, drones=drones)), shipments=FLOWN)
     trip = TripDecision((0, 2, 0), (SortieDecision((1,), 0, 1),), start=0)
     assert "PAIR" in codes(judged(problem, trip))
+
+
+def test_a_sortie_serves_both_ends(tiny_problem, customers, truck, drones):
+    a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
+    drones = replace(drones, max_customers_per_sortie=3, capacity=(1000,))
+    truck = replace(truck, drones=drones, capacity=(0,))
+    problem = replace(tiny_problem(a, b, c, truck=truck), shipments=FLOWN)
+    for flown, broken in ((1, 3), set()), ((3, 1), {"PAIR"}), ((1, 2, 3), set()):
+        nodes = (0, 0) if 2 in flown else (0, 2, 0)
+        evaluation = judged(problem, TripDecision(
+            nodes, (SortieDecision(flown, 0, len(nodes) - 1),), start=0))
+        assert {*codes(evaluation)} & {"PAIR", "CAPACITY", "PAYLOAD"} == broken
+        if not broken:
+            measured = evaluation.routes[0].trips[0]
+            assert {*measured.stop_loads} == {(0,)}
+            assert measured.sorties[0].loads == (
+                (0,), *((1000,) for _ in flown[1:]), (0,))
+            timed = (replace(FLOWN[0], max_time_between=1),)
+            assert "TIME_BETWEEN" in codes(judged(replace(problem, shipments=timed), TripDecision(
+                nodes, (SortieDecision(flown, 0, len(nodes) - 1),), start=0)))

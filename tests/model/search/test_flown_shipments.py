@@ -7,7 +7,8 @@ from model.judge.check import check
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
-from tests.model.search.test_optimum import missed_seeds, one_drone
+from tests.model.search.test_optimum import long_sorties, missed_seeds, one_drone
+from tests.model.tiny import with_energy
 from tests.model.tiny_shipments import with_flown_shipments
 
 
@@ -17,6 +18,21 @@ def drawn_problem(rng: np.random.Generator) -> Problem:
 
 def test_search_finds_the_cheapest_way_to_fly_shipments() -> None:
     assert missed_seeds(drawn_problem, range(2)) == []
+
+
+def test_search_flies_both_ends_on_one_sortie() -> None:
+    within = 0
+    for seed in range(8):
+        rng = np.random.default_rng(seed)
+        problem = with_energy(rng, with_flown_shipments(rng, long_sorties(rng)), 0.5)
+        found = improve(problem, pack([problem]), Solution((), problem.left_out(())),
+                        SearchConfig(turns=150)).solution
+        assert check(problem, found).violations == ()
+        flights = [{visit.node for visit in sortie.visits} for route in found.routes
+                   for trip in route.trips for sortie in trip.sorties]
+        within += any({each.pickup, each.delivery} <= flight
+                      for each in problem.shipments for flight in flights)
+    assert within >= 2
 
 
 def test_drones_fetch_and_deliver_shipments() -> None:
