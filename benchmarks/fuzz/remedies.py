@@ -39,8 +39,7 @@ APPLY = """
 import { createInterface } from 'node:readline';
 const { applyRemedy } = await import(process.argv[1]);
 for await (const line of createInterface({ input: process.stdin })) {
-  const [request, id, reason] = JSON.parse(line);
-  console.log(JSON.stringify(applyRemedy(request, id, reason)));
+  console.log(JSON.stringify(applyRemedy(...JSON.parse(line))));
 }"""
 
 
@@ -51,9 +50,10 @@ class Console:
     to: IO[str]
     out: IO[str]
 
-    def applied(self, request: Data, customer: str, reason: Data) -> Data | None:
+    def applied(self, request: Data, left_out: str, reason: Data,
+                kind: str = "customer") -> Data | None:
         """Return a request as a remedy changes it; None if the console doesn't understand it."""
-        self.to.write(json.dumps([request, customer, reason]) + "\n")
+        self.to.write(json.dumps([request, left_out, reason, kind]) + "\n")
         self.to.flush()
         changed: Data | None = json.loads(self.out.readline())
         return changed
@@ -62,7 +62,7 @@ class Console:
 @contextmanager
 def console() -> Iterator[Console]:
     """Run that part until the block ends."""
-    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedies.js"
+    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedy-changes.js"
     command = ["node", "--input-type=module", "-e", APPLY, module.as_uri()]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                           text=True) as process:
@@ -102,19 +102,21 @@ def late_drones(rng: random.Random) -> Data:
         "options": {"time_limit": SECONDS, "policy": rng.choice(("attention", "pointer"))}}
 
 
-def alone(request: Data, customer: str, reason: Data) -> Data:
-    """Return a problem of one customer and one vehicle type, left out at no price but a stated one.
+def alone(request: Data, left_out: str, reason: Data, of: str = "customer") -> Data:
+    """Return a problem of one customer, or shipment, and one vehicle type, left out at no price but
+    a stated one.
 
     What the customer and the type say stays.
     """
     price = request.get("unassigned_cost") if reason["code"] == "COST" else None
     kind, = (kind for kind in request["fleet"] if kind["id"] == reason["vehicle_type"])
     return request | {
-        "customers": [_of_one_type(each, kind) for each in request["customers"]
-                      if each["id"] == customer],
+        **{f"{name}s": [_of_one_type(each, kind) for each in request.get(f"{name}s", ())
+                        if name == of and each["id"] == left_out]
+           for name in ("customer", "shipment")},
         "fleet": [kind],
         # Who is alone goes with nobody.
-        "unassigned_cost": price, "replan": None, "relations": [], "shipments": [],
+        "unassigned_cost": price, "replan": None, "relations": [],
         # Sites may name other types.
         "launch_sites": [{name: value for name, value in site.items() if name != "vehicles"}
                          for site in request.get("launch_sites", [])],
@@ -128,9 +130,13 @@ def _of_one_type(customer: Data, kind: Data) -> Data:
     durations = {name: duration
                  for name, duration in customer.get("service_duration_by_type", {}).items()
                  if name == kind["id"] or name.startswith(f"{kind['id']}/")}
+    if "amount" in customer:
+        customer = customer | {end: _of_one_type(customer[end], kind)
+                               for end in ("pickup", "delivery")}
     costs = {name: cost for name, cost in customer.get("vehicle_costs", {}).items()
              if name == kind["id"] or name.startswith(f"{kind['id']}-")}
-    customer = customer | {"service_duration_by_type": durations, "vehicle_costs": costs}
+    stated = {"service_duration_by_type": durations, "vehicle_costs": costs}
+    customer = customer | {name: value for name, value in stated.items() if name in customer}
     vehicles = customer.get("vehicles") or {}
     listed = [name for name in vehicles.values() if name is not None]
     if not listed:
@@ -163,19 +169,21 @@ class Remedies:
         """Plan a problem and apply remedies; return those that don't hold, in words. In place."""
         plan = self.study.planned(request)
         false = []
-        offered = [(left["id"], remedy) for left in (plan or {"unassigned": []})["unassigned"]
-                   if left.get("kind") != "shipment"
+        offered = [(left["id"], left.get("kind", "customer"), remedy)
+                   for left in (plan or {"unassigned": []})["unassigned"]
                    for reason in left["reasons"] for remedy in _remedies(reason)]
-        for customer, reason in offered[:MOST_OF_A_PLAN]:
-            fault = self._fault(request, customer, reason)
+        for left_out, of, reason in offered[:MOST_OF_A_PLAN]:
+            fault = self._fault(request, left_out, of, reason)
             self.applied[reason["code"]] += 1
             if fault is not None:
-                false.append(f"{customer}, {reason}: {fault}")
+                false.append(f"{of} {left_out}, {reason}: {fault}")
         return false
 
-    def _fault(self, request: Data, customer: str, reason: Data) -> str | None:
+    def _fault(self, request: Data, left_out: str, of: str, reason: Data) -> str | None:
         """Return what is wrong with a remedy. In place."""
-        changed = self.console.applied(alone(request, customer, reason), customer, reason)
+        if reason["remedy"] == "fits without its relations":
+            return None  # who is alone has none
+        changed = self.console.applied(alone(request, left_out, reason, of), left_out, reason, of)
         if changed is None:
             return "the console doesn't understand it"
         reply = self.study.ask("/plan", changed)

@@ -277,8 +277,8 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
 
 
 def _breaks(attempt: Attempt) -> Diagnosis:
-    return Diagnosis("BREAK", f"Serving it alone leaves no time for a break of "
-                     f"{attempt.vehicle_type.id}.", None, None)
+    wrong = next(each for each in attempt.evaluation.violations if each.code == "BREAK")
+    return Diagnosis("BREAK", f"Alone on {attempt.vehicle_type.id}, {wrong.message}.")
 
 
 def _driving(attempt: Attempt) -> Diagnosis:

@@ -5,6 +5,7 @@ offered.
 """
 
 import math
+import re
 import time
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -14,8 +15,11 @@ from math import ceil
 from model.judge.check import check
 from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.diagnoses import DIAGNOSES, missed_window
+from model.judge.diagnosis import Diagnosis
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.metrics import unassigned_cost
+from model.judge.rest_remedies import rest_remedy
+from model.judge.shipment_diagnoses import shipment_broken
 from model.judge.through import BY_LEGS, Passage, names_of, passage_to
 from model.judge.trial import (
     Attempt, attempts, small_problem, try_shipment, try_truck,
@@ -55,19 +59,33 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
                  until: float = math.inf) -> Reason:
     """Return why no vehicle of a type serves the customer at `node`. As `explain`.
 
-    Of several places that is of his own, unless he could be served at another.
+    Of several places that is of his own, unless he could be served at another, or only there
+    something would help.
     """
-    own = _explain_at(problem, solution, index, node, until)
-    if own.code in POSSIBLE:
-        return own
+    told = _explain_at(problem, solution, index, node, until)
+    if told.code in POSSIBLE:
+        return told
     for place in problem.places_of(node)[1:]:
         reason = _explain_at(problem, solution, index, place, until)
         if reason.code in POSSIBLE:
-            message = reason.message[0].lower() + reason.message[1:]
-            if reason.message.startswith(problem.vehicle_types[index].id):
-                message = reason.message
-            return replace(reason, message=f"At {problem.customer_at(place).id} {message}")
-    return own
+            return _at_place(problem, reason, place)
+        if told.remedy is None and reason.remedy is not None:
+            told = _at_place(problem, reason, place)
+    return told
+
+
+WINDOW = re.compile(r"\bits ((?:last )?window(?: \d+)?)")
+
+
+def _at_place(problem: Problem, reason: Reason, place: int) -> Reason:
+    """Return a reason with the name of the place that it is about."""
+    name = problem.customer_at(place).id
+    message = reason.message[0].lower() + reason.message[1:]
+    if reason.message.startswith(problem.vehicle_types[reason.vehicle_type].id):
+        message = reason.message
+    first, second = (words and WINDOW.sub(lambda found: f"{found[0]} at {name}", words, count=1)
+                     for words in (reason.remedy, reason.other_remedy))
+    return replace(reason, message=f"At {name} {message}", remedy=first, other_remedy=second)
 
 
 def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
@@ -89,8 +107,9 @@ def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
     first = next(tried)
     for attempt in chain((first,), tried):
         if not attempt.codes:
-            return _in_company(problem, solution, index, node) or _unused(
-                problem, solution, index, node, attempt)
+            kept = _in_company(problem, solution, index, node)
+            return (_unused(problem, solution, index, node, attempt) if kept is None
+                    else _unrelated(problem, solution, kept))
         if time.perf_counter() >= until:
             return _unknown(index, vehicle_type.id)
     if first.codes <= BY_LEGS:
@@ -103,25 +122,15 @@ def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
 def _shipment_left_out(problem: Problem, solution: Solution, index: int,
                        shipment: Shipment) -> Reason:
     """Say why no vehicle of a type brings a shipment, by a trip for it alone."""
-    vehicle_type, attempt = problem.vehicle_types[index], try_shipment(problem, index, shipment)
+    attempt = try_shipment(problem, index, shipment)
     if attempt.evaluation.violations:
-        violation = attempt.evaluation.violations[0]
-        return Reason(index, violation.code, f"Alone on {vehicle_type.id}: {violation.message}.")
+        return _with_remedy(index, shipment_broken(attempt), attempt)
     for node in shipment.nodes:
         related = _in_company(problem, solution, index, node)
         if related is not None:
-            return related
-    cost = ceil(attempt.evaluation.cost.total * 100) / 100
-    left_out = problem.cost_of_leaving_out(problem.customer_at(shipment.pickup))
-    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
-    way = f"{vehicle_type.id} could bring it alone"
-    if cost >= left_out:
-        return Reason(index, "COST", f"{way} at a cost of {cost:.2f}; leaving it out costs "
-                      f"{left_out:.2f}.")
-    if used >= vehicle_type.count:
-        why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
-        return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.")
-    return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
+            return _unrelated(problem, solution, related)
+    return _not_worth(problem, solution, index, shipment.pickup, attempt,
+                      f"{problem.vehicle_types[index].id} could bring it alone")
 
 
 def _is_better(passage: Passage, alone: Attempt) -> bool:
@@ -175,7 +184,7 @@ def _unknown(index: int, name: str) -> Reason:
 def _unused(problem: Problem, solution: Solution, index: int, node: int,
             attempt: Attempt) -> Reason:
     """Say why an attempt that keeps all rules is not in the plan."""
-    vehicle_type, cost = problem.vehicle_types[index], attempt.evaluation.cost.total
+    vehicle_type = problem.vehicle_types[index]
     *hosts, _ = attempt.problem.customers
     way = f"{vehicle_type.id} could serve it alone"
     if hosts and attempt.solution.routes[0].trips[0].sorties:
@@ -186,6 +195,15 @@ def _unused(problem: Problem, solution: Solution, index: int, node: int,
     lacking = _lacking_at_hub(problem, solution, index, used)
     if lacking is not None:
         return replace(lacking, message=f"{way}, but {lacking.message}")
+    return _not_worth(problem, solution, index, node, attempt, way)
+
+
+def _not_worth(problem: Problem, solution: Solution, index: int, node: int, attempt: Attempt,
+               way: str) -> Reason:
+    """Say what keeps the search from a way that keeps all rules."""
+    vehicle_type, cost = problem.vehicle_types[index], attempt.evaluation.cost.total
+    hosts = attempt.problem.customers[:-1] if not attempt.problem.shipments else ()
+    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
     customer = problem.customer_at(problem.first_place(node))
     left_out = problem.cost_of_leaving_out(customer)
     is_dear = not hosts and cost >= left_out
@@ -228,6 +246,18 @@ def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> 
                   if kind.part_of in (None, kind.id) else None)
 
 
+def _unrelated(problem: Problem, solution: Solution, reason: Reason) -> Reason:
+    """Return a reason with the remedy that relations bind nobody, where a vehicle is left."""
+    index = reason.vehicle_type
+    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    is_left = used < problem.vehicle_types[index].count
+    if not is_left or _lacking_at_hub(problem, solution, index, used) is not None:
+        return reason
+    words = "fits without its relations"
+    return replace(reason, remedy=words) if reason.remedy is None else replace(
+        reason, other_remedy=words)
+
+
 def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -> Reason | None:
     """Say for whom other vehicles serve no truck of a type comes in time; None if one may."""
     if node not in problem.lags_across:
@@ -256,16 +286,22 @@ def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int)
 def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason:
     """Say which rule an attempt breaks, with a remedy that was tried."""
     code = next(code for code in DIAGNOSES if code in attempt.codes)
-    diagnosis = DIAGNOSES[code](attempt)
     window = missed_window(attempt)
     if window is not None:
         return Reason(index, window.code, window.message, window.remedy)
-    remedy = None
-    if diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations:
-        remedy = diagnosis.remedy
-    elif attempt.customer.served_by == "drone" and not attempt.vehicle_type.flies:
-        remedy = _remedy_by_other(problem, index, node, "truck")
-    return Reason(index, diagnosis.code, diagnosis.message, remedy)
+    reason = _with_remedy(index, DIAGNOSES[code](attempt), attempt)
+    if (reason.remedy is None and attempt.customer.served_by == "drone"
+            and not attempt.vehicle_type.flies):
+        return replace(reason, remedy=_remedy_by_other(problem, index, node, "truck"))
+    return reason
+
+
+def _with_remedy(index: int, diagnosis: Diagnosis, attempt: Attempt) -> Reason:
+    """Return a reason with what was tried and suffices, of the rule and of breaks and rests."""
+    holds = diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations
+    remedies = [diagnosis.remedy if holds else None, rest_remedy(attempt)]
+    first, second, *_ = [*filter(None, remedies), None, None]
+    return Reason(index, diagnosis.code, diagnosis.message, first, second)
 
 
 def _remedy_by_other(problem: Problem, index: int, node: int, means: str) -> str | None:

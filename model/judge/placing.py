@@ -12,7 +12,8 @@ PLACES: tuple[BreakPlace, ...] = "departure", "arrival"
 
 
 def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
-    """Return a route that has the breaks that are due, each where the route then ends first.
+    """Return a route that has the breaks that are due, each where nobody is served too late, and
+    the route then ends first.
 
     Breaks that are placed already stay. One that can't be anywhere is left out, and those behind.
     A driver also rests by driving rules.
@@ -25,14 +26,14 @@ def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
         taken = {placed.number for trip in decision.trips for placed in trip.breaks}
         if number in taken or not is_due(each, begin, end):
             continue
-        ways = [(wrong, _end(tried), way)
+        ways = [(wrong, _lateness(problem, tried), _end(tried), way)
                 for placed in _ways(_unrested(decision), number)
                 for way in [with_due_rests(problem, placed)]
                 for tried in [schedule(problem, way)]
                 for wrong in [any(of is not None for of, _ in
                                   broken_breaks(problem, kind, tried.trips))
                               or any(True for _ in excesses(kind, tried.trips))]]
-        wrong, _, decision = min(ways, key=lambda way: way[:2])
+        wrong, _, _, decision = min(ways, key=lambda way: way[:3])
         if wrong:
             break
     return decision
@@ -47,6 +48,13 @@ def _unrested(decision: RouteDecision) -> RouteDecision:
 
 def _end(route: Route) -> int:
     return route.trips[-1].stops[-1].departure
+
+
+def _lateness(problem: Problem, route: Route) -> int:
+    """Return by how much customers are served after their hard windows."""
+    return sum([max(0, stop.service_start - problem.customer_at(stop.node).latest)
+                for trip in route.trips for _, stop in trip.numbered_stops
+                if problem.customer_at(stop.node).late_cost_per_hour is None])
 
 
 def _ways(decision: RouteDecision, number: int) -> list[RouteDecision]:

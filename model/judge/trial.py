@@ -12,7 +12,9 @@ from model.judge.clock import leg_start
 from model.judge.flown_trips import wait_for_calm
 from model.judge.launches import launch_duration
 from model.judge.placing import with_due_breaks
-from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.judge.timing import (
+    RouteDecision, SortieDecision, TripDecision, read_decision, schedule,
+)
 from model.problem import Customer, DroneType, Problem, Shipment, Travel, VehicleType
 from model.solution import Solution
 
@@ -99,12 +101,26 @@ def _judge(problem: Problem, decision: TripDecision) -> Attempt:
     return Attempt(problem, solution, check(problem, solution))
 
 
+def again(attempt: Attempt, problem: Problem) -> Attempt:
+    """Return the same trip by other rules, its breaks and rests put anew.
+
+    It begins when it did, or as soon as possible if that breaks fewer rules.
+    """
+    trip, = attempt.solution.routes[0].trips
+    decision = replace(read_decision(trip, attempt.vehicle_type), breaks=())
+    tried = _judge(problem, decision)
+    if not tried.codes:
+        return tried
+    return min(tried, _judge(problem, replace(decision, start=None)),
+               key=lambda each: len(each.codes))
+
+
 def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
     """Return a trip by a type that serves a shipment alone; by truck if no other is allowed."""
     if shipment.more:
         return _try_parts(problem, kind, shipment)
     ends = [shipment.pickup, shipment.delivery]
-    by_truck = _judge(*_alone(small_problem(problem, kind, ends), ()))
+    by_truck = _by_truck(small_problem(problem, kind, ends))
     if not by_truck.codes:
         return by_truck
     may_fly = {end for end, node in enumerate(ends)
@@ -142,6 +158,36 @@ def _try_parts(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
     tried = [_judge(small, TripDecision((0, *order, delivery, home)))
              for order in islice(permutations(pickups), MOST_ORDERS)]
     return min(tried, key=lambda each: (len(each.codes), each.evaluation.cost.total))
+
+
+def _by_truck(small: Problem) -> Attempt:
+    """Return a truck's trip for one shipment on which fewest rules are broken.
+
+    As soon as possible, or later so that nobody waits for a window to open.
+    """
+    _, decision = _alone(small, ())
+    best = _judge(small, decision)
+    for start in _starts_of_shipment(small):
+        if not best.codes:
+            break
+        tried = _judge(small, replace(decision, start=start))
+        best = tried if len(tried.codes) < len(best.codes) else best
+    return best
+
+
+def _starts_of_shipment(problem: Problem) -> Iterator[int]:
+    """Yield when a trip begins that reaches an end of a shipment as one of its windows opens."""
+    kind, (first, second) = problem.vehicle_types[0], problem.customers
+    pickup, delivery = range(problem.num_depots, problem.num_nodes)
+    duration, profile = problem.travel[0].duration, kind.speed_profile
+    arrivals = [*first.openings]
+    for opens in second.openings:
+        left = leg_start(opens - problem.setup_between(pickup, delivery),
+                         duration.item(pickup, delivery), profile)
+        arrivals.append(left - kind.service_at(first))
+    for arrival in arrivals:
+        yield max(kind.earliest, leg_start(arrival - problem.setup_between(0, pickup),
+                                           duration.item(0, pickup), profile))
 
 
 def attempts(problem: Problem, kind: int, node: int) -> Iterator[Attempt]:

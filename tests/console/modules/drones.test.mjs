@@ -10,7 +10,7 @@ import {
 } from '../../../app/console/static/js/core/drones.js';
 import { flownIn } from '../../../app/console/static/js/core/drones-worth.js';
 import { idleAtHubs } from '../../../app/console/static/js/core/idle-drones.js';
-import { applyRemedy } from '../../../app/console/static/js/core/remedies.js';
+import { applyRemedy } from '../../../app/console/static/js/core/remedy-changes.js';
 import { launchDurations } from '../../../app/console/static/js/core/launches.js';
 
 const small = { id: 'small', count: 2, capacity: [1], launch_duration: 10 };

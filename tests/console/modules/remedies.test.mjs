@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 
 import { groupUnassigned } from '../../../app/console/static/js/core/remedies.js';
+import { applyRemedy } from '../../../app/console/static/js/core/remedy-changes.js';
 
 const request = {
   customers: ['A', 'B', 'C', 'D', 'E'].map((id) => ({
@@ -83,3 +84,85 @@ test('what changes customers is applied to each', () => {
     [1200, 1800, 600],
   );
 });
+
+const MORE = {
+  customers: [
+    {
+      id: 'A',
+      demand: [1],
+      alternatives: [{ id: 'kiosk', time_windows: [{ latest: 60 }, { latest: 600 }] }],
+    },
+    { id: 'B', demand: [1] },
+  ],
+  shipments: [
+    {
+      id: 'A',
+      amount: [7],
+      pickup: { time_window: { latest: 600 } },
+      delivery: { time_window: { latest: 900 } },
+    },
+  ],
+  relations: [{ kind: 'together', customers: ['A', 'B'] }],
+  fleet: [
+    {
+      id: 'van',
+      capacity: [5],
+      breaks: [{ id: 'lunch', start: { latest: 3600 }, max_load: [1] }],
+      driving_rules: {},
+    },
+  ],
+};
+
+for (const [remedy, kind, changed] of [
+  ['fits if capacity were at least 7', 'shipment', ({ fleet }) => fleet[0].capacity[0] === 7],
+  [
+    'fits if the window of its pickup closed 1 minute later and the last window of its delivery ' +
+      'closed 2 minutes later',
+    'shipment',
+    ({ shipments: [{ pickup, delivery }] }) =>
+      pickup.time_window.latest === 660 && delivery.time_window.latest === 1020,
+  ],
+  [
+    'fits if max_time_between were at least 1.5 minutes and max_detour were at least 1.062',
+    'shipment',
+    ({ shipments: [it] }) => it.max_time_between === 90 && it.max_detour === 1.062,
+  ],
+  [
+    'fits if max_detour were at least 2',
+    'shipment',
+    ({ shipments: [it] }) => it.max_detour === 2 && it.max_time_between === undefined,
+  ],
+  [
+    'served if its unassigned_cost were above 3.00',
+    'shipment',
+    ({ shipments: [it] }) => it.unassigned_cost === 3.01,
+  ],
+  ['fits if van could make 2 stops', 'shipment', ({ fleet }) => fleet[0].max_stops === 2],
+  [
+    'fits if its last window at A/kiosk closed 1 minute later',
+    'customer',
+    ({ customers }) => customers[0].alternatives[0].time_windows[1].latest === 660,
+  ],
+  ['fits without its relations', 'customer', ({ relations }) => relations.length === 0],
+  ['fits without break lunch', 'customer', ({ fleet }) => fleet[0].breaks.length === 0],
+  [
+    'fits if break lunch allowed 5 aboard',
+    'customer',
+    ({ fleet }) => fleet[0].breaks[0].max_load[0] === 5,
+  ],
+  [
+    'fits if break lunch could begin 10 minutes later',
+    'customer',
+    ({ fleet }) => fleet[0].breaks[0].start.latest === 4200,
+  ],
+  [
+    "fits if van's drivers could work 400 minutes without a rest",
+    'customer',
+    ({ fleet }) => fleet[0].driving_rules.max_work_before_break === 24_000,
+  ],
+]) {
+  test(`the console does what is offered: ${remedy}`, () => {
+    const result = applyRemedy(MORE, 'A', { vehicle_type: 'van', code: 'X', remedy }, kind);
+    assert.ok(changed(result), JSON.stringify(result));
+  });
+}

@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { changeWindows, giveWindows } from '../../../app/console/static/js/core/changes.js';
-import { applyRemedy } from '../../../app/console/static/js/core/remedies.js';
+import { applyRemedy } from '../../../app/console/static/js/core/remedy-changes.js';
 import {
   windowAt,
   windowsInWords,

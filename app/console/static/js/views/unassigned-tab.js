@@ -3,7 +3,8 @@
 import { edit, indexOf, shownPlan } from '../actions.js';
 import { money, signed } from '../core/format.js';
 import { remedyInWords } from '../core/remedy-words.js';
-import { applyRemedy, groupUnassigned, otherReason } from '../core/remedies.js';
+import { groupUnassigned, otherReason } from '../core/remedies.js';
+import { applyRemedy } from '../core/remedy-changes.js';
 import { saidOf } from '../core/said.js';
 import { html, useEffect, useMemo } from '../libraries.js';
 import { plan } from '../planning.js';
@@ -133,7 +134,7 @@ function sentenceOf(remedy) {
 }
 
 function Remedy({ customer, reason, request }) {
-  const changed = applyRemedy(request, customer.id, reason);
+  const changed = applyRemedy(request, customer.id, reason, customer.kind);
   const apply = () => {
     edit(changed);
     plan();

@@ -1,0 +1,107 @@
+"""Why a vehicle that brings a shipment alone breaks a rule, and what would change that."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+from model.judge.clock import MS_PER_MINUTE
+from model.judge.diagnoses import DIAGNOSES
+from model.judge.diagnosis import (
+    Diagnosis, if_stated, in_minutes, up_to_tenth, with_type,
+)
+from model.judge.pairs import times_between
+from model.judge.rules import amounts, decimal
+from model.judge.trial import Attempt
+from model.problem import MAX_QUANTITY, UNLIMITED, Customer
+from model.problem.shipment import MOST_DETOUR
+
+ENDS = "pickup", "delivery"
+
+THOUSANDTHS = 3
+
+
+def shipment_broken(attempt: Attempt) -> Diagnosis:
+    """Return the rule that is hardest to change of those that a shipment's trip breaks."""
+    is_in_parts = len(attempt.problem.customers) > 2
+    for violation in attempt.evaluation.violations:
+        if violation.code not in CODES or (is_in_parts and violation.code in OF_TWO_ENDS):
+            return Diagnosis(violation.code,
+                             f"Alone on {attempt.vehicle_type.id}: {violation.message}.")
+    code = next(code for code in CODES if code in attempt.codes)
+    return (DIAGNOSES | OWN)[code](attempt)
+
+
+def _capacity(attempt: Attempt) -> Diagnosis:
+    (shipment,), kind = attempt.problem.shipments, attempt.vehicle_type
+    needed = tuple(map(max, kind.capacity, shipment.total))
+    return Diagnosis(
+        "CAPACITY", f"Its amount of {amounts(attempt.problem, shipment.total)} exceeds the "
+        f"capacity of {amounts(attempt.problem, kind.capacity)}.",
+        f"fits if capacity were at least {amounts(attempt.problem, needed)}",
+        with_type(attempt, replace(kind, capacity=needed)))
+
+
+def _windows(attempt: Attempt) -> Diagnosis:
+    """Say at which end, or both, it would be too late."""
+    customers, told, remedies = list(attempt.problem.customers), [], []
+    most = 0
+    for index, late in _late_ends(attempt):
+        end, customer = ENDS[index], customers[index]
+        later = up_to_tenth(late, MS_PER_MINUTE)
+        most = max(most, customer.latest + later)
+        customers[index] = replace(customer, latest=min(customer.latest + later, UNLIMITED))
+        window = "last window" if customer.gaps else "window"
+        told.append(f"{in_minutes(later)} after the {window} of its {end} closes")
+        remedies.append(f"the {window} of its {end} closed {in_minutes(later)} later")
+    return Diagnosis(
+        "TIME_WINDOW", f"The earliest arrival is {' and '.join(told)}.",
+        if_stated(f"fits if {' and '.join(remedies)}", most),
+        replace(attempt.problem, customers=tuple(customers)))
+
+
+def _late_ends(attempt: Attempt) -> Iterator[tuple[int, int]]:
+    for index, stop in enumerate(attempt.solution.routes[0].trips[0].stops[1:3]):
+        customer: Customer = attempt.problem.customers[index]
+        if customer.late_cost_per_hour is None and stop.service_start > customer.latest:
+            yield index, stop.service_start - customer.latest
+
+
+def _time_between(attempt: Attempt) -> Diagnosis:
+    """Say that it would be under way for too long, and which of its limits would have to be more.
+    """
+    problem, kind = attempt.problem, attempt.vehicle_type
+    (_, _, excess), = times_between(problem, kind, attempt.solution.routes[0].trips[0])
+    (shipment,) = problem.shipments
+    direct = problem.travel[kind.travel].duration.item(shipment.pickup, shipment.delivery)
+    needed = (shipment.longest_between(direct) or 0) + up_to_tenth(excess, MS_PER_MINUTE)
+    remedies = []
+    if shipment.max_time_between is not None and shipment.max_time_between < needed:
+        needed = up_to_tenth(needed, MS_PER_MINUTE)
+        shipment = replace(shipment, max_time_between=min(needed, MAX_QUANTITY))
+        remedies.append(f"max_time_between were at least {in_minutes(needed)}")
+    if shipment.max_detour is not None and direct * shipment.max_detour // 1000 < needed and direct:
+        detour = min(-(-needed * 1000 // direct), MOST_DETOUR)
+        shipment = replace(shipment, max_detour=detour)
+        remedies.append(f"max_detour were at least {decimal(detour, THOUSANDTHS)}")
+    return Diagnosis(
+        "TIME_BETWEEN", f"It would be under way {in_minutes(up_to_tenth(excess, MS_PER_MINUTE))} "
+        "longer than it may be.",
+        if_stated(f"fits if {' and '.join(remedies)}", needed) if remedies else None,
+        replace(problem, shipments=(shipment,)))
+
+
+def _stops(attempt: Attempt) -> Diagnosis:
+    kind = attempt.vehicle_type
+    return Diagnosis("STOPS", f"{kind.id} makes fewer stops than its 2, by its max_stops.",
+                     f"fits if {kind.id} could make 2 stops",
+                     with_type(attempt, replace(kind, max_stops=2)))
+
+
+OWN = {"CAPACITY": _capacity, "TIME_WINDOW": _windows, "TIME_BETWEEN": _time_between,
+       "MAX_STOPS": _stops}
+
+OF_TWO_ENDS = OWN.keys() - {"CAPACITY"}
+"""Rules that nothing is offered for where a shipment is fetched in parts."""
+
+CODES = tuple([code for known in DIAGNOSES
+               for code in ((known, "TIME_BETWEEN") if known == "TIME_WINDOW" else (known,))])
+"""Broken rules, the hardest to change first."""
