@@ -23,6 +23,7 @@ from model.search.improve import Progress as Progress
 from model.search.reserve import more_by_plan, usual_reserve
 from model.simulation.extract import extract
 from model.solution import Solution
+from model.together.exact import MOST_CUSTOMERS
 from model.together.improving import Part, Terms, improve_together
 from model.together.joint import find_joint
 from model.together.pulling import nobody_served
@@ -279,8 +280,9 @@ def _improve(problem: Problem, instance: Instance, first: _Judged | None, option
     begun = None if first is None else first.solution
     turns = options.search_iterations
     terms = Terms(options.seed, turns, deadline, listener.should_stop, listener.on_progress)
-    whole = (turns == 0 or bool(problem.other_nodes) or bool(problem.relations)
-             or problem.fairness.is_stated)
+    whole = (turns == 0 or bool(problem.choices) or bool(problem.relations)
+             or problem.fairness.is_stated
+             or (bool(problem.shipments) and problem.num_customers > MOST_CUSTOMERS))
     joint = None if whole else find_joint(problem, terms.ended)
     if joint is None:
         return _search(problem, instance, begun, options, deadline, listener)

@@ -54,15 +54,29 @@ struct Pickups {
     const Int* end() const { return node.data() + count; }
 };
 
-// Where a shipment is picked up, by one of its ends.
-inline Pickups pickups_of(View<const Pair, 1> pairs, Int end) {
-    Pickups pickups{};
+// Call `visit` with each place where a shipment is picked up, by one of its ends.
+template <class Visit>
+void for_each_pickup(View<const Pair, 1> pairs, Int end, const Visit& visit) {
     const Int first = pairs[end].unit;
     Int next = first;
     do {
-        pickups.node[std::size_t(pickups.count++)] = next;
+        visit(next);
         next = pairs[next].next_place;
     } while (next != first);
+}
+
+// At how many places a shipment is picked up.
+inline Int num_pickups(View<const Pair, 1> pairs, Int end) {
+    Int count = 0;
+    for_each_pickup(pairs, end, [&](Int) { ++count; });
+    return count;
+}
+
+// Where a shipment is picked up.
+inline Pickups pickups_of(View<const Pair, 1> pairs, Int end) {
+    Pickups pickups{};
+    for_each_pickup(pairs, end,
+                    [&](Int node) { pickups.node[std::size_t(pickups.count++)] = node; });
     return pickups;
 }
 
@@ -132,10 +146,10 @@ public:
             ++aboard_;
             return;
         }
-        for (const Int pickup : pickups_of(pairs_, node)) {
+        for_each_pickup(pairs_, node, [&](Int pickup) {
             whole_ = whole_ && comes_before(pickup);
             --aboard_;
-        }
+        });
     }
 
     bool are_kept() const { return whole_ && aboard_ == 0; }
@@ -149,7 +163,7 @@ private:
 // By how many parts of shipments more are aboard behind a node.
 inline Int stacked_at(View<const Pair, 1> pairs, Int node) {
     if (!is_paired(pairs, node)) return 0;
-    return pairs[node].is_delivery != 0 ? -pickups_of(pairs, node).count : 1;
+    return pairs[node].is_delivery != 0 ? -num_pickups(pairs, node) : 1;
 }
 
 // Whether each shipment is delivered before all that are picked up before it and not yet delivered:
@@ -158,7 +172,7 @@ template <class NodeAt>
 bool keeps_stack(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt& node_at) {
     for (Int p = first; p < behind; ++p) {
         if (node_at(p) < 0 || !is_delivery(pairs, node_at(p))) continue;
-        Int beneath = 0, lacking = pickups_of(pairs, node_at(p)).count;
+        Int beneath = 0, lacking = num_pickups(pairs, node_at(p));
         for (Int q = p - 1; lacking > 0; --q) {
             if (node_at(q) < 0 || !is_paired(pairs, node_at(q))) continue;
             if (brings(pairs, node_at(q), node_at(p))) {

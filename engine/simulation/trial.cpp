@@ -101,7 +101,7 @@ Dues dues_of(const Setting& setting, const VehicleLog& log, const Order& aboard)
     for (auto part = aboard.begin(); part != aboard.end(); ++part) {
         if (std::find(part + 1, aboard.end(), *part) != aboard.end()) continue;
         const Int fetched = Int(std::count(aboard.begin(), aboard.end(), *part));
-        const bool is_whole = fetched == pickups_of(setting.pair, *part).count;
+        const bool is_whole = fetched == num_pickups(setting.pair, *part);
         dues.push_back({is_whole ? Order() : lacking_of(setting, log, *part), *part});
     }
     return dues;

@@ -58,7 +58,7 @@ def _add_shipments(problem: Problem, trip: Trip, loads: list[Amount]) -> None:
             each = problem.shipment_at.get(visit.node)
             if each is not None and each.delivery in within:
                 continue
-            fetches = each is not None and visit.node == each.pickup
+            fetches = each is not None and visit.node != each.delivery
             served[sortie.recovery_stop if fetches else sortie.launch_stop].append(visit.node)
     aboard = (0,) * problem.num_dimensions
     for index, nodes in enumerate(served, 1):

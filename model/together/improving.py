@@ -82,7 +82,9 @@ class Terms:
 
 def improve_together(problem: Problem, joint: Joint, begun: Solution | None, terms: Terms,
                      search: Search) -> Improved:
-    """Search from a plan, or from none, also for strings of customers."""
+    """Search from a plan, or from none, also for strings of customers; with shipments, for groups
+    of few.
+    """
     lacks_some = begun is None or bool(begun.unassigned)
     if problem.num_customers <= MOST_CUSTOMERS and (joint.is_sure or lacks_some):
         least, until = time.perf_counter() + GRACE, terms.until(EXACT_SHARE)
@@ -90,6 +92,8 @@ def improve_together(problem: Problem, joint: Joint, begun: Solution | None, ter
         if best is not None:
             return search(_cheapest(problem, begun, best), ALL, terms.should_stop,
                           terms.on_progress)
+    if problem.shipments:
+        return search(begun, ALL, terms.should_stop, terms.on_progress)
     return _Stages(problem, joint, terms, search).run(begun)
 
 

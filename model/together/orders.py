@@ -1,6 +1,6 @@
 """Every order in which a truck may serve some customers, as far as no bound forbids it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -69,6 +69,8 @@ class Orders:
         self._taken = [() if node < first else net.problem.customers[node - first].taken_in
                        for node in self._nodes]
         self._is_plain = _is_plain(net)
+        self._wholes = [_bits(each.nodes) for each in net.problem.shipments]
+        self._needs = {each.delivery: _bits(each.pickups) for each in net.problem.shipments}
         self._known: dict[tuple[int, ...], list[tuple[int, ...]]] = {}
         start = _Path((net.begin,), (), net.vehicle_type.earliest, 0, 0, 0, 0, 0)
         none = (0,) * net.problem.num_dimensions
@@ -84,7 +86,8 @@ class Orders:
         if stops is not None and len(path.places) > stops:
             return
         for place in range(self.net.num_depots, len(self._nodes)):
-            if path.group >> self._nodes[place] & 1:
+            needs = self._needs.get(self._nodes[place], 0)
+            if path.group >> self._nodes[place] & 1 or path.group & needs != needs:
                 continue
             self._count()
             longer = self._with(path, here, place)
@@ -132,6 +135,8 @@ class Orders:
 
     def _ended(self, path: "_Path") -> Iterator[tuple[int, Order]]:
         """Yield the route that ends here, then those that go on with another trip."""
+        if any(path.group & whole not in (0, whole) for whole in self._wholes):
+            return
         net, here = self.net, path.places[-1]
         home, far = self._ride[here][net.end], path.far + self._far[here][net.end]
         if (path.time + home <= net.latest_end and path.span + home <= net.longest_work
@@ -167,6 +172,7 @@ def _is_plain(net: Network) -> bool:
     """
     problem = net.problem
     return (net.vehicle_type.speed_profile is None and not problem.incompatible_goods
+            and not problem.shipments
             and not net.vehicle_type.cost_per_load_km
             and not any(each.earliest or each.gaps or each.release_time or any(each.pickup)
                         or each.late_cost_per_hour is not None or each.setup_duration
@@ -184,6 +190,10 @@ class _Path(NamedTuple):
     gone: int  # on those before
     since: int  # of the span, on this trip
     group: int  # served, as bits by node
+
+
+def _bits(nodes: Iterable[int]) -> int:
+    return sum([1 << node for node in nodes])
 
 
 def _at_most(amount: int, limit: int) -> bool:

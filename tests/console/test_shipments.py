@@ -77,3 +77,23 @@ def test_a_sheet_of_pickups_and_deliveries_is_planned(console: Page) -> None:
     use(console)
     expect(console.locator(".result-line")).to_contain_text("of 5 served")
     assert state(console, "state.request.shipments.1.id") == "A2"
+
+
+def test_several_pickups_are_seen_and_added(page: Page) -> None:
+    [parcel, _] = REQUEST["shipments"]
+    parts = [{"id": "farm", "location": [3, 0], "amount": [1]},
+             {"id": "mill", "location": [2, -2], "amount": [1]}]
+    several = {"id": "parcel", "pickups": parts, "delivery": parcel["delivery"]}
+    open_file(page, "parcel.json", json.dumps(REQUEST | {"shipments": [several]}))
+    planned(page, "4 of 4 served")
+    open_tab(page, "routes")
+    page.mouse.click(*place_of(page, "c:parcel/pickup/mill"))
+    assert state(page, "state.selection") == "c:parcel/pickup/mill"
+    panel = page.locator(".panel")
+    about = panel.locator("section", has_text="parcel/pickup/mill").first
+    expect(about).to_contain_text("Part")
+    open_tab(page, "customers")
+    panel.get_by_role("button", name="Add to pickups").click()
+    assert state(page, "state.request.shipments.0.pickups.2") == {
+        "id": "pickup-3", "amount": [1], "location": [0, 0]}
+    assert findings(page, ".panel") == []

@@ -320,7 +320,7 @@ void scan_pair(const Insertion& insertion, Int slot) {
         const Trip& trip = fleet.trip(slot, index);
         if (!goods_may_join(data, fleet, slot, index, node)) continue;
         if (is_gathered(data.pair, node)) {
-            const Int ends = pickups_of(data.pair, node).count + 1;
+            const Int ends = num_pickups(data.pair, node) + 1;
             if (allows_stops(data.type[k], stops_on(trip) + ends)) {
                 scan_parts(insertion, slot, trip, walked);
             }
@@ -351,7 +351,7 @@ void scan_pair_beside(const Insertion& insertion) {
             scan_pair(insertion, slot);
         }
     };
-    for (const Int pickup : pickups_of(data.pair, node)) look_beside(pickup);
+    for_each_pickup(data.pair, node, look_beside);
     look_beside(data.pair[node].partner);
 }
 

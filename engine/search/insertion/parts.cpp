@@ -23,7 +23,7 @@ constexpr Int most_orders = 24;  // on a trip of its own: all of four pickups
 // How many orders are tried in which a shipment alone is picked up.
 Int orders_of(const ProblemData& data, Int pickup) {
     Int orders = 1;
-    for (Int count = pickups_of(data.pair, pickup).count; count > 1; --count) orders *= count;
+    for (Int count = num_pickups(data.pair, pickup); count > 1; --count) orders *= count;
     return std::min(orders, most_orders);
 }
 
@@ -74,7 +74,7 @@ public:
           is_walked_(is_walked),
           delivery_(newcomer_for(data_, type_, data_.pair[insertion.node].partner)),
           pickup_(newcomers_for(data_, type_, pickups_of(data_.pair, first_))),
-          count_(pickups_of(data_.pair, first_).count),
+          count_(num_pickups(data_.pair, first_)),
           stops_cost_(double(count_ + 1) * rate_.stop +
                       vehicle_cost_at(data_.vehicle_cost, fleet_.route[slot].type, first_)) {
         move_.kind = all_ends;
@@ -233,7 +233,7 @@ void scan_parts(const Insertion& insertion, Int slot, const Trip& trip, bool is_
 void try_parts_trip(const Insertion& insertion, Int slot, Int behind) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
-    Pickups numbers{{}, pickups_of(data.pair, node).count};
+    Pickups numbers{{}, num_pickups(data.pair, node)};
     for (Int number = 0; number < numbers.count; ++number)
         numbers.node[std::size_t(number)] = number;
     Move move{};

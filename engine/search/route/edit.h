@@ -117,7 +117,7 @@ struct Removed {
         if (marked[node]) return;
         marked[node] = true;
         if (is_paired(pair, node)) {
-            for (const Int pickup : pickups_of(pair, node)) marked[pickup] = true;
+            for_each_pickup(pair, node, [&](Int pickup) { marked[pickup] = true; });
             marked[pair[unit_of(pair, node)].partner] = true;
         }
         absent[count++] = unit_of(pair, node);

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Mapping
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -14,7 +15,8 @@ from model.judge.retiming import time_route
 from model.judge.timing import RouteDecision, TripDecision
 from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import (
-    MAX_QUANTITY, UNLIMITED, Customer, Depot, DroneType, Problem, Travel, VehicleType,
+    MAX_QUANTITY, UNLIMITED, Customer, Depot, DroneType, Part, Problem, Shipment, Travel,
+    VehicleType,
 )
 from model.solution import Solution
 from model.together.filling import Filling
@@ -77,6 +79,19 @@ def test_a_pair_and_a_customer_alone_are_all_served(planner: Planner) -> None:
 def test_a_ring_is_driven_before_the_shift_ends(planner: Planner) -> None:
     roads = {(0, 1): 5, (1, 2): 5, (2, 3): 5, (3, 0): 5}
     assert visited(planned(planner, problem_of(3, roads, van(20)))) == [(1, 2, 3)]
+
+
+@pytest.mark.parametrize(("more", "expected"), [((), [(1, 2, 3)]), ((2,), [(2, 1, 3)])])
+def test_a_shipment_is_brought_by_way_of_another(planner: Planner, more: tuple[int, ...],
+                                                 expected: list[tuple[int, ...]]) -> None:
+    ring = (0, *expected[0], 0)
+    problem = problem_of(3, dict.fromkeys(pairwise(ring), 5), van(20))
+    shipment = Shipment("s", 1, 3, (1,), more=tuple(Part(node, (1,)) for node in more))
+    problem = replace(problem, shipments=(shipment,), customers=tuple(
+        replace(each, demand=(int(node not in shipment.nodes),), served_by="truck",
+                unassigned_cost=0.0 if node in shipment.nodes[1:] else None)
+        for node, each in enumerate(problem.customers, 1)))
+    assert visited(planned(planner, problem)) == expected
 
 
 def test_a_ring_that_takes_longer_than_the_shift_is_left_out(planner: Planner) -> None:
