@@ -83,11 +83,18 @@ def put_in_order(rng: random.Random, request: Data) -> None:
     least = rng.choice((0, 0, 300, 1200))
     most = least + rng.choice((600, 1800, 7200)) if rng.random() < 0.6 else None
     if not request.get("relations"):
-        _relate(rng, request, {"kind": "before", "min_lag": least, "max_lag": most})
+        _relate(rng, request, {"kind": "before", "min_lag": least, "max_lag": most,
+                               "same_vehicle": rng.random() < 0.6})
 
 
 def _relate(rng: random.Random, request: Data, relation: Data) -> None:
-    names = [customer["id"] for customer in request["customers"]]
+    # Nobody waits for others whom drones alone serve.
+    names = [customer["id"] for customer in request["customers"]
+             if relation.get("same_vehicle", True) or customer.get("served_by") != "drone"]
+    names += [f"{each['id']}/{'pickup' if 'pickup' in each and rng.random() < 0.5 else 'delivery'}"
+              for each in request.get("shipments", ()) if rng.random() < 0.5]
+    if len(names) < 3:
+        return
     request.setdefault("relations", []).append(
         relation | {"customers": rng.sample(names, rng.randint(2, 3))})
 

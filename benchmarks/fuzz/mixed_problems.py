@@ -289,7 +289,7 @@ OTHERS: dict[str, Change] = {
     "vehicles": choose_vehicles}
 """All other rules, so."""
 
-REFUSED_BESIDE = {"before": {"breaks", "driving_rules"}, "overtime": {"depot_hours"}}
+REFUSED_BESIDE = {"overtime": {"depot_hours"}}
 """Rules with those beside which they can't be planned yet."""
 
 

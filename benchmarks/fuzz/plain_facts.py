@@ -47,6 +47,17 @@ def _by_vehicle(plan: Data) -> Iterator[tuple[str, int, Data]]:
                 yield route["vehicle"], number, visit
 
 
+def _ends_by_vehicle(plan: Data) -> Iterator[tuple[str, int, Data]]:
+    """Yield ends of shipments likewise, by their names among customers."""
+    for route in plan["routes"]:
+        for number, trip in enumerate(route["trips"]):
+            halts = [*trip["stops"],
+                     *(visit for sortie in trip["sorties"] for visit in sortie["customers"])]
+            for halt in halts:
+                if halt.get("kind") in ("pickup", "delivery"):
+                    yield route["vehicle"], number, halt | {"id": f"{halt['id']}/{halt['kind']}"}
+
+
 def _faults_of_breaks(kind: Data, route: Data) -> Iterator[str]:
     stated = {each["id"]: each for each in kind.get("breaks", ())}
     departure = min(stop["arrival"] for stop in route["trips"][0]["stops"])
@@ -191,8 +202,9 @@ def _faults_of_shipments(request: Data, plan: Data) -> Iterator[str]:
 
 
 def _faults_of_relations(request: Data, plan: Data) -> Iterator[str]:
-    where = {visit["id"]: (vehicle, trip) for vehicle, trip, visit in _by_vehicle(plan)}
-    begins = {visit["id"]: visit["service_start"] for _, _, visit in _by_vehicle(plan)}
+    visits = [*_by_vehicle(plan), *_ends_by_vehicle(plan)]
+    where = {visit["id"]: (vehicle, trip) for vehicle, trip, visit in visits}
+    begins = {visit["id"]: visit["service_start"] for _, _, visit in visits}
     for relation in request.get("relations", ()):
         scope = 2 if relation.get("scope") == "trip" else 1
         served = [name for name in relation["customers"] if name in where]

@@ -3,28 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <vector>
 
 #include "search/route/block.h"
-#include "search/route/lags.h"
+#include "search/route/waits.h"
 
 namespace tandem {
 namespace {
 
 constexpr std::size_t most_labels = most_breaks + 1;
 
-// When service began at a stop, or a drone arrived at a customer, and what was noted before.
-struct Noted {
-    Int* at;
-    Int time;
-    Int before;  // number, -1 if none was
-};
-
 // Breaks taken so far, and when the truck then is somewhere, `far` if never.
 struct Label {
     Int time = far;
-    Int excess = 0;                       // by how much somebody is served too long behind another
-    Int noted = -1;                       // the last of what orders look back to
+    Waited waited;
     std::array<Int, most_breaks> stop{};  // by which of those due it is, the stop before it
     std::array<RestPlace, most_breaks> place{};
 
@@ -41,8 +32,9 @@ struct Label {
 // later.
 void take_sooner(Label& label, const Label& other) {
     if (other.time == far) return;
-    const bool kept = other.excess <= label.excess;
-    if (label.time == far || other.excess < label.excess || (kept && other.time < label.time)) {
+    const bool kept = other.waited.excess <= label.waited.excess;
+    if (label.time == far || other.waited.excess < label.waited.excess ||
+        (kept && other.time < label.time)) {
         label = other;
     }
 }
@@ -125,45 +117,8 @@ private:
         const Int time = label.time;
         truck_.time_alone(stop, time);
         label.time = time > stop.hi || time < stop.lo ? far : std::max(time + stop.d, stop.c);
-        if (!lags_count(truck_.data) || stop.kind != customer_stop || label.time == far) return;
-        recall(label, p);
-        const Int leave = await_others(truck_, stops_, sorties_, p, time);
-        label.time = leave == far ? far : std::max(label.time, leave);
-        if (label.time < far) note_served(label, p, p);
-    }
-
-    // Write when those were served who are before stop `p`, if orders look back from there. In
-    // place.
-    void recall(const Label& label, Int p) {
-        if (!is_behind(truck_.data.lag, stops_[p].node)) return;
-        recall(label);
-    }
-
-    void recall(const Label& label) {
-        for (Int number = label.noted; number >= 0;) {
-            const Noted& noted = noted_[static_cast<std::size_t>(number)];
-            *noted.at = noted.time;
-            number = noted.before;
-        }
-    }
-
-    void note(Label& label, Int& at) {
-        noted_.push_back({&at, at, label.noted});
-        label.noted = static_cast<Int>(noted_.size()) - 1;
-    }
-
-    // Note when those of a block were served. In place.
-    void note_served(Label& label, Int first, Int last) {
-        label.excess =
-            std::max(label.excess, excess_within(truck_.data, stops_, sorties_, {first, last + 1}));
-        for (Int p = first; p <= last; ++p) {
-            if (stops_[p].kind == customer_stop) note(label, stops_[p].start);
-        }
-        for (Int s = sortie_; s < behind_; ++s) {
-            for (Int visit = 0; visit < sorties_[s].count; ++visit) {
-                note(label, sorties_[s].arrivals[visit]);
-            }
-        }
+        if (!waits_.count() || label.time == far) return;
+        label.time = std::max(label.time, waits_.leave_alone(p, time, label.waited));
     }
 
     // Time a block with sorties, after `number` breaks, with none and then with more of them.
@@ -182,8 +137,7 @@ private:
                     const Int before = stops_[q].rests;
                     stops_[q].rests = Rests(before).with(due(number), place).packed();
                     Label next = label.with(number, q, place, come.time);
-                    next.excess = come.excess;
-                    next.noted = come.noted;
+                    next.waited = come.waited;
                     leave_block(first, last, next);
                     take_sooner(best, next);
                     stops_[q].rests = before;
@@ -210,12 +164,12 @@ private:
         sums.launched = launched_;
         sums.first_sortie = first_of_trip_;
         label.time = far;
-        if (lags_count(truck_.data)) recall(label);
+        if (waits_.count()) waits_.recall(label.waited);
         if (time_block(truck_, stops_, sorties_, first, sums) < 0) return;
         const Stop& stop = stops_[first];
         if (time > stop.hi || time < stop.lo) return;
         label.time = std::max(time + stop.d, stop.c);
-        if (lags_count(truck_.data)) note_served(label, first, last);
+        if (waits_.count()) waits_.pass({first, last + 1}, {sortie_, behind_}, label.waited);
     }
 
     // Where a break is taken that isn't taken where the truck arrives.
@@ -272,8 +226,8 @@ private:
     }
 
     static bool is_better(const Label& label, const Label& other) {
-        return label.excess < other.excess ||
-               (label.excess == other.excess && label.time < other.time);
+        return label.waited.excess < other.waited.excess ||
+               (label.waited.excess == other.waited.excess && label.time < other.time);
     }
 
     // Write the breaks of the route that ends first, of those that lack none. False: all do.
@@ -305,8 +259,8 @@ private:
     Int count_ = 0;  // of the breaks that the beginning doesn't come too late for
     std::array<Int, most_breaks> due_{};
     std::array<Label, most_labels> labels_;
-    std::vector<Noted> noted_;  // nothing without orders
-    Int sortie_ = 0;            // the first not passed, and the first behind the block
+    Waits waits_{truck_, stops_, sorties_};
+    Int sortie_ = 0;  // the first not passed, and the first behind the block
     Int behind_ = 0;
     Int launched_ = 0;  // on the trip
     Int first_of_trip_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "rules/driving.h"
+#include "search/route/waits.h"
 
 namespace tandem {
 
@@ -25,6 +26,7 @@ struct RestLabel {
     Int depart;    // the latest departure that costs nothing
     Int airborne;  // sum of the take-offs of drones that are out
     Driver driver;
+    Waited waited;
     std::int32_t next;    // the first break, of those due, that isn't taken
     std::int32_t count;   // of rests
     std::int32_t on_leg;  // of these, on the leg
@@ -35,8 +37,9 @@ struct RestLabel {
 // lasts longer, but is back later.
 inline bool is_no_worse(const RestLabel& one, const RestLabel& other) {
     return one.airborne == other.airborne && one.next == other.next && one.time <= other.time &&
-           one.cum <= other.cum && one.depart >= other.depart &&
-           one.driver.driven <= other.driver.driven && one.driver.since >= other.driver.since &&
+           one.waited.excess <= other.waited.excess && one.cum <= other.cum &&
+           one.depart >= other.depart && one.driver.driven <= other.driver.driven &&
+           one.driver.since >= other.driver.since &&
            one.driver.half_rested >= other.driver.half_rested;
 }
 

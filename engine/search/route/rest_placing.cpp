@@ -54,7 +54,7 @@ public:
             ahead_ += driving_at(p);
             left_lasting_ += lasting_at(p);
         }
-        if (sorties_.empty() && !truck_.resting) {
+        if (sorties_.empty() && !truck_.resting && !waits_.count()) {
             const Ending soonest = bound_of(first, first.time, left_lasting_, ahead_);
             for (const bool waiting : {false, true}) {
                 Label label = first;
@@ -152,10 +152,15 @@ private:
     }
 
     // Leave a stop without sorties, reached so, and come to the next.
-    void pass(const Label& label, const Way& way) {
-        const Stop& stop = stops_[way.p];
-        truck_.time_alone(stops_[way.p], label.time);
-        if (may_arrive(stop, label.time)) leave(behind_block(label, stop), way);
+    void pass(Label label, const Way& way) {
+        Stop& stop = stops_[way.p];
+        truck_.time_alone(stop, label.time);
+        if (!may_arrive(stop, label.time)) return;
+        if (waits_.count()) {
+            stop.c = std::max(stop.c, waits_.leave_alone(way.p, label.time, label.waited));
+            if (stop.c == far) return;
+        }
+        leave(behind_block(label, stop), way);
     }
 
     static bool may_arrive(const Stop& stop, Int time) {
@@ -206,7 +211,7 @@ private:
             const Way way = way_from(q, true, *inside_);
             for (Label label : here) {
                 take_rests(label, first, last);
-                label.time = leave_inside(first, q, last, reached.time);
+                label.time = leave_inside(first, q, last, reached);
                 if (label.time == far || !may_still_work(type_, label.driver, label.time)) continue;
                 label.airborne = takeoffs_of_flying(q);
                 drive(label, way);
@@ -215,7 +220,8 @@ private:
         const Way way = way_from(last, false, *there_);
         for (Label label : *inside_) {
             take_rests(label, first, last);
-            if (leave_inside(first, last, last, reached.time) == far) continue;
+            if (leave_inside(first, last, last, reached) == far) continue;
+            if (waits_.count()) waits_.pass({first, last + 1}, {sortie_, behind_}, label.waited);
             label.time = reached.time;
             label.cum = reached.cum;
             label.airborne = 0;
@@ -251,13 +257,14 @@ private:
         if (rests_in_gaps(type_)) stop.gap += rest_duration(type_, taken.number);
     }
 
-    // Return when a stop of a block is left that is reached at `time`; `far` if never, or, at its
+    // Return when a stop of a block is left that is reached so; `far` if never, or, at its
     // last stop, if a rule is broken.
-    Int leave_inside(Int first, Int q, Int last, Int time) {
+    Int leave_inside(Int first, Int q, Int last, const Label& reached) {
+        if (waits_.count()) waits_.recall(reached.waited);
         for (Int s = sortie_; s < behind_; ++s) sorties_[s].state = sortie_waits;
         for (Int p = first; p <= q; ++p) stops_[p].leave = far;
         BlockSums sums;
-        sums.time = time;
+        sums.time = reached.time;
         sums.oldest = sortie_;
         sums.launched = launched_;
         sums.first_sortie = first_of_trip_;
@@ -460,7 +467,10 @@ private:
         if (truck_.resting && lacks_break(label)) return;
         const Ending ending =
             ending_of(label.time, working_of(label.time, label.cum, label.depart));
-        if (ending.first >= never || (is_known_ && !(ending < ending_))) return;
+        // Who is served too long behind another may not be if the route begins later.
+        const std::pair value{label.waited.excess, ending};
+        if (ending.first >= never || (is_known_ && !(value < std::pair{excess_, ending_}))) return;
+        excess_ = label.waited.excess;
         ending_ = ending;
         best_ = label.last;
         is_known_ = true;
@@ -483,6 +493,7 @@ private:
     const VehicleType& type_;
     View<Stop, 1> stops_;
     View<Sortie, 1> sorties_;
+    Waits waits_{truck_, stops_, sorties_};
     Int num_due_ = 0;  // of the breaks that the beginning doesn't come too late for
     std::array<Int, most_breaks> due_{};
     std::array<Labels, 2> labels_;  // where the truck is, and where it comes, in turn
@@ -492,6 +503,7 @@ private:
     TakenRests taken_;
     LeastWork least_;
     bool is_known_ = false;  // any way to the end, which costs so much, and has these rests
+    Int excess_ = 0;
     Ending ending_{never, far};
     std::int32_t best_ = -1;
     Int kept_ = 0;          // labels

@@ -292,13 +292,12 @@ def test_ends_of_shipments_go_with_whom_relations_say(
     assert checked["feasible"], checked
 
 
-@pytest.mark.parametrize("change", [
-    {"fleet": [{"driving_rules": {"preset": "eu-561"}}]}])
-def test_what_is_not_planned_with_an_order_yet_is_refused(
-        client: httpx.Client, related: Request, change: dict[str, Any]) -> None:
-    for part in change.pop("fleet", ()):
-        related["fleet"][0] |= part
-    related |= change
+@pytest.mark.parametrize("sites", [True, False])
+def test_orders_of_drivers_who_rest_are_refused_beside_stops_for_drones(
+        client: httpx.Client, related: Request, sites: bool) -> None:
+    related["fleet"][0] |= {"driving_rules": {"preset": "eu-561"}, "revisits": not sites}
+    related["launch_sites"] = [{"id": "L", "location": [1, 1]}] if sites else []
+    related["fleet"][0]["drones"] = {"count": 1, "capacity": [1], "speed_kmh": 60}
     related["relations"] = [{"kind": "before", "customers": ["A", "B"]}]
     told = client.post("/plan", json=related).json()["errors"]
     assert ("RELATION_WITH", "$.relations[0].kind") in {

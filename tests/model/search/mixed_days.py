@@ -95,8 +95,7 @@ def mixed_day(rng: np.random.Generator) -> Problem:
         problem = with_shipments(rng, problem)
     if rng.random() < 0.4:
         problem = with_relations(rng, problem)
-    rests_by_rules = any(kind.driving is not None for kind in problem.vehicle_types)
-    if rng.random() < 0.3 and not rests_by_rules:
+    if rng.random() < 0.3:
         problem = with_order(rng, problem)
     elif rng.random() < 0.4:
         problem = with_choices(rng, problem)

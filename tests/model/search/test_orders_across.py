@@ -10,8 +10,14 @@ from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import MM_PER_KM, Problem
 from model.search.improve import SearchConfig, improve
+from model.simulation.extract import extract
 from model.solution import Solution
-from tests.model.tiny_company import with_order_across
+from tests.model.rollouts import roll
+from tests.model.simulation.test_simulator import Change
+from tests.model.tiny import draw_tiny
+from tests.model.tiny_breaks import with_breaks
+from tests.model.tiny_company import with_order, with_order_across
+from tests.model.tiny_driving import with_driving
 from tests.model.tiny_streets import draw_streets, draw_town
 
 pytestmark = pytest.mark.slow
@@ -99,3 +105,23 @@ def test_trucks_with_drones_wait_for_each_other_as_they_were_priced(seed: int) -
     assert evaluation.violations == ()
     assert found.cost == pytest.approx(evaluation.cost.total)
     assert any(trip.sorties for route in found.solution.routes for trip in route.trips)
+
+
+@pytest.mark.parametrize("resting", [with_driving, with_breaks])
+@pytest.mark.parametrize("change", [with_order, with_order_across])
+def test_rollouts_and_search_keep_orders_beside_rests(resting: Change, change: Change) -> None:
+    rests = 0
+    for seed in range(24):
+        rng = np.random.default_rng((seed, 61))
+        problem = change(rng, resting(rng, draw_tiny(rng)))
+        instance = pack([problem])
+        rollout = roll([problem], seed).rollouts[0]
+        found = improve(problem, instance, Solution((), problem.left_out(())),
+                        SearchConfig(seed, turns=100))
+        for plan, cost in ((extract(problem, instance, rollout.actions), rollout.cost.sum()),
+                           (found.solution, found.cost)):
+            evaluation = check(problem, plan)
+            assert evaluation.violations == (), f"seed {seed}"
+            assert cost == pytest.approx(evaluation.cost.total), f"seed {seed}"
+            rests += sum(len(trip.breaks) for route in plan.routes for trip in route.trips)
+    assert rests > 10
