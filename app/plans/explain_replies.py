@@ -117,8 +117,8 @@ def _binding(bench: Bench, each: Binding) -> Data:
     limit, problem = each.limit, bench.problem
     return {
         "rule": limit.field,
-        "at": (problem.customer_at(bench.node).id if limit.kind is None
-               else problem.vehicle_types[limit.kind].type_id),
+        "at": ("" if limit.whose == "request" else problem.customer_at(bench.node).id
+               if limit.kind is None else problem.vehicle_types[limit.kind].type_id),
         "slack": limit.slack,
         "unit": limit.unit,
         "saves_per_unit": each.saves_per_unit,

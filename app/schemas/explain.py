@@ -100,7 +100,8 @@ class BindingReply(_Reply):
     """A limit that is reached, or of which a unit more would save something."""
 
     rule: str = Field(description="Field of the request that states it, as `time_window.latest`.")
-    at: str = Field(description="Id of the customer or vehicle type whose field it is.")
+    at: str = Field(description="Id of the customer or vehicle type whose field it is; empty: it "
+                    "is the request's.")
     slack: float | None = Field(
         description="How much is left until it, in units. 0: none. Null: the customer isn't "
         "served where it counts, or it is no number.")

@@ -19,10 +19,10 @@ from model.judge.flight_limits import flight_limits, hub_limits, one_km_more
 from model.judge.freshness import excess_aboard
 from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
-from model.judge.metrics import RouteMetrics, TripMetrics
 from model.judge.places import Place
 from model.judge.rules import airborne_duration, farthest
 from model.judge.screening import Screen
+from model.judge.work_limits import between_limits, duty_limits, fleet_limits, rest_limits
 from model.problem import (
     MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
     VehicleType,
@@ -32,7 +32,7 @@ from model.solution import Sortie, Trip
 Unit = Literal["minute", "unit", "km", "vehicle", "trip", "Wh", "W", "rule"]
 """Of a rule without a number a unit more is the rule itself, lifted."""
 
-Whose = Literal["customer", "vehicle_type"]
+Whose = Literal["customer", "vehicle_type", "request"]
 
 NOT_WORTH = 1e-6
 """Less than this share of a plan's cost is rounding."""
@@ -52,7 +52,7 @@ class Limit(NamedTuple):
 
     field: str  # as requests name it
     whose: Whose
-    kind: int | None  # the vehicle type that has it; None: the customer has it
+    kind: int | None  # the vehicle type that has it; None: the customer has it, or the request
     unit: Unit
     slack: float | None  # units; None: the plan doesn't come near it
     problem: Problem
@@ -113,7 +113,7 @@ def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None]) -> fl
     wanted = [None if bench.found is None else bench.found.place, *places]
     if limit.gives_trips:
         wanted = [*_further_trips(bench, limit)]
-    elif limit.unit == "rule":
+    elif limit.unit == "rule" or limit.whose == "request":
         wanted += _likeliest(bench, limit.problem)
     tried = [bench.finish(bench.draft(place, limit.problem), limit.problem, judged)
              for place in dict.fromkeys(wanted) if place is not None]
@@ -147,6 +147,8 @@ def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
         if kind in one_each.values():
             yield from _type_limits(bench, kind)
         yield from _fleet_limits(bench, kind)
+    for field, slack, fewer in fleet_limits(bench.problem, bench.plan.solution):
+        yield Limit(field, "request", None, "vehicle", slack, fewer)
     for field, kind, richer in hub_limits(bench.problem, bench.plan.solution):
         yield Limit(field, "vehicle_type", kind, "unit", 0.0, richer, gives_trips=True)
 
@@ -181,6 +183,9 @@ def _customer_limits(bench: Bench) -> Iterator[Limit]:
         changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
         yield Limit("release_time", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, changed))
+    kind = None if trip is None else _kind_of(bench)
+    for field, left, longer in between_limits(problem, node, kind, trip):
+        yield Limit(field, "customer", None, "minute", left, longer)
     for field, freed in lifted(problem, node):
         yield Limit(field, "customer", None, "rule", None, freed)
 
@@ -275,36 +280,14 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
             bench.plan.solution.routes[found.route].trips))
         longer = kind.max_travel_duration + MS_PER_MINUTE
         yield ("max_travel_duration", "minute", slack, replace(kind, max_travel_duration=longer))
-    yield from _duty_limits(kind, measured, trip)
+    yield from duty_limits(kind, measured, trip)
+    yield from rest_limits(
+        bench.problem, kind, None if found is None else bench.plan.solution.routes[found.route])
     yield from flight_limits(kind, trip)
     if kind.max_trip_distance is not None:
         slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
         yield ("max_trip_distance", "km", slack,
                replace(kind, max_trip_distance=kind.max_trip_distance + MM_PER_KM))
-
-
-def _duty_limits(kind: VehicleType, measured: RouteMetrics | None,
-                 trip: TripMetrics | None) -> Iterator[_Changed]:
-    """Yield what a type of vehicle may work overtime, and have on a trip."""
-    if kind.overtime is not None and kind.overtime.max_duration < UNLIMITED:
-        most = kind.overtime.max_duration
-        longer = replace(kind.overtime, max_duration=most + MS_PER_MINUTE)
-        slack = None if measured is None else _in_minutes(most - measured.overtime)
-        yield "overtime.max_duration", "minute", slack, replace(kind, overtime=longer)
-    if kind.max_stops is not None:
-        slack = None if trip is None else float(kind.max_stops - len(trip.stop_loads) + 2)
-        yield "max_stops", "unit", slack, replace(kind, max_stops=kind.max_stops + 1)
-    if kind.pickups == "last":
-        yield "pickups", "rule", None, replace(kind, pickups="any")
-    if kind.max_sorties is not None:
-        slack = None if trip is None else float(kind.max_sorties - len(trip.sorties))
-        yield "max_sorties", "unit", slack, replace(kind, max_sorties=kind.max_sorties + 1)
-    if kind.most_airborne < kind.num_drones:
-        yield "max_airborne", "unit", None, replace(kind, max_airborne=kind.most_airborne + 1)
-    if kind.lifo:
-        yield "lifo", "rule", None, replace(kind, lifo=False)
-    if kind.truck_waits:
-        yield "truck_waits", "rule", None, replace(kind, truck_waits=False)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 from model.judge.clock import work_between, work_end
 from model.judge.loads import trip_loads
 from model.problem import FULL_SPEED, REST, Break, Problem, VehicleType
-from model.solution import BreakPlace, TakenBreak, Trip
+from model.solution import BreakPlace, Route, TakenBreak, Trip
 
 
 class BreakDecision(NamedTuple):
@@ -107,6 +107,16 @@ def is_due(each: Break, begin: int, end: int) -> bool:
     """
     earliest, latest = window_of(each, begin)
     return latest < end and earliest + each.duration > begin
+
+
+def has_needless_break(problem: Problem, route: Route) -> bool:
+    """Tell whether a route has a break that isn't due on it."""
+    kind = problem.vehicle_types[route.vehicle_type]
+    if not kind.breaks:
+        return False
+    begin, end = begin_of(kind, route.trips[0]), route.trips[-1].stops[-1].departure
+    return any(taken.number != REST and not is_due(kind.breaks[taken.number], begin, end)
+               for trip in route.trips for taken in trip.breaks)
 
 
 def unpaid(kind: VehicleType, trips: Iterable[Trip]) -> int:

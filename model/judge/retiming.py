@@ -8,6 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
+from model.judge.breaks import has_needless_break
 from model.judge.check import JudgedRoute, judge_route
 from model.judge.clock import closing
 from model.judge.flown_trips import charged_start
@@ -49,7 +50,8 @@ def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past)
     What is known of its trips must be in the decision as it is.
     """
     best = _best_timed(problem, decision, path, past)
-    if any(violation.code in ("BREAK", "DRIVING") for violation in best.judged.violations):
+    if any(violation.code in ("BREAK", "DRIVING") for violation in best.judged.violations) or (
+            has_needless_break(problem, best.route)):
         trips = tuple([replace(trip, breaks=()) for trip in decision.trips])
         rested = with_due_breaks(problem, replace(decision, trips=trips))
         best = min(best, _best_timed(problem, rested, path, past), key=lambda timed: timed.rank)

@@ -62,6 +62,13 @@ test('a rule without a number that binds is told with what it costs', () => {
     'Which vehicles may serve it: without this rule 1.25 would be saved.');
   assert.equal(bindingInWords({ ...limit, rule: 'pickups', at: 'van' }),
     'The order of pickups of van: without this rule 1.25 would be saved.');
+  assert.equal(bindingInWords({ ...limit, rule: 'breaks[tea]', at: 'van' }),
+    'The break of tea of van: without this rule 1.25 would be saved.');
+  assert.equal(bindingInWords({ ...limit, rule: 'breaks[tea].max_load', at: 'van', unit: 'unit' }),
+    'What may be aboard during the break of tea of van: one more would save 1.25.');
+  assert.equal(
+    bindingInWords({ ...limit, rule: 'fairness.min_vehicles', at: '', unit: 'vehicle' }),
+    'The least number of vehicles: one vehicle fewer would save 1.25.');
 });
 
 test('what drones save in sum is told with how that is known', () => {

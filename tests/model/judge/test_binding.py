@@ -6,9 +6,13 @@ import pytest
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
+from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision
-from model.problem import MICROJOULES_PER_WH, Energy, IncompatibleGoods, Overtime, Shipment
+from model.problem import (
+    MICROJOULES_PER_WH, Break, DrivingRules, Energy, Fairness, IncompatibleGoods, Overtime,
+    Shipment,
+)
 from model.solution import Solution, Trip
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
@@ -201,3 +205,29 @@ def test_ends_of_shipments_are_asked_about_whatever_goods_and_skills_they_have(
     solution = plan(problem, route(A, B, C, D))
     for end in (C, D):
         assert binding(problem, solution, end) == {}
+
+
+def test_breaks_are_told_with_what_is_aboard_and_what_they_cost(tiny_problem, customers, truck):
+    a, *others = customers
+    lunch = Break("lunch", 10 * MINUTE, 0, 3 * MINUTE, max_load=(1000,))
+    problem = tiny_problem(replace(a, latest=20 * MINUTE), *others, truck=replace(
+        truck, cost_per_hour=60.0, breaks=(lunch,)))
+    trip = TripDecision((0, A, 0), breaks=(BreakDecision(0, 0, "departure"),))
+    found = binding(problem, plan(problem, RouteDecision(0, 0, (trip,)), unassigned=(B, C, D)), A)
+    assert found["breaks[lunch]"] == (None, pytest.approx(10.0))
+    assert found["breaks[lunch].max_load"] == (0.0, 0.0)
+
+
+def test_who_may_drive_for_longer_in_a_day_may_serve_another(tiny_problem, customers, truck):
+    rules = DrivingRules(60 * MINUTE, MINUTE, (), 15 * MINUTE)
+    problem = tiny_problem(*customers, truck=replace(truck, driving=rules), unassigned_cost=50.0)
+    found = binding(problem, plan(problem, route(A, B, C), unassigned=(D,)), D)
+    assert found["driving_rules.max_driving_per_day"] == (None, pytest.approx(50.0))
+
+
+def test_fewer_vehicles_than_are_to_be_used_save_one(tiny_problem, customers, truck):
+    problem = replace(
+        tiny_problem(*customers, truck=replace(truck, count=2, fixed_cost=7.0)),
+        fairness=Fairness(min_vehicles=2, too_few_cost=100.0))
+    solution = plan(problem, route(A, B, C), RouteDecision(0, 1, (TripDecision((0, D, 0)),)))
+    assert binding(problem, solution, D)["fairness.min_vehicles"] == (0.0, pytest.approx(7.0))

@@ -18,6 +18,9 @@ const MORE = {
   release_time: 'earlier',
   max_time_aboard: 'longer',
   'shift.latest': 'later',
+  'breaks.start.latest': 'later',
+  max_time_between: 'longer',
+  'fairness.min_vehicles': 'fewer',
 };
 
 /** Rules that are a customer's: what they are called says so. */
@@ -26,6 +29,7 @@ const ITS_OWN = [
   'time_window.earliest',
   'release_time',
   'max_time_aboard',
+  'max_time_between',
   'vehicles',
   'served_by',
   'skills',
@@ -134,14 +138,14 @@ function isOfDrones({ fleet }, id, code) {
 
 /** Return a sentence for a limit that binds, or a rule without a number. */
 export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves }) {
-  const [, drones] = /^drones\[(.+)\]\./.exec(rule) ?? [];
+  const [, part] = /^(?:drones|breaks)\[(.+)\](?:\.|$)/.exec(rule) ?? [];
   const field = rule
     .replace(/^time_windows\[-?\d+\]/, 'time_window')
-    .replace(/^drones\[.+\]\./, 'drones.')
+    .replace(/^(drones|breaks)\[.+\](?=\.|$)/, '$1')
     .replace(/\[\d+\]$/, '');
   const told = t(`rule.${field.replaceAll('.', '_')}`, { defaultValue: rule });
-  const name = drones ? t('why.of', { what: told, whose: drones }) : told;
-  const subject = ITS_OWN.includes(field) ? name : t('why.of', { what: name, whose: at });
+  const name = part ? t('why.of', { what: told, whose: part }) : told;
+  const subject = ITS_OWN.includes(field) || !at ? name : t('why.of', { what: name, whose: at });
   const sum = money(saves);
   if (unit === 'rule') return t('why.without', { subject, sum });
   const more = t(`why.unit.${MORE[field] ?? 'more'}`, { unit: unitOf(unit, 1) });
