@@ -65,6 +65,12 @@ def ship(rng: random.Random, request: Data) -> None:
          **({"max_detour": rng.choice((1, 1.5, 3))} if rng.random() < 0.3 else {}),
          **({"unassigned_cost": rng.choice((20, 500))} if rng.random() < 0.2 else {})}
         for number in range(rng.randint(1, 4))]
+    # What else is drawn stays as it was.
+    flown = random.Random(str(request["shipments"]))
+    for shipment in request["shipments"]:
+        if "pickup" in shipment:
+            for name in ("pickup", "delivery"):
+                shipment[name] |= {"served_by": "either"} if flown.random() < 0.5 else {}
 
 
 def go_together(rng: random.Random, request: Data) -> None:

@@ -7,7 +7,7 @@ with it but the wire; plans that go on from others aren't read.
 from collections import defaultdict
 from collections.abc import Iterator
 from itertools import combinations, pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 from benchmarks.quality.driving_law import Activity, Law, broken_laws
 
@@ -15,6 +15,9 @@ Data = dict[str, Any]
 
 SLACK = 0.0015
 """Seconds by which sums of rounded times may differ."""
+
+AT_LAST = 1000
+"""The place in a stop's order of what comes aboard there, behind all that leaves."""
 
 PRESETS = {
     "eu-561": Law(16_200_000, 2_700_000, (900_000, 1_800_000), 32_400_000),
@@ -170,6 +173,43 @@ def _faults_of_launches(kind: Data, route: Data) -> Iterator[str]:
                 yield f"{sortie['drone']} serves {len(sortie['customers'])} on one sortie"
 
 
+class _Change(NamedTuple):
+    """What comes aboard a truck of a shipment, or leaves it."""
+
+    stop: int
+    order: int  # at that stop: what leaves, what is brought by who fetched it, what comes
+    comes: bool
+    id: str
+    time: float  # of the end of service at a pickup, of its start at a delivery
+
+
+def _changes_of(trip: Data) -> list[_Change]:
+    """Return what a trip fetches and brings, in order.
+
+    A drone does so where it is recovered or launched, or both there if it is on one sortie.
+    """
+    changes = []
+
+    def add(stop: int, order: int, visit: Data) -> None:
+        comes = visit["kind"] == "pickup"
+        changes.append(_Change(stop, order, comes, visit["id"],
+                               visit["departure" if comes else "service_start"]))
+
+    for number, stop in enumerate(trip["stops"]):
+        if stop["kind"] in ("pickup", "delivery"):
+            add(number, AT_LAST if stop["kind"] == "pickup" else 0, stop)
+    for sortie in trip["sorties"]:
+        ends = [visit for visit in sortie["customers"] if visit.get("kind")]
+        for number, visit in enumerate(ends, 1):
+            if sum(each["id"] == visit["id"] for each in ends) > 1:
+                add(sortie["launch_stop"], number, visit)
+            elif visit["kind"] == "pickup":
+                add(sortie["recovery_stop"], AT_LAST, visit)
+            else:
+                add(sortie["launch_stop"], 0, visit)
+    return sorted(changes)
+
+
 def _faults_of_shipments(request: Data, plan: Data) -> Iterator[str]:
     stated = {each["id"]: each for each in request.get("shipments", ())}
     left = {each["id"] for each in plan["unassigned"] if each.get("kind") == "shipment"}
@@ -178,23 +218,26 @@ def _faults_of_shipments(request: Data, plan: Data) -> Iterator[str]:
     for route in plan["routes"]:
         for trip in route["trips"]:
             begun, stack = dict[str, float](), list[str]()
-            for stop in trip["stops"]:
-                if stop["kind"] == "pickup":
-                    begun.setdefault(stop["id"], stop["departure"])
-                    stack.append(stop["id"])
-                elif stop["kind"] == "delivery":
-                    found[stop["id"]] = found.get(stop["id"], 0) + 1
-                    parts = max(1, len(stated[stop["id"]].get("pickups", ())))
-                    if stack.count(stop["id"]) != parts:
-                        yield f"{stop['id']} is delivered before its pickup"
-                        continue
-                    if route["type"] in stacks and {*stack[-parts:]} != {stop["id"]}:
-                        yield f"{stop['id']} isn't on top"
-                    stack = [name for name in stack if name != stop["id"]]
-                    between = stop["service_start"] - begun.pop(stop["id"])
-                    longest = stated[stop["id"]].get("max_time_between")
-                    if longest is not None and between > longest + SLACK:
-                        yield f"{stop['id']} is aboard for {between} s"
+            visits = [visit for sortie in trip["sorties"] for visit in sortie["customers"]]
+            if route["type"] in stacks and any(visit.get("kind") for visit in visits):
+                yield f"a drone takes from the stack of {route['vehicle']}"
+            for change in _changes_of(trip):
+                if change.comes:
+                    begun.setdefault(change.id, change.time)
+                    stack.append(change.id)
+                    continue
+                found[change.id] = found.get(change.id, 0) + 1
+                parts = max(1, len(stated[change.id].get("pickups", ())))
+                if stack.count(change.id) != parts:
+                    yield f"{change.id} is delivered before its pickup"
+                    continue
+                if route["type"] in stacks and {*stack[-parts:]} != {change.id}:
+                    yield f"{change.id} isn't on top"
+                stack = [name for name in stack if name != change.id]
+                between = change.time - begun.pop(change.id)
+                longest = stated[change.id].get("max_time_between")
+                if longest is not None and between > longest + SLACK:
+                    yield f"{change.id} is aboard for {between} s"
             if begun:
                 yield f"{sorted(begun)} aren't delivered on the trip"
     if {*found, *left} != {*stated} or any(times > 1 for times in found.values()):
@@ -237,7 +280,7 @@ def met_in(request: Data, plan: Data) -> set[str]:
     served = {visit["id"] for visit in visits}
     met = {"driving_rules" if stop["id"] == "rest" else "breaks"
            for stop in stops if stop["kind"] == "break"}
-    met |= {"shipments" for stop in stops if stop["kind"] == "pickup"}
+    met |= {"shipments" for stop in (*stops, *visits) if stop.get("kind") == "pickup"}
     met |= {"alternatives" for visit in visits if visit.get("alternative")}
     met |= {"vehicle_costs" for each in request["customers"]
             if each["id"] in served and each.get("vehicle_costs")}

@@ -99,6 +99,23 @@ def test_a_sound_day_has_no_faults(request_of_day: Data, day: Data) -> None:
         "apart", "breaks", "driving_rules", "shipments", "vehicle_costs", "before", "makespan"}
 
 
+@pytest.mark.parametrize(("kinds", "launch", "recovery", "fault"), [
+    (["pickup"], 1, 3, None), (["pickup"], 1, 4, "before its pickup"),
+    (["delivery"], 4, 5, None), (["delivery"], 3, 5, "before its pickup"),
+    (["pickup", "delivery"], 1, 3, None), (["delivery", "pickup"], 1, 3, "before its pickup")])
+def test_ends_that_drones_serve_are_read(request_of_day: Data, day: Data, kinds: list[str],
+                                         launch: int, recovery: int, fault: str | None) -> None:
+    flown = [stop for stop in _stops(day) if stop["kind"] in kinds]
+    flown.sort(key=lambda stop: kinds.index(stop["kind"]))
+    for stop in flown:
+        _stops(day).remove(stop)
+    [flight] = day["routes"][0]["trips"][0]["sorties"]
+    flight |= {"customers": flown, "launch_stop": launch, "recovery_stop": recovery}
+    request_of_day["fleet"][0]["drones"]["max_customers_per_sortie"] = 2
+    told = list(faults_of(request_of_day, day))
+    assert told == [] if fault is None else any(fault in each for each in told), told
+
+
 def _stops(day: Data, route: int = 0) -> list[Data]:
     stops: list[Data] = day["routes"][route]["trips"][0]["stops"]
     return stops
