@@ -46,6 +46,9 @@ def morning(rng: random.Random) -> Data:
     fleet = [_vehicle_type(rng, f"t{number}", depots) for number in range(rng.choice((1, 1, 2)))]
     return {"coordinate_system": "planar", "planar_unit": 1000, "depots": depots,
             "customers": customers, "fleet": fleet, "unassigned_cost": rng.choice((None, 50, 500)),
+            **_maybe(rng, 0.2, fairness=rng.choice((
+                {"makespan_cost_per_hour": 20}, {"balance": {"measure": "duration", "cost": 10}},
+                {"balance": {"measure": "stops", "cost": 1}, "makespan_cost_per_hour": 5}))),
             "options": {"time_limit": 20, "search_iterations": rng.choice((0, 20, 60)),
                         "threads": 1, "seed": rng.randrange(1000)}}
 
@@ -94,7 +97,23 @@ def _vehicle_type(rng: random.Random, name: str, depots: list[Data]) -> Data:
         **_maybe(rng, 0.1, max_stops=rng.choice((2, 4))),
         **_maybe(rng, 0.15, shift={"earliest": 0, "latest": rng.choice((3600, 7200))}),
         **_maybe(rng, 0.15, overtime={"max_duration": 1800, "cost_per_hour": 30}),
+        **_maybe(rng, 0.25, breaks=_breaks(rng)), **_maybe(rng, 0.2, driving_rules=_rules(rng)),
         **_maybe(rng, 0.8, drones=_drones(rng))}
+
+
+def _breaks(rng: random.Random) -> list[Data]:
+    return [{"id": f"b{number}", "duration": rng.choice((120, 600)),
+             "start": {"earliest": 1800 * number + rng.choice((0, 300)),
+                       "latest": 1800 * number + rng.choice((600, 1500))},
+             "after_departure": rng.random() < 0.3, "at": rng.choice(("stop", "anywhere")),
+             "paid": rng.random() < 0.7} for number in range(rng.choice((1, 1, 2)))]
+
+
+def _rules(rng: random.Random) -> Data:
+    return {"max_driving": rng.choice((900, 1800, 3600)), "break_duration": rng.choice((300, 600)),
+            "split": rng.choice((None, [120, 300])),
+            "max_work_before_break": rng.choice((None, None, 5400)),
+            "while_drones_fly": rng.random() < 0.7}
 
 
 def _drones(rng: random.Random) -> Data:
@@ -125,9 +144,12 @@ def by_hand(rng: random.Random, plan: Data) -> Data:
 
 
 def _untimed(trip: Data) -> Data:
-    return {"stops": [{"kind": stop["kind"], "id": stop["id"]} for stop in trip["stops"]],
-            "sorties": [{**{name: sortie[name] for name in ("drone", "launch_stop",
-                                                            "recovery_stop")},
+    """Return a trip without times and breaks."""
+    stops = [stop for stop in trip["stops"] if stop["kind"] != "break"]
+    return {"stops": [{"kind": stop["kind"], "id": stop["id"]} for stop in stops],
+            "sorties": [{"drone": sortie["drone"],
+                         **{name: stops.index(trip["stops"][sortie[name]])
+                            for name in ("launch_stop", "recovery_stop")},
                          "customers": [{"id": visit["id"]} for visit in sortie["customers"]]}
                         for sortie in trip["sorties"]]}
 
@@ -171,7 +193,12 @@ def _instant(rng: random.Random, plan: Data, since: float) -> float:
 
 
 def committed_to(plan: Data, now: float, request: Data) -> Iterator[str]:
-    """Yield whom vehicles have served, are on their way to, or where they meet drones."""
+    """Yield whom vehicles have served, are on their way to, or where they meet drones.
+
+    Drivers who rest make the trips that they have begun to the end.
+    """
+    resting = {kind["id"] for kind in request["fleet"]
+               if kind.get("breaks") or kind.get("driving_rules")}
     durations = {kind["id"]: _longest_launch(kind.get("drones") or {})
                  for kind in request["fleet"]}
     for route in plan["routes"]:
@@ -183,6 +210,8 @@ def committed_to(plan: Data, now: float, request: Data) -> Iterator[str]:
                      if sortie["launch_time"] - durations[route["type"]] <= now]
             if not left and not flown:
                 continue
+            if route["type"] in resting:
+                left, flown = len(trip["stops"]), trip["sorties"]
             yield from (stop["id"] for stop in trip["stops"][:left + 1]
                         if stop["kind"] == "customer")
             for sortie in flown:

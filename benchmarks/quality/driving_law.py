@@ -46,19 +46,23 @@ def record_of(route: Route) -> list[Activity]:
     return [each for each in found if each[2] > each[1]]
 
 
-def offences(route: Route, law: Law, driven: int = 0, worked: int = 0) -> Iterator[str]:
-    """Yield what is against the law on a route, as far as a driver had driven and worked before."""
-    yield from broken_laws(record_of(route), law, driven, worked)
+def offences(route: Route, law: Law, driven: int = 0, worked: int = 0,
+             begun: bool = False) -> Iterator[str]:
+    """Yield what is against the law on a route, as far as a driver had driven and worked before.
+
+    A pause may have `begun` with its first part.
+    """
+    yield from broken_laws(record_of(route), law, driven, worked, begun)
 
 
 def broken_laws(record: Sequence[Activity], law: Law, driven: int = 0,
-                worked: int = 0) -> Iterator[str]:
+                worked: int = 0, begun: bool = False) -> Iterator[str]:
     """Yield what is against the law of what was written down."""
     wheel = sum([end - begin for what, begin, end in record if what == "drive"])
     if law.day is not None and driven + wheel > law.day:
         yield "day"
     # Where all that was driven before is over: behind each rest, or pair of them, in turn.
-    period, labour, first_part = driven, worked, False
+    period, labour, first_part = driven, worked, begun
     for what, begin, end in record:
         length = end - begin
         if what != "rest":

@@ -184,6 +184,7 @@ typedef struct tandem_vehicle_type {
     int64_t max_work;
     int64_t driven_before;
     int64_t worked_before;
+    int64_t half_rested_before; /* whether the first part of a rest was the last */
     int64_t rests_in_flights; /* whether the driver may rest while drones are out */
     int64_t share_before;     /* what a vehicle has done of the work, -1: it isn't used yet */
 } tandem_vehicle_type;

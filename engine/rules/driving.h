@@ -39,7 +39,8 @@ inline Int duration_of(const VehicleType& type, Rests rests) {
 
 // A driver whose route begins at `begin`.
 inline Driver driver_from(const VehicleType& type, Int begin) {
-    return {type.driven_before, counted_begin(type, begin) - type.worked_before, 0};
+    return {type.driven_before, counted_begin(type, begin) - type.worked_before,
+            type.half_rested_before};
 }
 
 // How much longer a driver may be at the wheel, negative if it should have rested before.

@@ -63,9 +63,10 @@ def _break_row(kind: VehicleType, room: int) -> tuple[int | tuple[int, ...], ...
 def _driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
     """Return whether a driver has to rest, and what `tandem_vehicle_type` says of that."""
     if rules is None:
-        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0, 1
+        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0, 0, 1
     return (1, (rules.rest, *(rules.split or (0, 0))), rules.max_driving, rules.max_work,
-            rules.driven_before, rules.worked_before, int(rules.while_drones_fly))
+            rules.driven_before, rules.worked_before,
+            int(rules.half_rested_before), int(rules.while_drones_fly))
 
 
 def longest_travel(kind: VehicleType) -> int:
@@ -97,6 +98,7 @@ class BrokenRoute:
         self._driver.driven = types[k].driven_before
         since = types[k].breaks_since
         self._driver.since = (begin if since == NONE else since) - types[k].worked_before
+        self._driver.half_rested = types[k].half_rested_before
 
     def drive(self, rests: int, leave: int, duration: int) -> Iterator[BreakTimes]:
         """Yield the breaks on a leg.

@@ -45,7 +45,7 @@ class Driver:
         self._rules = rules
         self.driven = rules.driven_before
         self.day = rules.driven_before
-        self._is_half_rested = False
+        self.is_half_rested = rules.half_rested_before
         self._since = begin - rules.worked_before
 
     def worked(self, now: int) -> int:
@@ -60,11 +60,11 @@ class Driver:
     def pause(self, begin: int, end: int) -> None:
         """Take a break, which may be a rest, or a part of one. In place."""
         length, split = end - begin, self._rules.split
-        if length >= self._rules.rest or (self._is_half_rested and length >= split[1]):
-            self.driven, self._is_half_rested, self._since = 0, False, end
+        if length >= self._rules.rest or (self.is_half_rested and length >= split[1]):
+            self.driven, self.is_half_rested, self._since = 0, False, end
             return
         self._since += length
-        self._is_half_rested = self._is_half_rested or (bool(split) and length >= split[0])
+        self.is_half_rested = self.is_half_rested or (bool(split) and length >= split[0])
 
 
 def driver_behind(rules: DrivingRules, kind: VehicleType, trips: Sequence[Trip]) -> Driver:

@@ -234,7 +234,7 @@ def _taken_by(kind: VehicleType, breaks: Sequence[TakenBreak], last: int,
     Of one at the end of a leg that leads elsewhere now all is known but that it was on the way.
     """
     found = [taken for taken in breaks if taken.stop < last]
-    for taken in [taken for taken in breaks if taken.stop == last and taken.end <= now]:
+    for taken in [taken for taken in breaks if taken.stop == last and taken.end < now]:
         if taken.place == "arrival":
             if taken.number != REST and not kind.breaks[taken.number].anywhere:
                 break

@@ -336,8 +336,7 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
     """
     duration = problem.travel[vehicle_type.travel].duration
     drones = vehicle_type.drones
-    flights: dict[int, _Flight] = {}
-    stops: list[Stop] = []
+    flights, stops = dict[int, _Flight](), list[Stop]()
     for index, node in enumerate(decision.nodes):
         fact = known.stops[index] if index < len(known.stops) else None
         if fact is not None:
@@ -346,7 +345,8 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             leg = duration.item(stops[-1].node, node)
             arrival = leg_end(stops[-1].departure, leg, vehicle_type.speed_profile)
             # Where a route ends with its last service, that may be over, and nobody drives on.
-            arrival = arrival if problem.is_nowhere(node) else max(now, arrival)
+            rested = max([each.end for each in known.breaks if each.stop == index - 1], default=0)
+            arrival = max(arrival, rested if problem.is_nowhere(node) else now)
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         ready = arrival + setup
         start, departure = resumed_service(problem, vehicle_type, node, max(

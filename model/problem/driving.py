@@ -20,6 +20,7 @@ class DrivingRules:
     driven_before: int = 0  # since the last rest, and so that day, before the route begins
     worked_before: int = 0  # since the last rest
     while_drones_fly: bool = True  # whether a rest may lie in a flight
+    half_rested_before: bool = False  # the first part of a split rest was taken since the last one
 
     def __post_init__(self) -> None:
         require(1 <= self.max_driving <= UNLIMITED, "driving_rules max_driving", self.max_driving)

@@ -53,4 +53,5 @@ def _driving_left(kind: VehicleType, rules: DrivingRules, done: Route,
     if day < driver.driven:
         return None
     return replace(rules, max_driving_per_day=day, driven_before=driver.driven,
-                   worked_before=max(0, driver.worked(home)))
+                   worked_before=max(0, driver.worked(home)),
+                   half_rested_before=driver.is_half_rested)

@@ -15,11 +15,13 @@ def drawn_rules(rng: np.random.Generator) -> DrivingRules:
 
     first, second = minutes(1, 3), minutes(1, 4)
     driving = minutes(4, 14)
+    split = (first, second) if rng.random() < 0.5 else ()
     return DrivingRules(
-        driving, minutes(1, 6), (first, second) if rng.random() < 0.5 else (),
+        driving, minutes(1, 6), split,
         driving + minutes(4, 30) if rng.random() < 0.5 else UNLIMITED,
         minutes(8, 25) if rng.random() < 0.4 else UNLIMITED,
         minutes(0, 4) if rng.random() < 0.3 else 0, minutes(0, 4) if rng.random() < 0.3 else 0,
+        half_rested_before=bool(split) and first % (2 * MINUTE) == 0,
         while_drones_fly=bool(rng.random() < 0.7))
 
 

@@ -311,8 +311,7 @@ public:
           k_(k),
           node_(node),
           by_drone_(by_drone),
-          options_(by_drone && data.type[k].begins_at != data.type[k].ends_at ? ways - from_start
-                                                                              : 1),
+          options_(by_drone && may_cross(data.type[k]) ? ways - from_start : 1),
           halts_(by_drone && has_halts(data) ? data.near_halts.shape(1) : 0),
           flights_(by_drone ? options_ * num_drone_rows(data.type, k) : 1),
           begun_(flights_ + ways_by_halt * halts_ * num_drone_rows(data.type, k)) {}
@@ -339,6 +338,11 @@ public:
     }
 
 private:
+    // Whether a drone may fly across an empty trip: a driver may have a break meanwhile.
+    static bool may_cross(const VehicleType& type) {
+        return type.begins_at != type.ends_at || has_breaks(type);
+    }
+
     const ProblemData& data_;
     const Int k_;
     const Int node_;

@@ -112,3 +112,20 @@ def test_a_trip_with_breaks_that_has_begun_is_made_to_its_end(service: httpx.Cli
     assert breaks_of(later) == breaks_of(plan)
     gone = service.post("/plan", json=begun | {"customers": resting["customers"][1:]}).json()
     assert {error["code"] for error in gone["errors"]} == {"UNKNOWN_CUSTOMER"}
+
+
+def test_a_driver_at_the_depot_has_a_break_while_the_only_drone_flies(
+        service: httpx.Client) -> None:
+    request = {
+        "coordinate_system": "planar", "planar_unit": 1000,
+        "depots": [{"id": "hub", "location": [0, 0]}],
+        "customers": [{"id": "a", "location": [30, 0], "demand": [1], "served_by": "drone"}],
+        "fleet": [{"id": "van", "count": 1, "capacity": [3], "speed_kmh": 60,
+                   "breaks": [{"id": "nap", "duration": 900, "after_departure": True,
+                               "start": {"earliest": 600, "latest": 1200}}],
+                   "drones": {"count": 1, "capacity": [1], "speed_kmh": 60, "endurance": 7200}}],
+        "options": {"search_iterations": 50}}
+    plan = planned(service, request)
+    assert plan["status"] == "complete"
+    assert [each["id"] for each in breaks_of(plan)] == ["nap"]
+    assert is_feasible(service, request, plan)

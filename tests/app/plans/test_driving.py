@@ -158,3 +158,22 @@ def test_what_was_driven_before_counts_on_a_day_under_way(
         "plan": plan, "freeze_before": trip["stops"][0]["departure"] + 1}})
     assert later["status"] == status
     assert later["routes"][0]["trips"][0] == trip
+
+
+def test_the_first_part_of_a_rest_that_was_taken_before_counts_on_a_day_under_way(
+        service: httpx.Client, far: Request) -> None:
+    far["fleet"][0] |= {"max_trips": 2, "costs": {"per_hour": 30}, "breaks": [{
+        "id": "coffee", "duration": 900, "after_departure": True,
+        "start": {"earliest": 5400, "latest": 7200}}]}
+    far["customers"][1:] = []
+    plan = planned(service, far)
+    trip, = plan["routes"][0]["trips"]
+    assert [each["id"] for each in breaks_of(plan)] == ["coffee"]
+    far["customers"].append({"id": "new", "location": [60, 0], "demand": [1]})
+    far["fleet"][0]["driving_rules"]["max_driving"] = 14_400
+    later = planned(service, far | {"replan": {
+        "plan": plan, "freeze_before": trip["stops"][0]["departure"] + 1}})
+    assert later["status"] == "complete"
+    rests = [each["departure"] - each["service_start"] for each in breaks_of(later)
+             if each["id"] == "rest"]
+    assert rests == [1800]
