@@ -20,10 +20,16 @@ THOUSANDTHS = 3
 
 
 def shipment_broken(attempt: Attempt) -> Diagnosis:
-    """Return the rule that is hardest to change of those that a shipment's trip breaks."""
-    is_in_parts = len(attempt.problem.customers) > 2
+    """Return the rule that is hardest to change of those that a shipment's trip breaks.
+
+    Nothing is offered for windows of one fetched in parts, nor for their own detours.
+    """
+    (shipment,) = attempt.problem.shipments
+    unknown = {"TIME_WINDOW"} if shipment.more else set[str]()
+    if shipment.more and shipment.max_detour is not None:
+        unknown.add("TIME_BETWEEN")
     for violation in attempt.evaluation.violations:
-        if violation.code not in CODES or (is_in_parts and violation.code in OF_TWO_ENDS):
+        if violation.code not in CODES or violation.code in unknown:
             return Diagnosis(violation.code,
                              f"Alone on {attempt.vehicle_type.id}: {violation.message}.")
     code = next(code for code in CODES if code in attempt.codes)
@@ -90,17 +96,14 @@ def _time_between(attempt: Attempt) -> Diagnosis:
 
 
 def _stops(attempt: Attempt) -> Diagnosis:
-    kind = attempt.vehicle_type
-    return Diagnosis("STOPS", f"{kind.id} makes fewer stops than its 2, by its max_stops.",
-                     f"fits if {kind.id} could make 2 stops",
-                     with_type(attempt, replace(kind, max_stops=2)))
+    kind, ends = attempt.vehicle_type, len(attempt.problem.shipments[0].nodes)
+    return Diagnosis("STOPS", f"{kind.id} makes fewer stops than its {ends}, by its max_stops.",
+                     f"fits if {kind.id} could make {ends} stops",
+                     with_type(attempt, replace(kind, max_stops=ends)))
 
 
 OWN = {"CAPACITY": _capacity, "TIME_WINDOW": _windows, "TIME_BETWEEN": _time_between,
        "MAX_STOPS": _stops}
-
-OF_TWO_ENDS = OWN.keys() - {"CAPACITY"}
-"""Rules that nothing is offered for where a shipment is fetched in parts."""
 
 CODES = tuple([code for known in DIAGNOSES
                for code in ((known, "TIME_BETWEEN") if known == "TIME_WINDOW" else (known,))])

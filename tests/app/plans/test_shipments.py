@@ -290,6 +290,11 @@ def test_a_shipment_in_parts_is_left_out_as_one(searching: httpx.Client,
     gathered["shipments"][0]["max_time_between"] = 30
     left_out, = searching.post("/plan", json=gathered).json()["unassigned"]
     assert left_out["reasons"][0]["code"] == "TIME_BETWEEN"
+    assert "max_time_between were at least" in left_out["reasons"][0]["remedy"]
+    del gathered["shipments"][0]["max_time_between"]
+    gathered["fleet"][0]["max_stops"] = 2
+    left_out, = searching.post("/plan", json=gathered).json()["unassigned"]
+    assert left_out["reasons"][0]["remedy"] == "fits if truck could make 3 stops"
 
 
 @pytest.mark.parametrize(("wrong", "code", "path"), [
