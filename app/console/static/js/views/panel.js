@@ -14,11 +14,13 @@ import { later } from './later.js';
 import { ReplanTab } from './replan-tab.js';
 import { RoutesTab } from './routes-tab.js';
 import { SolveTab } from './solve-tab.js';
-import { UnassignedTab } from './unassigned-tab.js';
 import { t } from '../texts.js';
 
 const ExportTab = later(async () => (await import('./export-tab.js')).ExportTab);
 const ScenariosTab = later(async () => (await import('./scenarios-tab.js')).ScenariosTab);
+const UnassignedTab = later(
+  async () => (await import('./unassigned-tab.js')).UnassignedTab,
+);
 
 /** Views by tab, in order; the digit of each of the first ten, 0 for the tenth, is its shortcut. */
 export const TABS = {
