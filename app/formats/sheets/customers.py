@@ -36,13 +36,14 @@ class Entry:
 
     customer: Data
     rows: list[Row]
+    heads: tuple[Row, ...] = ()  # of a shipment: the first row of each place
 
     def places(self) -> list[tuple[Row, Data]]:
         """Return the first row of each place, and what it says of it."""
         if "delivery" not in self.customer:
             return [(self.rows[0], self.customer)]
-        return [(next(row for row in self.rows if row.side == end), self.customer[end])
-                for end in ("pickup", "delivery")]
+        pickups = self.customer.get("pickups") or [self.customer["pickup"]]
+        return [*zip(self.heads, (*pickups, self.customer["delivery"]), strict=True)]
 
 
 def entries_of(rows: Sequence[Row], columns: Sequence[Column], ground: Ground,

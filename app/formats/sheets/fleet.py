@@ -183,10 +183,16 @@ def _totals(stops: Sequence[Entry]) -> list[float]:
     Shipments are aboard with either.
     """
     sums = [[math.fsum(amounts) for amounts in zip(*(
-        stop.customer.get("amount") or stop.customer[what] for stop in stops
-        if "amount" in stop.customer or what in stop.customer), strict=True)]
+        amounts for stop in stops for amounts in _carried(stop.customer, what)), strict=True)]
             for what in ("demand", "pickup")]
     return [max(pair) for pair in zip(*(found for found in sums if found), strict=True)] or [1.0]
+
+
+def _carried(customer: Data, what: str) -> list[list[float]]:
+    """Return what is brought to, or taken from, a customer, and all parts of a shipment."""
+    if "delivery" in customer:
+        return [part["amount"] for part in customer.get("pickups") or [customer]]
+    return [customer[what]] if what in customer else []
 
 
 def _capacity(stops: Sequence[Entry], columns: Sequence[Column],

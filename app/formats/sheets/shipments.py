@@ -8,6 +8,7 @@ from app.formats.sheets.customers import LONGEST_NAME, Entry, joined
 from app.formats.sheets.readers import DELIVERY, PICKUP
 from app.formats.sheets.rows import Row
 from app.schemas.fields import MAX_INFO_ENTRIES
+from model.problem import MOST_PICKUPS
 
 OF_END = ("location", "service_duration", "time_window", "time_windows", "info")
 OF_BOTH = ("vehicles", "unassigned_cost")
@@ -35,7 +36,8 @@ def shipments_of(entries: Sequence[Entry]) -> tuple[list[Entry], list[Doubt], li
         if wrong is not None:
             errors.append(wrong)
             continue
-        shipment = _shipment(joined(ends[0]), joined(ends[1]), names)
+        shipment = _shipment([joined(found) for found in _by_place(ends[0])], joined(ends[1]),
+                             names)
         names.add(shipment.customer["id"])
         found.append(shipment)
     return found, _unrelated(found), errors
@@ -43,14 +45,20 @@ def shipments_of(entries: Sequence[Entry]) -> tuple[list[Entry], list[Doubt], li
 
 def _wrong(ends: Sequence[Sequence[Entry]]) -> CellError | None:
     """Return why rows make no shipment; None: they do."""
-    for end in ends:
-        places = {repr(entry.customer["location"]) for entry in end}
-        if len(places) > 1:
+    for end, most in zip(ends, (MOST_PICKUPS, 1), strict=True):
+        places = len(_by_place(end))
+        if places > most:
             row = end[1].rows[0]
             return CellError(
-                "SHIPMENT_ROWS", f"The shipment {_name(row)} has {len(places)} places of "
-                f"{row.side}, and one is possible: make a shipment of each.",
+                "SHIPMENT_ROWS", f"The shipment {_name(row)} has {places} places of {row.side}, "
+                f"and {most} {'is' if most == 1 else 'are'} possible: make several shipments.",
                 row.cell("shipment", "order"))
+    lacking = [found for found in _by_place(ends[0]) if not any(_amounts(found))]
+    if lacking and len(_by_place(ends[0])) > 1:
+        row = lacking[0][0].rows[0]
+        return CellError("SHIPMENT_AMOUNTS", f"What is picked up there of {_name(row)} isn't "
+                         "stated: state the amount of each pickup.",
+                         row.cell("demand", "pickup", "shipment", "order"))
     amounts = [_amounts(end) for end in ends]
     if all(map(any, amounts)) and amounts[0] != amounts[1]:
         row = ends[1][0].rows[0]
@@ -60,6 +68,14 @@ def _wrong(ends: Sequence[Sequence[Entry]]) -> CellError | None:
     return None
 
 
+def _by_place(end: Iterable[Entry]) -> list[list[Entry]]:
+    """Return an end's rows by where they are."""
+    found: dict[str, list[Entry]] = {}
+    for entry in end:
+        found.setdefault(repr(entry.customer["location"]), []).append(entry)
+    return [*found.values()]
+
+
 def _amounts(end: Iterable[Entry]) -> list[float]:
     """Return what is fetched, or brought, at an end, in whichever column it stands."""
     stated = [entry.customer["demand"] if any(entry.customer["demand"])
@@ -67,15 +83,15 @@ def _amounts(end: Iterable[Entry]) -> list[float]:
     return [round(sum(amounts), 9) for amounts in zip(*stated, strict=True)]
 
 
-def _shipment(pickup: Entry, delivery: Entry, names: set[str]) -> Entry:
-    rows = [*pickup.rows, *delivery.rows]
-    ends = (delivery.customer, pickup.customer)
-    amounts = _amounts([pickup])
+def _shipment(pickups: Sequence[Entry], delivery: Entry, names: set[str]) -> Entry:
+    rows = [*(row for pickup in pickups for row in pickup.rows), *delivery.rows]
+    ends = (delivery.customer, *(pickup.customer for pickup in pickups))
     shipment: Data = {"id": _own_name(_name(delivery.rows[0]), names),
-                      "amount": amounts if any(amounts) else _amounts([delivery]),
-                      "pickup": _end(pickup), "delivery": _end(delivery)}
-    _wait_for_release(shipment["pickup"], max(end.get("release_time", 0.0) for end in ends))
-    if delivery.customer.get("served_by", "truck") != "truck":
+                      **_fetched(pickups, delivery), "delivery": _end(delivery)}
+    released = max(end.get("release_time", 0.0) for end in ends)
+    for pickup in shipment.get("pickups") or [shipment["pickup"]]:
+        _wait_for_release(pickup, released)
+    if len(pickups) == 1 and delivery.customer.get("served_by", "truck") != "truck":
         shipment["delivery"]["served_by"] = "either"
     for name in OF_BOTH:
         if stated := [end[name] for end in ends if name in end]:
@@ -83,7 +99,17 @@ def _shipment(pickup: Entry, delivery: Entry, names: set[str]) -> Entry:
     if skills := list(dict.fromkeys(skill for end in ends for skill in end.get("skills", ()))):
         shipment["skills"] = skills
     between = [row.values["max_between"] for row in rows if row.get("max_between") is not None]
-    return Entry(shipment | ({"max_time_between": min(between)} if between else {}), rows)
+    return Entry(shipment | ({"max_time_between": min(between)} if between else {}), rows,
+                 tuple([each.rows[0] for each in (*pickups, delivery)]))
+
+
+def _fetched(pickups: Sequence[Entry], delivery: Entry) -> Data:
+    """Return what is fetched where: at one place, or in parts at several."""
+    if len(pickups) > 1:
+        return {"pickups": [{"id": f"pickup-{number}", "amount": _amounts([pickup]), **_end(pickup)}
+                            for number, pickup in enumerate(pickups, 1)]}
+    amounts = _amounts(pickups)
+    return {"amount": amounts if any(amounts) else _amounts([delivery]), "pickup": _end(pickups[0])}
 
 
 def _end(entry: Entry) -> Data:

@@ -98,6 +98,17 @@ def test_rows_named_as_one_shipment_are_its_ends_in_their_order() -> None:
     assert told(reply) == [("SHIPMENT_OF_ONE_ROW", "A4"), ("SHIPMENT_IN_ORDER", "A2")]
 
 
+def test_several_pickups_of_one_order_are_parts_of_a_shipment() -> None:
+    rows = TWO_ROWS + "7;Abholung;Müller;48,15;11,5;4;;\n"
+    [shipment] = request(read(rows))["shipments"]
+    assert [(part["id"], part["amount"], part["location"]) for part in shipment["pickups"]] == [
+        ("pickup-1", [3], [11.5, 48.1]), ("pickup-2", [4], [11.5, 48.15])]
+    assert not {"amount", "pickup"} & shipment.keys()
+    assert request(read(rows))["fleet"][0]["capacity"] == [10]
+    lacking = read(rows.replace(";4;;", ";;;"))
+    assert [(error.code, error.cell) for error in lacking.errors] == [("SHIPMENT_AMOUNTS", "F5")]
+
+
 @pytest.mark.parametrize(("rows", "error"), [
     ("x,A,48.1,11.5,2,\nx,B,48.2,11.5,3,", ("SHIPMENT_AMOUNTS", "E3")),
     ("x,A,48.1,11.5,2,\nx,B,48.2,11.5,2,\nx,C,48.3,11.5,1,", ("SHIPMENT_ROWS", "A2")),

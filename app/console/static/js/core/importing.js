@@ -133,7 +133,7 @@ export function withoutUnplaced(request) {
   );
   if (!request.shipments) return { ...request, customers };
   const shipments = request.shipments.filter(
-    ({ pickup, delivery }) => isPlaced(pickup) && isPlaced(delivery),
+    ({ pickup, pickups, delivery }) => [...(pickups ?? [pickup]), delivery].every(isPlaced),
   );
   return { ...request, customers, shipments };
 }
