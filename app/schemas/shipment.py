@@ -8,8 +8,8 @@ from pydantic_core import PydanticCustomError
 
 from app.schemas.customer import CustomerInput, TimeWindowInput, VehiclesInput, Windows
 from app.schemas.fields import (
-    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, Demand, Duration, DurationsByType, Goods, Info,
-    Input, LocationIndex, Money, Name, PlaceLocation, Skills, VehicleCosts,
+    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_AMOUNT, Demand, Duration, DurationsByType,
+    Goods, Info, Input, LocationIndex, Money, Name, PlaceLocation, Skills, VehicleCosts,
 )
 from model.problem import MOST_PICKUPS
 
@@ -112,6 +112,11 @@ class ShipmentInput(Input):
             raise PydanticCustomError(
                 "PICKUP_OR_PICKUPS", "Where it is fetched is stated by `pickup` and `amount`, or "
                 "by `pickups`, each with an amount of its own: state one of these.")
+        sums = [sum(amounts) for amounts in zip(*[part.amount for part in pickups], strict=False)]
+        if max(sums, default=0.0) > MAX_AMOUNT:
+            raise PydanticCustomError(
+                "OUT_OF_RANGE", f"What is delivered must not exceed {MAX_AMOUNT:g} in all: state "
+                "smaller amounts, or another unit.")
         return pickups
 
     @field_validator("pickups", "delivery")
