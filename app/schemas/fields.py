@@ -75,7 +75,9 @@ class AddressInput(Input):
 
 
 def _tag_of_place(value: object) -> str:
-    return IN_PLACE if isinstance(value, dict | AddressInput) else LISTED
+    """Tell how a place is stated; an object of coordinates is told that it should be a list."""
+    is_address = isinstance(value, AddressInput) or (isinstance(value, dict) and "address" in value)
+    return IN_PLACE if is_address else LISTED
 
 
 PlaceLocation = Annotated[

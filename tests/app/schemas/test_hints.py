@@ -31,6 +31,8 @@ WRONG: dict[str, tuple[tuple[Any, ...], Any, str, str]] = {
     "a number": (("customers", 0, "id"), 5, "", 'write "5".'),
     "a bound": (("fleet", 0, "speed_kmh"), 0, "", "must be at least 1: raise it. speed_kmh: Speed "
                 "in km/h"),
+    "a place as an object": (("customers", 0, "location"), {"lat": 52.5, "lng": 13.4}, "",
+                             "`[longitude, latitude]` in degrees"),
     "a window as a list": (("customers", 0, "time_window"), [0, 9], "",
                            "Its fields are earliest, early_cost_per_hour"),
 }

@@ -155,7 +155,8 @@ def test_addresses_on_a_plane_are_refused_with_all_other_errors() -> None:
 
 
 @pytest.mark.parametrize(("location", "code", "path"), [
-    ({}, "MISSING_FIELD", "$.customers[0].location.address"),
+    ({}, "WRONG_TYPE", "$.customers[0].location"),
+    ({"lat": 52.5, "lng": 13.4}, "WRONG_TYPE", "$.customers[0].location"),
     ({"address": ""}, "WRONG_LENGTH", "$.customers[0].location.address"),
     ({"address": 5}, "WRONG_TYPE", "$.customers[0].location.address"),
     ({"address": "x", "town": "y"}, "UNKNOWN_FIELD", "$.customers[0].location.town"),
