@@ -1,7 +1,6 @@
 #include "search/insertion/flown_pairs.h"
 
 #include <algorithm>
-#include <array>
 
 #include "rules/drone_types.h"
 #include "rules/flight.h"
@@ -9,6 +8,7 @@
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
+#include "search/insertion/cheapest.h"
 #include "search/insertion/newcomer.h"
 #include "search/insertion/offers.h"
 #include "search/route/drone_data.h"
@@ -35,40 +35,16 @@ struct EndPlace {
     // From where on a pickup is aboard, and where a delivery leaves, in half stops.
     Int aboard() const { return row == by_wheels ? 2 * first + 1 : 2 * last; }
     Int leaves() const { return row == by_wheels ? 2 * first + 1 : 2 * first; }
+
+    bool operator<(const EndPlace& other) const { return cost < other.cost; }
 };
 
 // Where both ends are served.
 struct PairPlace {
     double cost;
     EndPlace pickup, delivery;
-};
 
-// The cheapest of those added.
-template <class Item, Int most>
-class Cheapest {
-public:
-    void add(const Item& item) {
-        if (count_ == most) {
-            if (item.cost >= items_[0].cost) return;
-            std::pop_heap(items_.begin(), end(), is_cheaper);
-            --count_;
-        }
-        items_[std::size_t(count_++)] = item;
-        std::push_heap(items_.begin(), end(), is_cheaper);
-    }
-
-    // Lets the cheapest come first; then nothing is added any more.
-    void sort() { std::sort_heap(items_.begin(), end(), is_cheaper); }
-
-    View<const Item, 1> items() const { return {items_.data(), {count_}}; }
-
-private:
-    static bool is_cheaper(const Item& one, const Item& other) { return one.cost < other.cost; }
-
-    auto end() { return items_.begin() + count_; }
-
-    std::array<Item, std::size_t(most)> items_;
-    Int count_ = 0;
+    bool operator<(const PairPlace& other) const { return cost < other.cost; }
 };
 
 using EndPlaces = Cheapest<EndPlace, most_places>;

@@ -1,7 +1,6 @@
 #include "search/insertion/pairs.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
 #include <tuple>
 
@@ -12,6 +11,7 @@
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
+#include "search/insertion/cheapest.h"
 #include "search/insertion/flown_pairs.h"
 #include "search/insertion/newcomer.h"
 #include "search/insertion/parts.h"
@@ -91,15 +91,16 @@ public:
         bool possible = false;
         for (Int tried = 0; tried < most_tried && !possible; ++tried) {
             const Spots spots = cheapest_behind(last);
-            for (Int i = 0; i < spots.count && !data_.deadline.passed(); ++i) {
-                last = spots.list[static_cast<std::size_t>(i)];
-                if (data_.strategy.give_up_early && last->least >= best_.cost) continue;
-                const Move move = move_to(last->p, last->q);
+            for (const Spot& spot : spots.items()) {
+                if (data_.deadline.passed()) return;
+                last = spot;
+                if (data_.strategy.give_up_early && spot.least >= best_.cost) continue;
+                const Move move = move_to(spot.p, spot.q);
                 const double cost = price_move(data_, fleet_, move, pickup_.node);
                 possible = possible || cost < infeasible;
                 if (best_.takes(cost)) best_.move = move;
             }
-            if (spots.count < most_timed) return;
+            if (!spots.is_full()) return;
         }
     }
 
@@ -120,19 +121,7 @@ private:
         }
     };
 
-    // The first few by what they cost about, in that order.
-    struct Spots {
-        std::array<Spot, most_timed> list;
-        Int count = 0;
-
-        void note(const Spot& spot) {
-            if (count == most_timed && !(spot < list.back())) return;
-            if (count < most_timed) ++count;
-            auto place = list.begin() + count - 1;
-            for (; place > list.begin() && spot < place[-1]; --place) *place = place[-1];
-            *place = spot;
-        }
-    };
+    using Spots = Cheapest<Spot, most_timed>;
 
     // The cheapest of those that come behind `last`.
     Spots cheapest_behind(const std::optional<Spot>& last) const {
@@ -151,9 +140,10 @@ private:
                 const Leg more = q == p ? more_together(out, q) : more_behind(delivery_, q, apart);
                 const double least = cost_of(more.distance);
                 const Spot spot{least + double(more.duration) * time_rate_, least, p, q};
-                if (!last || *last < spot) spots.note(spot);
+                if (!last || *last < spot) spots.add(spot);
             }
         }
+        spots.sort();
         return spots;
     }
 
