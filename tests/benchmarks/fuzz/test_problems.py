@@ -41,9 +41,9 @@ def answering(**changes: Answer) -> httpx.Client:
     def answer(request: httpx.Request) -> httpx.Response:
         body = json.loads(request.content)
         if request.url.path == "/plan":
-            left_out = [{"kind": kind, "reasons": ["none"]} for kind, name in
-                        (("customer", "customers"), ("shipment", "shipments"))
-                        for _ in body.get(name, ())]
+            left_out = [{"kind": kind, "reasons": ["none"], "parts": stated.get("pickups")}
+                        for kind, name in (("customer", "customers"), ("shipment", "shipments"))
+                        for stated in body.get(name, ())]
             reply: Data = {"routes": [], "unassigned": left_out,
                      "cost": {"total": 7.0}, "summary": {"served": 0}}
         else:
