@@ -14,6 +14,7 @@ from app.database.connections import make_engine
 from app.serving.access.keys import SCOPES, KeyStore
 from app.serving.settings import Settings
 from tests.app.serving.observe.server import running
+from tests.conftest import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -32,6 +33,8 @@ def test_generated_requests_are_answered_as_described(tmp_path: Path) -> None:
     engine.dispose()
     with running(TANDEM_ACCESS="keys", TANDEM_DATA_DIR=str(settings.data_dir), TANDEM_ROLE="all",
                  TANDEM_WRONG_KEYS_PER_MINUTE="0", TANDEM_LOG_LEVEL="error") as server:
+        # Made once, which takes longer on a busy machine than Schemathesis waits.
+        described = set(server.client.get("/openapi.json", timeout=PATIENCE).json()["paths"])
         command = [
             Path(sys.executable).parent / "schemathesis", "run",
             f"{server.client.base_url}/openapi.json", "--header", f"Authorization: Bearer {key}",
@@ -42,7 +45,6 @@ def test_generated_requests_are_answered_as_described(tmp_path: Path) -> None:
         ]
         done = subprocess.run(command, cwd=tmp_path, text=True, stdout=subprocess.PIPE,
                               stderr=subprocess.STDOUT, check=False)
-        described = set(server.client.get("/openapi.json").json()["paths"])
     assert done.returncode == 0, done.stdout
     report = json.loads((tmp_path / "report.json").read_text("utf-8"))
     assert report["operations"]["tested"] >= len(described)

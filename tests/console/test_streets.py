@@ -189,7 +189,8 @@ def test_all_of_a_plan_on_roads_is_seen(
 def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None:
     page = open_page(city, allow=("willReadFrequently",))
     # A browser keeps the first few hundred alone, and modules come first.
-    page.evaluate("performance.clearResourceTimings()")
+    page.add_init_script("performance.setResourceTimingBufferSize(5000)")
+    page.reload()
     planned_in(page)
     page.wait_for_function(LOADED)
     sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
