@@ -100,6 +100,20 @@ test('a request is read in seconds, and written as it was stated where it stayed
   assert.equal(written.service_duration, '0:10');
 });
 
+test('times of one of several drones are read, whose schema is a union within another', () => {
+  const drones = { $ref: '#/components/schemas/DronesInput' };
+  const schemas = {
+    PlanRequest: { type: 'object', properties: {
+      drones: { anyOf: [{ oneOf: [drones, { type: 'array', items: drones }] }, { type: 'null' }] },
+    } },
+    DronesInput: { type: 'object', properties: { endurance: time('Duration') } },
+  };
+  for (const wrapped of [(each) => each, (each) => [each]]) {
+    const read = inSeconds(schemas, { drones: wrapped({ endurance: '0:30' }) });
+    assert.deepEqual(read, { drones: wrapped({ endurance: 1800 }) });
+  }
+});
+
 test('on another day all is at the same time of day', () => {
   const zone = { time_zone: 'Europe/Berlin' };
   const plain = { customers: [{ id: 'A', time_window: { earliest: 7.5 * HOUR, latest: 100000 } }] };

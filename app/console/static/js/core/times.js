@@ -55,12 +55,15 @@ function isPlain(schema) {
 
 /** Return what describes an object or array, of several schemas the one that does. */
 function shapeOf(schemas, schema, value) {
-  if (!shapes.has(schema)) {
-    const all = schema.anyOf ?? schema.oneOf ?? [schema];
-    shapes.set(schema, all.map((one) => resolve(schemas, one).schema));
-  }
+  if (!shapes.has(schema)) shapes.set(schema, shapesOf(schemas, schema));
   const type = Array.isArray(value) ? 'array' : 'object';
   return shapes.get(schema).find((one) => one.type === type);
+}
+
+/** Return all that a schema may be, also where one of several is one of several. */
+function shapesOf(schemas, schema) {
+  const all = schema.anyOf ?? schema.oneOf;
+  return all?.flatMap((one) => shapesOf(schemas, one)) ?? [resolve(schemas, schema).schema];
 }
 
 /**
