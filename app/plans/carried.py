@@ -35,6 +35,14 @@ def named(halt: Mapping[str, Any]) -> tuple[str, str]:
     return kind, name if other is None else place_name(name, other)
 
 
+def names_left_out(left: Mapping[str, Any]) -> list[str]:
+    """Return the names among all customers of who a reply leaves out: of all ends of a shipment."""
+    if left.get("kind") != "shipment":
+        return [left["id"]]
+    pickups = [end_name(left["id"], "pickup", part) for part in left.get("parts", (None,))]
+    return [*pickups, end_name(left["id"], "delivery")]
+
+
 def _halts(reply: dict[str, Any]) -> Iterator[dict[str, Any]]:
     for route in reply["routes"]:
         for trip in route["trips"]:

@@ -162,7 +162,7 @@ class _Explainer:
         reply, complete = nobody_reply(self._cost), True
         if question.customer is not None:
             reply, complete = self._of_customer(question, question.customer)
-            self._task.name_hindrances(question.customer, reply["reasons"])
+            self._task.name_hindrances([question.customer], reply["reasons"])
             if self._task.closures is not None:
                 reply["zones"] = self._task.closures.around(question.customer)
         drones = None

@@ -41,7 +41,7 @@ class Storms:
         """Have reasons that are due to the wind tell how strong it is, and when. In place."""
         for reason in reasons:
             storms = self._hindering(customer, reason["vehicle_type"], reason["code"])
-            if storms:
+            if storms and "wind" not in reason:
                 reason["wind"] = storms
                 reason["message"] = f"{reason['message']} {_words(storms)}"
 

@@ -9,7 +9,7 @@ from functools import partial
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
-from app.plans.carried import Info, carry, info_of
+from app.plans.carried import Info, carry, info_of, names_left_out
 from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
 from app.plans.geometry import Geometry
@@ -147,7 +147,7 @@ class Task:
         until = time.perf_counter() + allowed
         reply = plan_reply(self.problem, options, result, self.reasons, until)
         for left in reply["unassigned"]:
-            self.name_hindrances(left["id"], left["reasons"])
+            self.name_hindrances(names_left_out(left), left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
         if self.rules:
@@ -162,12 +162,16 @@ class Task:
         self.telling.tell(PlanReply, reply)
         return {**self.telling.stated, **reply}
 
-    def name_hindrances(self, customer: str, reasons: Iterable[Data]) -> None:
-        """Have reasons why a customer is left out name vehicles, winds and zones. In place."""
-        self.permits.name(customer, reasons)
-        self.storms.name(customer, reasons)
-        if self.closures is not None:
-            self.closures.name(customer, reasons)
+    def name_hindrances(self, customers: Sequence[str], reasons: Iterable[Data]) -> None:
+        """Have reasons why somebody is left out name vehicles, winds and zones. In place.
+
+        `customers` are all ends of a shipment, which allow the same vehicles; else one customer.
+        """
+        self.permits.name(customers[0], reasons)
+        for customer in customers:
+            self.storms.name(customer, reasons)
+            if self.closures is not None:
+                self.closures.name(customer, reasons)
 
     def read(self, reply: Data) -> Solution:
         """Return the plan of an earlier reply to this task."""

@@ -46,9 +46,10 @@ def stated_path(request: PlanRequest, path: str) -> str:
     others = [(number, place) for number, customer in enumerate(request.customers)
               for place in range(len(customer.alternatives))]
     # Customers that were added since come last.
-    first = next(added_names(request), None)
-    index = int(match[1]) - next((index for index, customer in enumerate(request.customers)
-                                  if customer.id == first), len(request.customers))
+    added = [*added_names(request)]
+    own = len(request.customers) - len(added)
+    are_added = [customer.id for customer in request.customers[max(own, 0):]] == added
+    index = int(match[1]) - (own if are_added else len(request.customers))
     inner = match[2]
     part = inner.split("[")[0].split(".")[1:2]
     if 0 <= index < len(others):

@@ -44,13 +44,16 @@ def endurance_broken(attempt: Attempt) -> Diagnosis:
 
 
 def max_range_broken(attempt: Attempt) -> Diagnosis:
-    """Say by how much a customer lies too far away."""
+    """Say by how much a customer lies too far away, or the farther end of a shipment."""
     kind, problem = attempt.vehicle_type, attempt.problem
-    trip, node = attempt.solution.routes[0].trips[0], problem.num_nodes - 1
+    trip = attempt.solution.routes[0].trips[0]
     flyer = kind if kind.flies else drones_of(attempt)
     sortie = trip.sorties[0] if trip.sorties else None
     ends = (0, -1) if sortie is None else (sortie.launch_stop, sortie.recovery_stop)
-    far = farthest(problem, flyer, [trip.stops[end].node for end in ends], node)
+    meetings = [trip.stops[end].node for end in ends]
+    served = ([stop.node for stop in trip.customer_stops] if sortie is None
+              else [visit.node for visit in sortie.visits])
+    far = max([farthest(problem, flyer, meetings, node) for node in served])
     excess = up_to_tenth(far - (flyer.max_range or 0), MM_PER_KM)
     enough = (flyer.max_range or 0) + excess
     limit = "max_range" if isinstance(flyer, VehicleType) else f"max_range{name_of(flyer)}"

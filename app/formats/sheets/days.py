@@ -36,7 +36,11 @@ def _customer(customer: Data) -> Data:
 
 
 def _shipment(shipment: Data) -> Data:
-    return shipment | {end: _place(shipment[end]) for end in ("pickup", "delivery")}
+    told = shipment | {end: _place(shipment[end]) for end in ("pickup", "delivery")
+                       if end in shipment}
+    if "pickups" in told:
+        told["pickups"] = [_place(part) for part in told["pickups"]]
+    return told
 
 
 def _place(place: Data) -> Data:

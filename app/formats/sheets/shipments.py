@@ -127,9 +127,11 @@ def _wait_for_release(pickup: Data, release: float) -> None:
     if not release:
         return
     if "time_windows" in pickup:
-        pickup["time_windows"] = [
-            window | {"earliest": max(window["earliest"], release)}
-            for window in pickup["time_windows"] if window.get("latest", release) >= release]
+        windows = pickup["time_windows"]
+        left = [window for window in windows if window.get("latest", release) >= release]
+        # One that has closed by then stays, and is refused.
+        pickup["time_windows"] = [window | {"earliest": max(window["earliest"], release)}
+                                  for window in left or windows[-1:]]
     else:
         window = pickup.get("time_window", {"earliest": 0.0})
         pickup["time_window"] = window | {"earliest": max(window["earliest"], release)}
@@ -155,5 +157,5 @@ def _unrelated(shipments: Iterable[Entry]) -> list[Doubt]:
     named = [row.cell(meaning) for shipment in shipments for row in shipment.rows
              for meaning in RELATED if any(row.get(meaning) or ())]
     return [Doubt("RELATION_OF_SHIPMENT", f"{len(named)} shipments name whom they go with, or "
-                  f"before, such as {named[0]}: relations bind customers alone.",
+                  f"before, such as {named[0]}: that is read of customers alone.",
                   cell=named[0])] if named else []

@@ -116,6 +116,22 @@ def test_who_lies_in_a_zone_is_told_which_and_whose(client: httpx.Client, upper:
     assert reason["remedy"] == "fits if a truck may serve it"
 
 
+@pytest.mark.parametrize("end", ["pickup", "delivery"])
+def test_a_shipment_of_vehicles_that_fly_is_told_which_zone_keeps_them_off(
+        client: httpx.Client, end: str) -> None:
+    request = asked(ed269(zone(circle(400, BEHIND))), customers=[
+        {"id": "s", "location": DEPOT, "demand": [1]}])
+    (kind,) = request["fleet"]
+    kind["flies"] = kind.pop("drones") is not None
+    ends = {"pickup": DEPOT, "delivery": DEPOT} | {end: BEHIND}
+    request["shipments"] = [{"id": "s", "amount": [1]} | {
+        name: {"location": place, "served_by": "either"} for name, place in ends.items()}]
+    (left,) = planned(client, request)["unassigned"]
+    (reason,) = left["reasons"]
+    assert (left["kind"], reason["code"]) == ("shipment", "AIRSPACE")
+    assert reason["message"].startswith("It lies in the zone Harbour (FIN0001)")
+
+
 def test_who_lies_behind_a_zone_is_told_which(client: httpx.Client) -> None:
     outer = [[24.95, 60.16], [24.97, 60.16], [24.97, 60.18], [24.95, 60.18]]
     inner = [[24.955, 60.165], [24.965, 60.165], [24.965, 60.175], [24.955, 60.175]]

@@ -107,6 +107,16 @@ def test_several_pickups_of_one_order_are_parts_of_a_shipment() -> None:
     assert request(read(rows))["fleet"][0]["capacity"] == [10]
     lacking = read(rows.replace(";4;;", ";;;"))
     assert [(error.code, error.cell) for error in lacking.errors] == [("SHIPMENT_AMOUNTS", "F5")]
+    [shipment] = request(read(rows, day="2026-11-27", time_zone="Europe/Berlin"))["shipments"]
+    assert [part.get("time_window") for part in shipment["pickups"]] == [
+        {"earliest": "08:00", "latest": "09:00"}, None]
+
+
+def test_a_parcel_that_is_there_after_all_windows_of_its_pickup_is_refused() -> None:
+    reply = read("Order;Kind;Name;Lat;Lon;Qty;Window;Available from\n"
+                 "7;pickup;A;48.1;11.1;2;8:00-9:00, 10:00-11:00;12:00\n7;delivery;C;48.3;11.3;;;\n")
+    assert [(error.code, error.cell) for error in reply.errors] == [
+        ("WINDOW_ENDS_BEFORE_START", "G2")]
 
 
 @pytest.mark.parametrize(("rows", "error"), [
