@@ -31,7 +31,8 @@ CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "deman
 """Meanings of the columns that fields of a customer come from."""
 
 _RELATION = re.compile(r"\$\.relations\[(\d+)\]")
-_SHIPMENT = re.compile(r"\$\.shipments\[(\d+)\]\.?(?:(pickup|delivery)\.)?(\w*)")
+_SHIPMENT = re.compile(
+    r"\$\.shipments\[(\d+)\]\.?(?:(pickup|delivery)\.|pickups\[(\d+)\]\.)?(\w*)")
 _PATH = re.compile(r"\$\.customers\[(\d+)\]\.?(\w*)")
 
 LONGEST_NAME, LONGEST_UNIT = 200, 50
@@ -112,9 +113,11 @@ def _cell(error: InputError, work: Import, relations: Sequence[Relation]) -> str
     if related := _RELATION.match(error.path):
         return relations[int(related[1])].cell
     if sent := _SHIPMENT.match(error.path):
-        rows = work.shipments[int(sent[1])].rows
-        row = next((row for row in rows if row.side == sent[2]), rows[-1])
-        return row.cell(*CELLS.get(sent[3], ("shipment", "order", "name")))
+        shipment = work.shipments[int(sent[1])]
+        row = next((row for row in shipment.rows if row.side == sent[2]), shipment.rows[-1])
+        if sent[3] is not None:
+            row = shipment.heads[int(sent[3])]
+        return row.cell(*CELLS.get(sent[4], ("shipment", "order", "name")))
     found = _PATH.match(error.path)
     if found is None:
         return None

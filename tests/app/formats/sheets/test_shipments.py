@@ -113,10 +113,12 @@ def test_several_pickups_of_one_order_are_parts_of_a_shipment() -> None:
 
 
 def test_a_parcel_that_is_there_after_all_windows_of_its_pickup_is_refused() -> None:
-    reply = read("Order;Kind;Name;Lat;Lon;Qty;Window;Available from\n"
-                 "7;pickup;A;48.1;11.1;2;8:00-9:00, 10:00-11:00;12:00\n7;delivery;C;48.3;11.3;;;\n")
-    assert [(error.code, error.cell) for error in reply.errors] == [
-        ("WINDOW_ENDS_BEFORE_START", "G2")]
+    rows = ("Order;Kind;Name;Lat;Lon;Qty;Window;Available from\n"
+            "7;pickup;A;48.1;11.1;2;8:00-9:00, 10:00-11:00;12:00\n7;delivery;C;48.3;11.3;;;\n")
+    for more, cells in (("", ["G2"]), ("7;pickup;B;48.2;11.2;1;7:00-8:00;\n", ["G2", "G4"])):
+        reply = read(rows + more)
+        assert [(error.code, error.cell) for error in reply.errors] == [
+            ("WINDOW_ENDS_BEFORE_START", cell) for cell in cells]
 
 
 @pytest.mark.parametrize(("rows", "error"), [
