@@ -65,6 +65,9 @@ class StepMaker:
         self._is_geographic = problem.coordinate_system == GEOGRAPHIC
         self._depots = {depot.id: point_of(depot.location) for depot in problem.depots}
         self._customers = {customer.id: customer for customer in problem.customers}
+        ends = [shipment.named_ends() for shipment in problem.shipments]
+        self._fetched = frozenset([name for named in ends for name, _ in named[:-1]])
+        self._shipped = self._fetched.union([named[-1][0] for named in ends])
         # Those come back to are named as depots and customers are.
         self._sites = (
             self._depots
@@ -108,7 +111,7 @@ class StepMaker:
         if name == "stop":
             customer = self._customers[stop.id]
             yield Visit(stop.service_start, step.model_copy(update={
-                "windows": _windows(customer), "customers": [_goods(customer)],
+                "windows": _windows(customer), "customers": [self._goods(stop.id)],
                 "duration": stop.departure - stop.service_start}))
             return
         load = self._load(trip) if name == "depart" else None
@@ -124,7 +127,7 @@ class StepMaker:
         step = self._step(name, kind, index, trip.stops[position], position, time)
         return Visit(time - lasts, step.model_copy(update={
             "id": flight_id(index, name, sortie), "drone": sortie.drone, "duration": lasts,
-            "customers": [_goods(self._customers[visit.id]) for visit in sortie.customers]}))
+            "customers": [self._goods(visit.id) for visit in sortie.customers]}))
 
     def _step(self, name: StepKind, kind: VehicleTypeInput, index: int, stop: StopInput,
               position: int, time: float) -> StepReply:
@@ -150,9 +153,19 @@ class StepMaker:
         return None if place is None else DestinationReply(latitude=place[1], longitude=place[0])
 
     def _load(self, trip: TripInput) -> list[float]:
-        """Return what is aboard when a trip departs: all that it delivers."""
-        demands = [self._customers[name].demand for name in customers_of(trip.stops, trip.sorties)]
+        """Return what is aboard when a trip departs: all that it delivers but shipments."""
+        demands = [_nothing(customer.demand) if name in self._shipped else customer.demand
+                   for name in customers_of(trip.stops, trip.sorties)
+                   for customer in [self._customers[name]]]
         return [_plain(sum(amounts)) for amounts in zip(*demands, strict=True)]
+
+    def _goods(self, name: str) -> GoodsReply:
+        """Return what is handed over to a customer, and taken in: at a pickup all that is its."""
+        customer = self._customers[name]
+        hand_over, take_in = customer.demand, customer.pickup
+        if name in self._fetched:
+            hand_over, take_in = _nothing(customer.demand), customer.demand
+        return GoodsReply(id=name, hand_over=hand_over, take_in=take_in, info=customer.info)
 
 
 def customers_of(stops: Sequence[StopInput], sorties: Sequence[SortieInput]) -> list[str]:
@@ -161,9 +174,8 @@ def customers_of(stops: Sequence[StopInput], sorties: Sequence[SortieInput]) -> 
             *(visit.id for sortie in sorties for visit in sortie.customers)]
 
 
-def _goods(customer: CustomerInput) -> GoodsReply:
-    return GoodsReply(id=customer.id, hand_over=customer.demand, take_in=customer.pickup,
-                      info=customer.info)
+def _nothing(amounts: Sequence[float]) -> list[float]:
+    return [0.0] * len(amounts)
 
 
 def _windows(customer: CustomerInput) -> list[WindowReply]:

@@ -166,3 +166,20 @@ for (const [remedy, kind, changed] of [
     assert.ok(changed(result), JSON.stringify(result));
   });
 }
+
+test('of a relation nothing is left that one shipment keeps anyhow', () => {
+  const related = (kind, ...customers) => ({ kind, customers });
+  const shipments = ['s', 't'].map((id) => ({ id, amount: [1], pickup: {}, delivery: {} }));
+  const changed = applyRemedy({
+    ...request,
+    shipments,
+    relations: [
+      related('together', 'A', 's/pickup', 's/delivery'),
+      related('together', 'A', 's/pickup', 't/pickup'),
+      related('before', 's/pickup', 'A', 's/delivery'),
+    ],
+  }, 'A', { vehicle_type: 'van', remedy: 'fits without its relations' });
+  assert.deepEqual(changed.relations, [
+    related('together', 's/pickup', 't/pickup'), related('before', 's/pickup', 's/delivery'),
+  ]);
+});

@@ -9,6 +9,8 @@ from app.records.dispatches.going_on import OnTheRoad, going_on
 from app.records.dispatches.schemas import DispatchRequest, GoingOnReply
 from app.records.dispatches.standing import Told
 from app.records.dispatches.steps import StepMaker
+from app.requests.reading import read_request
+from app.schemas.plan import PlanInput
 from tests.app.plans.flights.asking import files_of
 from tests.app.records.dispatches.days import (
     DEPART, FIRST, LAUNCH, PROBLEM, RECOVER, RETURN, Data, dispatched, event, holding, step_of,
@@ -152,3 +154,24 @@ def test_whatever_was_told_can_be_planned_on_from(client: httpx.Client, told: di
     checked = client.post("/check", json={"problem": problem, "plan": again.json()})
     codes = {violation["code"] for violation in checked.json()["violations"]}
     assert not codes & {"FROZEN", "PAST", "ABOARD", "STRUCTURE"}, checked.json()["violations"]
+
+
+def test_driver_is_told_what_of_a_shipment_is_taken_in_and_handed_over() -> None:
+    places = {name: {"location": [11.51, 48.1]} for name in ("mill", "farm", "shop")}
+    problem = PROBLEM | {"customers": PROBLEM["customers"][:1], "shipments": [{
+        "id": "s", "delivery": places["shop"],
+        "pickups": [places[name] | {"id": name, "amount": [amount]}
+                    for name, amount in (("mill", 1), ("farm", 2))]}]}
+    stops = [stop("depot", "hub", 30_000, 30_000), stop("customer", "A", 30_100, 30_160),
+             stop("pickup", "s", 30_200, 30_200) | {"part": "mill"},
+             stop("pickup", "s", 30_300, 30_300) | {"part": "farm"},
+             stop("delivery", "s", 30_400, 30_400), stop("depot", "hub", 30_500, 30_500)]
+    (route,) = PlanInput.model_validate_json(json.dumps({"routes": [{
+        "vehicle": "truck-1", "type": "truck", "trips": [{"stops": stops, "sorties": []}]}],
+        "unassigned": []})).routes
+    depart, *served, _ = StepMaker(read_request(json.dumps(problem).encode(), None)).steps(route)
+    assert depart.load == [2]
+    assert [(each.id, each.hand_over, each.take_in)
+            for step in served for each in step.customers] == [
+        ("A", [2], None), ("s/pickup/mill", [0], [1]), ("s/pickup/farm", [0], [2]),
+        ("s/delivery", [3], None)]

@@ -1,6 +1,7 @@
 /** Remedies of unassigned customers as changes of the problem. */
 
 import { getIn, removeIn, setIn } from './paths.js';
+import { endsOf } from './visits.js';
 import { closingLater, windowsOf } from './windows.js';
 
 const NUMBER = '([\\d.,]+)';
@@ -258,13 +259,19 @@ function allowType(request, { type, customer }) {
 
 /** Let relations bind a customer, or a shipment, no longer; of one alone nothing is left. */
 function unrelate(request, { id, customer: [all] }) {
-  const isIts = (name) => (all === 'shipments' ? name.startsWith(`${id}/`) : name === id);
+  const shipmentAt = new Map((request.shipments ?? []).flatMap(
+    (shipment) => endsOf(shipment).map(({ name }) => [name, shipment.id])));
+  const isIts = (name) => (all === 'shipments' ? shipmentAt.get(name) === id : name === id);
+  // Ends of one shipment go together anyhow.
+  const isLeft = ({ kind, customers }) => customers.length > 1 && (kind === 'before'
+    || customers.some((name) => !shipmentAt.has(name)
+      || shipmentAt.get(name) !== shipmentAt.get(customers[0])));
   const relations = request.relations
     .map((relation) => ({
       ...relation,
       customers: relation.customers.filter((name) => !isIts(name)),
     }))
-    .filter(({ customers }) => customers.length > 1);
+    .filter(isLeft);
   return { ...request, relations };
 }
 
