@@ -374,30 +374,3 @@ def test_two_shipments_of_one_name_are_told_once(searching: httpx.Client,
     errors = searching.post("/plan", json=paired).json()["errors"]
     assert [(error["code"], error["path"], error["message"]) for error in errors] == [
         ("DUPLICATE_ID", "$.shipments[1].id", "shipments[0] has the same id: give each its own.")]
-
-
-def test_a_customer_called_as_a_pickup_is_told_so(searching: httpx.Client,
-                                                  paired: Request) -> None:
-    (shipment,) = paired["shipments"]
-    pickup, amount = shipment.pop("pickup"), shipment.pop("amount")
-    shipment["pickups"] = [pickup | {"id": name, "amount": amount} for name in "pq"]
-    paired["customers"][0]["id"] = "s1/pickup/p"
-    errors = searching.post("/plan", json=paired).json()["errors"]
-    assert [(error["code"], error["path"], error["message"]) for error in errors] == [
-        ("DUPLICATE_ID", "$.shipments[0].pickups[0].id",
-         "customers[0] has the same id: give each its own.")]
-
-
-@pytest.mark.parametrize("far", ["pickup", "delivery"])
-def test_what_flies_is_told_how_far_the_farther_end_lies(
-        searching: httpx.Client, paired: Request, far: str) -> None:
-    paired["customers"], paired["planar_unit"] = [], 1000
-    paired["fleet"][0] |= {"flies": True, "max_range": 2000, "drones": None}
-    (shipment,) = paired["shipments"]
-    for end in ("pickup", "delivery"):
-        shipment[end] = {"location": [0, 5 if end == far else 1], "served_by": "either"}
-    paired["depots"] = [{"id": "hub", "location": [0, 0]}]
-    (left,) = searching.post("/plan", json=paired).json()["unassigned"]
-    (reason,) = left["reasons"]
-    assert reason["message"] == "It lies 3 km farther away than the max_range."
-    assert reason["remedy"] == "fits if max_range were 3 km longer"
