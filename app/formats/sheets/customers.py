@@ -38,6 +38,21 @@ class Entry:
     rows: list[Row]
     heads: tuple[Row, ...] = ()  # of a shipment: the first row of each place
 
+    @property
+    def first(self) -> str:
+        """What relations call who is served first: the customer, or the first pickup."""
+        name: str = self.customer["id"]
+        if "delivery" not in self.customer:
+            return name
+        parts = self.customer.get("pickups")
+        return f"{name}/pickup/{parts[0]['id']}" if parts else f"{name}/pickup"
+
+    @property
+    def last(self) -> str:
+        """What relations call who is served last: the customer, or the delivery."""
+        name: str = self.customer["id"]
+        return f"{name}/delivery" if "delivery" in self.customer else name
+
     def places(self) -> list[tuple[Row, Data]]:
         """Return the first row of each place, and what it says of it."""
         if "delivery" not in self.customer:

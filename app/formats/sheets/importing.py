@@ -139,8 +139,8 @@ def _serve(work: Import, entries: Sequence[Entry], refused: frozenset[int],
            if not entry.rows[0].side and not is_alternative(entry.rows[0])]
     work.stops, doubts = together(own, settings.mapping.same_place)
     told, wrong = add_alternatives(others, work.stops, stops_called(work.stops), refused)
-    work.shipments, more, errors = shipments_of(entries)
-    work.doubts += doubts + told + more
+    work.shipments, errors = shipments_of(entries)
+    work.doubts += doubts + told
     work.errors += wrong + errors
 
 
@@ -155,7 +155,7 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: Imp
     except Incomplete as incomplete:
         work.errors.append(incomplete.error)
         return
-    relations, alone = relations_of(work.stops, work.asking)
+    relations, alone = relations_of([*work.stops, *work.shipments], work.asking)
     if relations:
         request["relations"] = [relation.stated for relation in relations]
     work.doubts += doubts + alone

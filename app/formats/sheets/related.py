@@ -13,6 +13,9 @@ from app.formats.sheets.rows import Row
 from app.formats.sheets.vans import Van
 
 RELATED = ("together", "apart")
+NAMES = ("name", "order", "shipment")
+"""Columns by which others name a customer or shipment."""
+
 CUSTOMERS, GROUPS = "customers", "groups"
 ONE, ANY = "one", "any"
 
@@ -36,7 +39,8 @@ def relations_of(stops: Sequence[Entry],
                  asking: Asking) -> tuple[list[Relation], list[Doubt]]:
     """Return who is served together, apart or in order, and which names bind nobody. In place.
 
-    A cell names another customer, or a group that other rows name too.
+    A cell names another customer or shipment, or a group that other rows name too. A shipment
+    comes before others once it is delivered, and behind them by its first pickup.
     """
     known = stops_called(stops)
     found, alone = _orders(stops, known, asking)
@@ -70,14 +74,15 @@ def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
         for row, meaning in product(stop.rows, ("before", "after")):
             for text in _named(row, meaning):
                 others = [other for other in known.get(simple(text), ())
-                          if other != stop.customer["id"]]
+                          if other != stop.last]
                 alone += [] if others else [_alone(row.cell(meaning), text)]
                 for other in others:
-                    pair = stop.customer["id"], other
+                    pair = stop.last, other
                     pairs.setdefault(pair if meaning == "before" else pair[::-1],
                                      row.cell(meaning))
     if not pairs:
         return [], alone
+    begins = {stop.last: stop.first for stop in stops}
     (first, second), cell = next(iter(pairs.items()))
     answer = asking.ask(Question(
         "orders", "orders", f"Some are served before others, such as {first!r} before {second!r} "
@@ -85,17 +90,17 @@ def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
         {ONE: "By one vehicle", ANY: "By any, trucks alone"}, ONE,
         {"count": len(pairs), "first": first[:80], "second": second[:80]}, cell=cell))
     across = {} if answer == ONE else {"same_vehicle": False}
-    return [Relation({"kind": "before", "customers": list(pair), **across}, cell)
-            for pair, cell in pairs.items()], alone
+    return [Relation({"kind": "before", "customers": [before, begins[behind]], **across}, cell)
+            for (before, behind), cell in pairs.items()], alone
 
 
 def stops_called(stops: Sequence[Entry]) -> dict[str, list[str]]:
-    """Return the stops by their names and order numbers."""
+    """Return the stops by their names and order numbers, each as relations call its last end."""
     found: dict[str, list[str]] = defaultdict(list)
     for stop in stops:
-        names = [name for row in stop.rows for name in (row.get("name"), row.get("order"))]
+        names = [row.get(meaning) for row in stop.rows for meaning in NAMES]
         for name in {simple(str(name)) for name in (stop.customer["id"], *names) if name}:
-            found[name].append(stop.customer["id"])
+            found[name].append(stop.last)
     return found
 
 
@@ -126,8 +131,8 @@ def _groups(stops: Sequence[Entry], kind: str) -> tuple[
             for text in _named(row, kind):
                 name = simple(text)
                 first.setdefault(name, (row.cell(kind), text))
-                if stop.customer["id"] not in groups[name]:
-                    groups[name].append(stop.customer["id"])
+                if stop.last not in groups[name]:
+                    groups[name].append(stop.last)
     return groups, first
 
 

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
-from app.formats.sheets.cells import CellError, Doubt
+from app.formats.sheets.cells import CellError
 from app.formats.sheets.customers import LONGEST_NAME, Entry, joined
 from app.formats.sheets.readers import DELIVERY, PICKUP
 from app.formats.sheets.rows import Row
@@ -12,13 +12,12 @@ from model.problem import MOST_PICKUPS
 
 OF_END = ("location", "service_duration", "time_window", "time_windows", "info")
 OF_BOTH = ("vehicles", "unassigned_cost")
-RELATED = ("together", "apart", "before", "after")
 
 Data = dict[str, Any]
 
 
-def shipments_of(entries: Sequence[Entry]) -> tuple[list[Entry], list[Doubt], list[CellError]]:
-    """Return the shipments that rows make, what they can't be, and what is wrong."""
+def shipments_of(entries: Sequence[Entry]) -> tuple[list[Entry], list[CellError]]:
+    """Return the shipments that rows make, and what is wrong."""
     wholes: dict[str | int, list[Entry]] = {}
     for entry in entries:
         row = entry.rows[0]
@@ -40,7 +39,7 @@ def shipments_of(entries: Sequence[Entry]) -> tuple[list[Entry], list[Doubt], li
                              names)
         names.add(shipment.customer["id"])
         found.append(shipment)
-    return found, _unrelated(found), errors
+    return found, errors
 
 
 def _wrong(ends: Sequence[Sequence[Entry]]) -> CellError | None:
@@ -150,12 +149,3 @@ def _own_name(name: str, names: set[str]) -> str:
         number += 1
         free = f"{name} ({number})"
     return free
-
-
-def _unrelated(shipments: Iterable[Entry]) -> list[Doubt]:
-    """Return the doubt about shipments that name whom they go with."""
-    named = [row.cell(meaning) for shipment in shipments for row in shipment.rows
-             for meaning in RELATED if any(row.get(meaning) or ())]
-    return [Doubt("RELATION_OF_SHIPMENT", f"{len(named)} shipments name whom they go with, or "
-                  f"before, such as {named[0]}: that is read of customers alone.",
-                  cell=named[0])] if named else []

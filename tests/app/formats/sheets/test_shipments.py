@@ -157,6 +157,16 @@ def test_orders_hold_for_one_vehicle_or_any() -> None:
     assert [(error.code, error.cell) for error in around.errors] == [("CONTRADICTION", "E3")]
 
 
+def test_shipments_go_with_others_and_come_before_or_after_them() -> None:
+    lines = TWO_ROWS.splitlines()
+    file = "\n".join([f"{lines[0]};Zusammen mit;Nach Kunde", f"{lines[1]};;", f"{lines[2]};9;",
+                      "9;Lieferung;Ende;48,3;11,6;3;;;;7", "10;Lieferung;Anfang;48,3;11,7;3;;;;",
+                      "11;Abholung;Quelle;48,2;11,7;3;;;;10", "11;Lieferung;Ziel;48,1;11,7;;;;;"])
+    assert [(found["kind"], found["customers"]) for found in request(read(file))["relations"]] == [
+        ("before", ["7/delivery", "Ende"]), ("before", ["Anfang", "11/pickup"]),
+        ("together", ["Ende", "7/delivery"])]
+
+
 def test_vehicles_have_breaks_and_driving_rules() -> None:
     def fill(book: xlsxwriter.Workbook) -> None:
         rows = (("Fahrzeug", "Kapazität", "Pause", "Pausendauer", "Max. Arbeitszeit", "Lenkzeiten"),
