@@ -1,6 +1,7 @@
 // Changes of a route's sequence: insertions, and the removal of marked customers.
 #pragma once
 
+#include <cstdint>
 #include <initializer_list>
 
 #include "rules/pair.h"
@@ -57,7 +58,9 @@ constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by d
                                // site and back there
 
 // One of several pickups in a move: its number among them, behind a former stop.
-constexpr Int picked_behind(Int stop, Int number) { return stop * most_pickups + number; }
+constexpr std::int32_t picked_behind(Int stop, Int number) {
+    return static_cast<std::int32_t>(stop * most_pickups + number);
+}
 
 // Tell whether a customer is served by way of stops more at launch sites.
 inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }

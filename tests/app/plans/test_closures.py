@@ -29,7 +29,7 @@ def asked(*zones: dict[str, Any], altitude: float = 100, **more: Any) -> dict[st
         "customers": [{"id": "behind", "location": BEHIND, "demand": [1], "served_by": "drone"}],
         "fleet": [{"id": "truck", "count": 1, "capacity": [9], "shift": {"latest": 28_800},
                    "drones": {"count": 1, "capacity": [9], "altitude": altitude}}],
-        "airspace": {"zones": list(zones), **airspace}, "options": {"time_limit": 0}} | more
+        "airspace": {"zones": list(zones), **airspace}, "options": {"search_iterations": 0}} | more
 
 
 def flown(client: httpx.Client, request: dict[str, Any]) -> float:
