@@ -193,6 +193,8 @@ def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None
     page.reload()
     planned_in(page)
     page.wait_for_function(LOADED)
+    page.wait_for_function("performance.getEntriesByType('resource').some(entry => "
+                           "entry.name.includes('/map/'))")
     sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
                           "[entry.name, entry.encodedBodySize])")
     streets = [size for name, size in sizes if "/map/" in name]
