@@ -118,7 +118,6 @@ public:
     // Take a break, or a rest; returns when it begins, `none` if it can't then, or should have
     // begun before. `stood` is then since when the truck stands.
     Int take(Int number, RestPlace place) {
-        Int begin = time_;
         if (place == RestPlace::arrival) {
             drive(left_);
         } else if (place == RestPlace::way) {
@@ -127,7 +126,7 @@ public:
                                  : may_drive(*type_, driver_, time_);
             drive(std::clamp(most, Int{0}, left_));
         }
-        begin = stood_ = time_;
+        Int begin = stood_ = time_;
         if (is_stated(number)) {
             const Break stated = break_of(*type_, number, begin_);
             begin = stated.start(time_);

@@ -105,73 +105,75 @@ private:
             !may_launch(type_, route_, fleet_.sortie[slot_], trip_)) {
             return false;
         }
-        for (Int row = first_drone_row(data_.type, route_.type); row >= 0;
-             row = next_drone_row(data_.type, row)) {
-            if (data_.can(row, 1, node) &&
-                has_battery(data_.type, route_, fleet_.sortie[slot_], trip_, row)) {
-                fly_by(row, node, places);
-            }
-        }
+        for_each_row(node, node, [&](Int row) { fly_by(row, node, places); });
         return !places.items().empty();
     }
 
     void fly_by(Int row, Int node, EndPlaces& places) const {
-        const VehicleType& drone = data_.type[row];
-        const Rate& rate = data_.rate[row];
-        const LegRow inward = legs_to(data_.back, drone.drone_travel, node);
-        const LegRow onward = legs_from(data_.leg, drone.home_travel, node);
-        const bool crosses = data_.strategy.crossings && !waits_for_drones(type_);
-        for (Int launch = trip_.first; launch <= trip_.last; ++launch) {
-            const Leg out = leg_from(inward, stops_[launch].node);
-            if (is_dear(flown_cost(rate, out.distance)) ||
-                !may_meet(drone, stops_[launch].node, node))
-                continue;
-            const Int last = crosses ? std::min(trip_.last, launch + max_span) : launch;
-            for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
-                 ++recovery) {
-                const Leg home = leg_to(onward, stops_[recovery].node);
-                const double cost = flown_cost(rate, out.distance + home.distance);
-                const Flight flight{drone, data_.place.by_air(drone)[node], out.duration,
-                                    home.duration};
-                if (!is_dear(cost) && may_meet(drone, stops_[recovery].node, node) &&
-                    flight.can_serve()) {
-                    places.add({cost, row, launch, recovery});
-                }
-            }
-        }
+        const Windows place = data_.place.by_air(data_.type[row])[node];
+        const auto note = [&](const Flown& flown) {
+            const Flight flight{data_.type[row], place, flown.out, flown.home};
+            if (flight.can_serve()) places.add({flown.cost, row, flown.launch, flown.recovery});
+        };
+        for_each_flight(row, node, node, 0, note);
     }
 
     // Lists sorties that serve both ends. In place.
     void fly_both() {
+        for_each_row(pickup_, delivery_, [&](Int row) {
+            if (data_.visits[row] < 2) return;
+            const TravelLegs legs = legs_of(data_.leg, data_.type[row].drone_travel);
+            const Int between = leg(legs, pickup_, delivery_).distance;
+            for_each_flight(row, pickup_, delivery_, between, [&](const Flown& flown) {
+                const EndPlace pickup{flown.cost, row, flown.launch, flown.recovery};
+                pairs_.add({flown.cost, pickup, {0.0, by_same, 0, 0}});
+            });
+        });
+    }
+
+    // Calls `visit` with each row of drones that may serve two customers and has a battery.
+    template <class Visit>
+    void for_each_row(Int first, Int last, const Visit& visit) const {
         for (Int row = first_drone_row(data_.type, route_.type); row >= 0;
              row = next_drone_row(data_.type, row)) {
-            if (data_.visits[row] > 1 && data_.can(row, 1, pickup_) &&
-                data_.can(row, 1, delivery_) &&
+            if (data_.can(row, 1, first) && data_.can(row, 1, last) &&
                 has_battery(data_.type, route_, fleet_.sortie[slot_], trip_, row)) {
-                fly_both_by(row);
+                visit(row);
             }
         }
     }
 
-    void fly_both_by(Int row) {
+    // From which stop to which a drone flies, how long its first and last leg take, and what it
+    // costs.
+    struct Flown {
+        Int launch, recovery, out, home;
+        double cost;
+    };
+
+    // Calls `visit` with each flight of a row that serves one customer first and one last,
+    // `between` whom it is so far, from stops where it may be launched to where it may be
+    // recovered.
+    template <class Visit>
+    void for_each_flight(Int row, Int first, Int last, Int between, const Visit& visit) const {
         const VehicleType& drone = data_.type[row];
         const Rate& rate = data_.rate[row];
-        const LegRow inward = legs_to(data_.back, drone.drone_travel, pickup_);
-        const LegRow onward = legs_from(data_.leg, drone.home_travel, delivery_);
-        const Int between =
-            leg(legs_of(data_.leg, drone.drone_travel), pickup_, delivery_).distance;
+        const LegRow inward = legs_to(data_.back, drone.drone_travel, first);
+        const LegRow onward = legs_from(data_.leg, drone.home_travel, last);
         const bool crosses = data_.strategy.crossings && !waits_for_drones(type_);
         for (Int launch = trip_.first; launch <= trip_.last; ++launch) {
-            const Int from = stops_[launch].node;
-            const Int out = distance_from(inward, from) + between;
-            if (is_dear(flown_cost(rate, out)) || !may_meet(drone, from, pickup_)) continue;
-            const Int last = crosses ? std::min(trip_.last, launch + max_span) : launch;
-            for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= last;
+            const Leg out = leg_from(inward, stops_[launch].node);
+            const Int far_out = out.distance + between;
+            if (is_dear(flown_cost(rate, far_out)) ||
+                !may_meet(drone, stops_[launch].node, first)) {
+                continue;
+            }
+            const Int latest = crosses ? std::min(trip_.last, launch + max_span) : launch;
+            for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= latest;
                  ++recovery) {
-                const Int to = stops_[recovery].node;
-                const double cost = flown_cost(rate, out + distance_to(onward, to));
-                if (!is_dear(cost) && may_meet(drone, to, delivery_)) {
-                    pairs_.add({cost, {cost, row, launch, recovery}, {0.0, by_same, 0, 0}});
+                const Leg home = leg_to(onward, stops_[recovery].node);
+                const double cost = flown_cost(rate, far_out + home.distance);
+                if (!is_dear(cost) && may_meet(drone, stops_[recovery].node, last)) {
+                    visit({launch, recovery, out.duration, home.duration, cost});
                 }
             }
         }
