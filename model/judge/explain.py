@@ -158,7 +158,7 @@ def _by_way_of_others(problem: Problem, solution: Solution, passage: Passage,
         price = ceil(cost * 100) / 100
         return Reason(index, "COST", f"{way} at a cost of {price:.2f}; leaving those out who are "
                       f"costs {left_out:.2f}.")
-    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    used = _num_used(solution, index)
     if used >= vehicle_type.count:
         why = "it is" if vehicle_type.count == 1 else f"all {vehicle_type.count} are"
         return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.")
@@ -191,7 +191,7 @@ def _unused(problem: Problem, solution: Solution, index: int, node: int,
         way = f"A drone of {vehicle_type.id} could serve it from a stop at {hosts[0].id}"
     elif hosts:
         way = f"{vehicle_type.id} could serve it after {hosts[0].id}"
-    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    used = _num_used(solution, index)
     lacking = _lacking_at_hub(problem, solution, index, used)
     if lacking is not None:
         return replace(lacking, message=f"{way}, but {lacking.message}")
@@ -203,7 +203,7 @@ def _not_worth(problem: Problem, solution: Solution, index: int, node: int, atte
     """Say what keeps the search from a way that keeps all rules."""
     vehicle_type, cost = problem.vehicle_types[index], attempt.evaluation.cost.total
     hosts = attempt.problem.customers[:-1] if not attempt.problem.shipments else ()
-    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    used = _num_used(solution, index)
     customer = problem.customer_at(problem.first_place(node))
     left_out = problem.cost_of_leaving_out(customer)
     is_dear = not hosts and cost >= left_out
@@ -249,7 +249,7 @@ def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> 
 def _unrelated(problem: Problem, solution: Solution, reason: Reason) -> Reason:
     """Return a reason with the remedy that relations bind nobody, where a vehicle is left."""
     index = reason.vehicle_type
-    used = len({route.vehicle for route in solution.routes if route.vehicle_type == index})
+    used = _num_used(solution, index)
     is_left = used < problem.vehicle_types[index].count
     if not is_left or _lacking_at_hub(problem, solution, index, used) is not None:
         return reason
@@ -268,6 +268,11 @@ def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -
         return None
     return Reason(index, "RELATION", f"{problem.vehicle_types[index].id} can't serve it in its "
                   f"order with {names}, as the plan serves these.")
+
+
+def _num_used(solution: Solution, index: int) -> int:
+    """Return how many vehicles of a type a plan uses."""
+    return len({route.vehicle for route in solution.routes if route.vehicle_type == index})
 
 
 def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int) -> Reason | None:

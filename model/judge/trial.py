@@ -129,13 +129,13 @@ def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
         small = small_problem(problem, kind, ends, drones)
         for flown in ({0}, {1}, {0, 1}):
             if flown <= may_fly:
-                attempt = _judge(*_alone(small, flown))
+                attempt = _judge(small, _alone(small, flown))
                 if not attempt.codes:
                     return attempt
     return by_truck
 
 
-def _alone(small: Problem, flown: Collection[int]) -> tuple[Problem, TripDecision]:
+def _alone(small: Problem, flown: Collection[int]) -> TripDecision:
     """Return a trip for one shipment, of which drones serve some ends, 0 or 1, by truck the others.
 
     They fetch it from the trip's start, and deliver it from its end.
@@ -147,7 +147,7 @@ def _alone(small: Problem, flown: Collection[int]) -> tuple[Problem, TripDecisio
     sorties = [SortieDecision((pickup,), 0, 0)] if 0 in flown else []
     if 1 in flown:
         sorties.append(SortieDecision((delivery,), last, last))
-    return small, TripDecision(nodes, tuple(sorties))
+    return TripDecision(nodes, tuple(sorties))
 
 
 def _try_parts(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
@@ -165,7 +165,7 @@ def _by_truck(small: Problem) -> Attempt:
 
     As soon as possible, or later so that nobody waits for a window to open.
     """
-    _, decision = _alone(small, ())
+    decision = _alone(small, ())
     best = _judge(small, decision)
     for start in _starts_of_shipment(small):
         if not best.codes:
