@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 from pydantic import ValidationError
-from pydantic_core import to_json
+from pydantic_core import from_json, to_json
 
 from app.cli.file_errors import EXIT_BAD_INPUT, refuse
 from app.formats.sheets.addresses import Finder
@@ -56,6 +56,9 @@ def import_sheet(
     speed: Annotated[float | None, typer.Option(help="Speed in km/h.")] = None,
     drones: Annotated[int, typer.Option(help="Drones on each vehicle.")] = 0,
     drone_capacity: Annotated[str | None, typer.Option(help="What a drone carries.")] = None,
+    fairness: Annotated[str | None, typer.Option(
+        help="What the plan costs as a whole, as JSON: "
+             "'{\"min_vehicles\": 3, \"makespan_cost_per_hour\": 20}'.")] = None,
     service_minutes: Annotated[float | None, typer.Option(
         help="Minutes at each stop whose row states none.")] = None,
     day: Annotated[str | None, typer.Option(help="Day that is planned: 2026-11-23.")] = None,
@@ -73,7 +76,7 @@ def import_sheet(
         "depot": depot, "vehicles": vehicles, "capacity": _numbers(capacity), "shift": shift,
         "max_trips": max_trips, "currency": currency, "per_hour": per_hour,
         "per_km": per_km, "speed_kmh": speed, "drones": drones,
-        "drone_capacity": _numbers(drone_capacity),
+        "drone_capacity": _numbers(drone_capacity), "fairness": _read_json(fairness),
         "service_minutes": service_minutes, "day": day, "time_zone": time_zone,
         "leave_out_errors": leave_out_errors,
     }
@@ -145,6 +148,13 @@ def _with_answers(mapping: Mapping, answers: Sequence[str]) -> Mapping:
             raise typer.BadParameter(f"{text!r} has no = between a question and its answer")
         given[name] = answer
     return mapping.model_copy(update={"answers": mapping.answers | given})
+
+
+def _read_json(text: str | None) -> Any:
+    try:
+        return None if text is None else from_json(text)
+    except ValueError as error:
+        raise typer.BadParameter(f"{text!r} is no JSON") from error
 
 
 def _numbers(text: str | None) -> list[float] | None:

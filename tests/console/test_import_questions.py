@@ -82,3 +82,20 @@ def test_everyone_can_answer(open_page: Callable[..., Page], service: str,
       return [scrollWidth, clientWidth];
     }""")
     assert widths[0] <= widths[1]
+
+
+def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
+    page.get_by_label("Open an example").select_option(
+        label="Spreadsheet: a working day with all its rules")
+    shown = dialog(page)
+    question = shown.get_by_role("group", name="Plan")
+    expect(question.get_by_role("button", name="Rules of the whole plan")).to_have_attribute(
+        "aria-pressed", "true")
+    lag = shown.get_by_label("Meaning of Least lag (min)")
+    expect(lag.locator("option:checked")).to_have_text("Least time between the two of an order")
+    with page.expect_download() as download:
+        shown.get_by_role("link", name="Download an example").click()
+    assert download.value.suggested_filename == "working-day.xlsx"
+    use(page)
+    planned(page, "11 of 11 served")
+    assert state(page, "state.request.fairness.min_vehicles") == 2

@@ -1,11 +1,12 @@
 """Breaks and driving rules of a sheet that lists vehicles -> those of vehicle types."""
 
+import re
 from collections.abc import Sequence
 from typing import Any
 
 from app.formats.sheets.cells import Doubt, MisreadError, clock_text
 from app.formats.sheets.headings import simple
-from app.formats.sheets.readers import NO
+from app.formats.sheets.readers import NO, YES
 from app.formats.sheets.vans import Van
 from app.schemas.driving import LAWS
 
@@ -18,59 +19,124 @@ USUAL = 30 * MINUTE
 WITHIN = 6 * HOUR
 """Work before a break at the latest, where the sheet doesn't say when it is."""
 
+USUAL_REST = 45 * MINUTE
+"""A rest where a sheet limits driving or work before it and doesn't say how long it is."""
+
+LIMITS = ("max_driving", "max_work_before_break", "max_driving_per_day")
+BEFORE = ("driven_before", "worked_before")
+
+_SPLIT = re.compile(r"(\d{1,3})\D{1,20}(\d{1,3})\D{0,20}")
+
 Data = dict[str, Any]
+Pause = tuple[float | None, float | None, float | None]
+"""Begin, end and length, as far as they are stated."""
 
 
-def breaks_of(van: Van) -> list[Data]:
+def breaks_of(van: Van, capacity: Sequence[float]) -> list[Data]:
     """Return the breaks of a listed vehicle's driver."""
-    length = van.values.get("break_duration")
-    if van.breaks is None:
-        return [{"id": "break", "duration": length, "start": {"latest": WITHIN},
-                 "after_departure": True}] if length else []
-    many = len(van.breaks) > 1
-    return [{"id": f"break-{number}" if many else "break",
-             **_break(earliest or 0.0, latest, length)}
-            for number, (earliest, latest) in enumerate(van.breaks, 1)]
+    pauses = _pauses(van)
+    common: Data = {} if is_ticked(van, "break_paid", default=True) else {"paid": False}
+    if is_ticked(van, "break_anywhere"):
+        common["at"] = "anywhere"
+    if (load := van.values.get("break_max_load")) is not None:
+        common["max_load"] = [load, *capacity[1:]]
+    within = van.values.get("break_within", WITHIN)
+    return [{"id": f"break-{number}" if len(pauses) > 1 else "break",
+             **_break(pause, within), **common} for number, pause in enumerate(pauses, 1)]
 
 
-def _break(earliest: float, latest: float | None, length: float | None) -> Data:
+def _pauses(van: Van) -> list[Pause]:
+    """Return what columns say of each break: the first length is of the first window, or of all."""
+    lengths, is_shared = van.break_durations, len(van.break_durations) == 1
+    found: list[Pause] = []
+    for place in range(max(len(van.breaks), len(lengths))):
+        windows = van.breaks[place] if place < len(van.breaks) else None
+        length = (lengths[0] if is_shared else lengths[place] if place < len(lengths) else None)
+        found += [(earliest, latest, length) for earliest, latest in windows or ()]
+        if not windows and length and not (is_shared and (place or any(van.breaks))):
+            found.append((None, None, length))
+    return found
+
+
+def _break(pause: Pause, within: float) -> Data:
     """Return when a break is and how long; without a length a short window is the break."""
-    if length is None and latest is not None and latest - earliest <= LONGEST_ITSELF:
-        return {"duration": latest - earliest, "start": {"earliest": earliest, "latest": earliest},
+    earliest, latest, length = pause
+    if earliest is None and latest is None:
+        return {"duration": length, "start": {"latest": within}, "after_departure": True}
+    begin = earliest or 0.0
+    if length is None and latest is not None and latest - begin <= LONGEST_ITSELF:
+        return {"duration": latest - begin, "start": {"earliest": begin, "latest": begin},
                 "at": "anywhere"}
     duration = USUAL if length is None else length
-    last = earliest if latest is None else max(earliest, latest - duration)
-    return {"duration": duration, "start": {"earliest": earliest, "latest": last}}
+    last = begin if latest is None else max(begin, latest - duration)
+    return {"duration": duration, "start": {"earliest": begin, "latest": last}}
 
 
-def driving_rules_of(van: Van) -> Data | None:
-    """Return the published rule that a listed vehicle's driver keeps to.
+def is_ticked(van: Van, meaning: str, default: bool = False) -> bool:
+    """Return whether a cell says yes.
 
     Raises
     ------
     MisreadError
-        If there is none of that name.
+        If it says neither yes nor no.
     """
-    named = simple(van.driving_rules)
+    said = simple(van.texts.get(meaning, ""))
+    if said and said not in YES | NO:
+        raise MisreadError(f"{van.texts[meaning]!r} ({van.cell}) is neither yes nor no")
+    return said in YES if said else default
+
+
+def driving_rules_of(van: Van) -> Data | None:
+    """Return the rule that a listed vehicle's driver keeps to: a published one, or its numbers.
+
+    Raises
+    ------
+    MisreadError
+        If there is none of that name, or its numbers can't be read.
+    """
+    rules: Data = {"preset": preset} if (preset := _preset(van)) else {}
+    rules |= {name: van.values[name] for name in LIMITS if van.values.get(name)}
+    if not rules:
+        return None
+    if rest := van.values.get("rest", 0.0 if preset else USUAL_REST):
+        rules["break_duration"] = rest
+    if split := van.texts.get("rest_split"):
+        found = _SPLIT.fullmatch(split.strip())
+        if found is None:
+            raise MisreadError(f"{split!r} ({van.cell}) are no two parts of a rest: write their "
+                               "minutes, such as 15 + 30")
+        rules["split"] = [int(found[1]) * MINUTE, int(found[2]) * MINUTE]
+    return rules | {name: van.values[name] for name in BEFORE if van.values.get(name)}
+
+
+def _preset(van: Van) -> str | None:
+    stated = van.texts.get("driving_rules", "")
+    named = simple(stated)
     if not named or named in NO:
         return None
     if "2002" in named and "561" in named:
-        return {"preset": "eu-561+2002-15"}
+        return "eu-561+2002-15"
     if "561" in named:
-        return {"preset": "eu-561"}
+        return "eu-561"
     if "hos" in named.split() or "hours of service" in named:
-        return {"preset": "us-hos"}
-    raise MisreadError(f"{van.driving_rules!r} ({van.cell}) is no driving rule known here: write "
+        return "us-hos"
+    raise MisreadError(f"{stated!r} ({van.cell}) is no driving rule known here: write "
                        f"one of {', '.join(LAWS)}")
 
 
 def break_doubts(vans: Sequence[Van]) -> list[Doubt]:
-    """Return what was assumed of breaks that the sheet doesn't tell wholly."""
+    """Return what was assumed of breaks and rests that the sheet doesn't tell wholly."""
     doubts = []
-    if any(van.breaks and "break_duration" not in van.values for van in vans):
+    pauses = [(van, pause) for van in vans for pause in _pauses(van)]
+    if any(length is None for _, (_, _, length) in pauses):
         doubts.append(Doubt("BREAKS_ASSUMED", "Breaks have no length: a window of up to an hour is "
                             f"taken for the break, in longer ones it is {USUAL / MINUTE:.0f} min."))
-    if any(van.breaks is None and van.values.get("break_duration") for van in vans):
+    if any(earliest is latest is None and "break_within" not in van.values
+           for van, (earliest, latest, _) in pauses):
         doubts.append(Doubt("BREAKS_ASSUMED", "Breaks have no time: they are taken to begin within "
                             f"{clock_text(WITHIN)} h of the vehicle's departure."))
+    if any("rest" not in van.values and not _preset(van)
+           and any(van.values.get(name) for name in LIMITS) for van in vans):
+        doubts.append(Doubt("RESTS_ASSUMED", "Rests have no length: they are taken to last "
+                            f"{USUAL_REST / MINUTE:.0f} min."))
     return doubts

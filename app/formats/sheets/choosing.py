@@ -1,12 +1,14 @@
 """Which sheets of a file are read, and what is asked about the others."""
 
 from collections import defaultdict, deque
+from typing import NamedTuple
 
 from app.formats.sheets.cells import letters
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.columns import columns_of
 from app.formats.sheets.headings import simple
 from app.formats.sheets.layout import Origin, Table, table_of
+from app.formats.sheets.plan_rules import lists_rules
 from app.formats.sheets.questions import Asking, Question
 from app.formats.sheets.schemas import Mapping
 from app.formats.sheets.table import MAX_COLUMNS, NotASheetError, Sheet, SheetFile
@@ -16,14 +18,23 @@ from app.formats.sheets.vans import lists_vans
 MOST_ASKED = 40
 """Sheets that are looked at."""
 
-IGNORED, ALSO, INSTEAD, VEHICLES = "ignored", "also", "instead", "vehicles"
+IGNORED, ALSO, INSTEAD, VEHICLES, RULES = "ignored", "also", "instead", "vehicles", "rules"
 CHOICES = {IGNORED: "Not read", ALSO: "Its rows too", INSTEAD: "In place of the one that is read",
-           VEHICLES: "Its rows are the vehicles"}
+           VEHICLES: "Its rows are the vehicles", RULES: "Its rows are rules of the whole plan"}
+READ_AS = {VEHICLES: "is read as the vehicles", RULES: "is read as rules of the whole plan"}
+
+
+class Chosen(NamedTuple):
+    """The customers' table, and the sheets that list vehicles and rules of the whole plan."""
+
+    table: Table
+    fleet: Sheet | None
+    rules: Sheet | None
 
 
 def chosen(file: SheetFile, mapping: Mapping, asking: Asking,
-           states_fleet: bool) -> tuple[Table, Sheet | None]:
-    """Return the customers' table, and the sheet that lists vehicles. In place.
+           states_fleet: bool) -> Chosen:
+    """Return what each sheet that is read is read as. In place.
 
     Parameters
     ----------
@@ -32,31 +43,40 @@ def chosen(file: SheetFile, mapping: Mapping, asking: Asking,
     """
     main = _main_sheet(file, mapping)
     header = None if mapping.header_row is None else mapping.header_row - 1
-    table, fleet = table_of(main, header), None
+    table, fleet, rules = table_of(main, header), None, None
     for sheet in file.sheets[:MOST_ASKED]:
         count = sum(any(raw is not None for raw in row) for row in sheet.rows)
         is_main = sheet is main
         if not count or (is_main and asking.given.get(_id_of(sheet)) != INSTEAD):
             continue
-        answer = asking.ask(_question(sheet, count, main, lists_vans(sheet) and not states_fleet))
+        answer = asking.ask(_question(sheet, count, main, _usual(sheet, states_fleet)))
         if answer == ALSO and not is_main:
             table = with_rows_of(table, table_of(sheet))
         elif answer == VEHICLES and not is_main:
             fleet = sheet
-    return table, fleet
+        elif answer == RULES and not is_main:
+            rules = sheet
+    return Chosen(table, fleet, rules)
+
+
+def _usual(sheet: Sheet, states_fleet: bool) -> str:
+    """Return what a sheet beside the main one is for, by its looks."""
+    if lists_vans(sheet):
+        return IGNORED if states_fleet else VEHICLES
+    return RULES if lists_rules(sheet) else IGNORED
 
 
 def _id_of(sheet: Sheet) -> str:
     return f"sheet:{sheet.name}"
 
 
-def _question(sheet: Sheet, count: int, main: Sheet, is_fleet: bool) -> Question:
+def _question(sheet: Sheet, count: int, main: Sheet, usual: str) -> Question:
     hidden = "hidden " if sheet.is_hidden else ""
-    told = ("is read as the vehicles" if is_fleet
-            else f"is not read, as {main.name} is" if sheet is not main else "is the one read")
+    unread = "is the one read" if sheet is main else f"is not read, as {main.name} is"
+    told = READ_AS.get(usual, unread)
     return Question(
         _id_of(sheet), "sheet", f"The {hidden}sheet {sheet.name} has {count} rows and {told}. "
-        "What is it for?", CHOICES, VEHICLES if is_fleet else IGNORED,
+        "What is it for?", CHOICES, usual,
         {"sheet": sheet.name, "count": count, "is_hidden": int(sheet.is_hidden)}, sheet=sheet.name)
 
 
@@ -75,7 +95,7 @@ def _main_sheet(file: SheetFile, mapping: Mapping) -> Sheet:
 
 def _worth(sheet: Sheet) -> int:
     """Return how much a sheet looks like customers."""
-    if lists_vans(sheet):
+    if lists_vans(sheet) or lists_rules(sheet):
         return 0
     table = table_of(sheet)
     known = sum(column.meaning != "ignored" for column in columns_of(table, Style(), ()))

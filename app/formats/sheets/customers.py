@@ -21,7 +21,8 @@ MOST_WINDOWS = 8
 LONGEST_NAME = 200
 
 SAME = ("time_window", "time_windows", "served_by", "skills", "vehicles", "release_time")
-SAME_CELLS = ("preferred_vehicles", "preference_cost", "together", "apart", "before", "after",
+SAME_CELLS = ("preferred_vehicles", "preference_cost", "vehicle_costs", "together", "apart",
+              "together_on_trip", "apart_on_trip", "before", "after", "min_lag", "max_lag",
               "alternative_cost", *(meaning_at("alternative", own) for own in OF_SIDES))
 """What rows must agree on to be one stop, of customers and as cells say it."""
 

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from app.formats.sheets.amounts import dimensions
-from app.formats.sheets.breaks import break_doubts, breaks_of, driving_rules_of
+from app.formats.sheets.breaks import break_doubts, breaks_of, driving_rules_of, is_ticked
 from app.formats.sheets.cells import CellError, Doubt, MisreadError, clock_text, next_day
 from app.formats.sheets.clocks import DAY, LONGEST_NIGHT, Style, windows
 from app.formats.sheets.columns import Column
@@ -40,8 +40,8 @@ class Incomplete(ValueError):
 
 
 def fleet_of(stops: Sequence[Entry], columns: Sequence[Column], settings: ImportSettings,
-             vans: Sequence[Van] = ()) -> tuple[list[Data], list[Doubt]]:
-    """Return the fleet and what was assumed for it.
+             vans: Sequence[Van], least: int) -> tuple[list[Data], list[Doubt]]:
+    """Return the fleet and what was assumed for it; where no number is stated, `least` or more.
 
     Raises
     ------
@@ -50,7 +50,7 @@ def fleet_of(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
     """
     doubts: list[Doubt] = []
     kinds = (_listed(vans, stops, columns, settings) if vans
-             else [_assumed(stops, columns, settings, doubts)])
+             else [_assumed(stops, columns, settings, least, doubts)])
     if settings.shift is None and any("shift" not in kind for kind in kinds):
         doubts.append(Doubt("SHIFT_ASSUMED", "No shift is stated: vehicles work at any time."))
     common: Data = {}
@@ -62,7 +62,7 @@ def fleet_of(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
     if settings.drones:
         common["drones"] = {"count": settings.drones,
                             "capacity": list(settings.drone_capacity or ())}
-    usual, told = _usual_work(settings)
+    usual, told = _usual_work(settings, kinds)
     doubts += told
     abilities, assumed = _abilities(stops, settings, kinds)
     return ([_completed(kind, usual | common) | abilities for kind in kinds],
@@ -77,11 +77,11 @@ def _completed(kind: Data, common: Data) -> Data:
 
 
 def _assumed(stops: Sequence[Entry], columns: Sequence[Column], settings: ImportSettings,
-             doubts: list[Doubt]) -> Data:
+             least: int, doubts: list[Doubt]) -> Data:
     """Return a type as stated; note what isn't. In place."""
     count = settings.vehicles
     if count is None:
-        count = max(1, math.ceil(len(stops) / CUSTOMERS_PER_VEHICLE))
+        count = max(1, least, math.ceil(len(stops) / CUSTOMERS_PER_VEHICLE))
         doubts.append(Doubt("FLEET_ASSUMED", f"No number of vehicles is stated: {count} "
                             f"{'is' if count == 1 else 'are'} assumed."))
     if settings.capacity is None:
@@ -90,10 +90,11 @@ def _assumed(stops: Sequence[Entry], columns: Sequence[Column], settings: Import
     return {"id": TYPE_ID, "count": count, "capacity": _capacity(stops, columns, settings)}
 
 
-def _usual_work(settings: ImportSettings) -> tuple[Data, list[Doubt]]:
+def _usual_work(settings: ImportSettings,
+                kinds: Sequence[Data]) -> tuple[Data, list[Doubt]]:
     """Return how often vehicles go out and what they cost, and what of it was assumed."""
     doubts = []
-    if settings.max_trips is None:
+    if settings.max_trips is None and any("max_trips" not in kind for kind in kinds):
         doubts.append(Doubt("TRIPS_ASSUMED", f"Vehicles may go out again, up to {TRIPS} "
                             "times in all."))
     hour = settings.per_hour
@@ -102,15 +103,21 @@ def _usual_work(settings: ImportSettings) -> tuple[Data, list[Doubt]]:
     money = f" {settings.currency}" if settings.currency else ""
     if hour is None:
         hour = usual
+    if settings.per_hour is None and _lack_cost(kinds, "per_hour"):
         doubts.append(Doubt("HOURS_ASSUMED", "What drivers cost isn't stated: an hour is taken to "
                             f"cost {hour:g}{money}, and whoever is needed at all to be paid for an "
                             "hour more."))
     if kilometre is None:
         kilometre = float(f"{usual / USUAL_HOUR:.1g}")
+    if settings.per_km is None and _lack_cost(kinds, "per_km"):
         doubts.append(Doubt("KILOMETRES_ASSUMED", "What a kilometre costs isn't stated: "
                             f"{kilometre:g}{money} is taken."))
     costs = {"fixed": hour, "per_km": kilometre, "per_hour": hour}
     return {"max_trips": settings.max_trips or TRIPS, "costs": costs}, doubts
+
+
+def _lack_cost(kinds: Sequence[Data], cost: str) -> bool:
+    return any(cost not in kind.get("costs", {}) for kind in kinds)
 
 
 def _listed(vans: Sequence[Van], stops: Sequence[Entry], columns: Sequence[Column],
@@ -136,22 +143,21 @@ def _listed(vans: Sequence[Van], stops: Sequence[Entry], columns: Sequence[Colum
         kind |= {"speed_kmh": van.values["speed"]} if van.values.get("speed") else {}
         kind |= {"max_trips": round(van.values["max_trips"])} if van.values.get(
             "max_trips") else {}
-        kinds.append(kind | _work_of(van))
+        kinds.append(kind | _work_of(van, kind["capacity"]))
     return kinds
 
 
-def _work_of(van: Van) -> Data:
+def _work_of(van: Van, capacity: Sequence[float]) -> Data:
     """Return what holds for a listed vehicle's driver."""
+    found: Data = {field: van.values[meaning] for meaning, field in
+                   (("max_work", "max_working_duration"), ("max_travel", "max_travel_duration"))
+                   if van.values.get(meaning)}
     try:
-        rules = driving_rules_of(van)
+        stated = {"breaks": breaks_of(van, capacity), "driving_rules": driving_rules_of(van),
+                  "lifo": is_ticked(van, "lifo")}
     except MisreadError as error:
         raise Incomplete("DRIVING_RULES", f"{error}.") from error
-    pauses = breaks_of(van)
-    limits = {field: van.values[meaning] for meaning, field in
-              (("max_work", "max_working_duration"), ("max_travel", "max_travel_duration"))
-              if van.values.get(meaning)}
-    return limits | ({"breaks": pauses} if pauses else {}) | (
-        {"driving_rules": rules} if rules else {})
+    return found | {name: value for name, value in stated.items() if value}
 
 
 def _capacity_of(van: Van, totals: Sequence[float], amounts: Sequence[Column]) -> list[float]:

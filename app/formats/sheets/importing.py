@@ -8,7 +8,7 @@ from app.formats.sheets.addresses import NO_FINDER, Finder, locate, with_depot
 from app.formats.sheets.alternatives import add_alternatives, is_alternative
 from app.formats.sheets.asked_columns import ask_columns, stated_columns
 from app.formats.sheets.cells import CellError, Doubt, MisreadError, letters
-from app.formats.sheets.choosing import chosen
+from app.formats.sheets.choosing import Chosen, chosen
 from app.formats.sheets.columns import columns_of, language_of, with_begin
 from app.formats.sheets.customers import Entry, address_of, entries_of, overnight, placed, together
 from app.formats.sheets.damage import damaged
@@ -21,6 +21,7 @@ from app.formats.sheets.fleet import Incomplete
 from app.formats.sheets.geography import Ground, far_off, ground_of
 from app.formats.sheets.looks import with_looks
 from app.formats.sheets.meanings import MEANINGS
+from app.formats.sheets.plan_rules import fairness_of
 from app.formats.sheets.questions import Asking, Question
 from app.formats.sheets.readers import read
 from app.formats.sheets.rejoining import rejoined
@@ -31,7 +32,7 @@ from app.formats.sheets.rows import Row, days_in, rows_of, sums_in
 from app.formats.sheets.schemas import ImportReply, ImportSettings
 from app.formats.sheets.shipments import shipments_of
 from app.formats.sheets.styles import encoding_doubt, style_of
-from app.formats.sheets.table import NotASheetError, Sheet, SheetFile, read_sheets
+from app.formats.sheets.table import NotASheetError, SheetFile, read_sheets
 from app.formats.sheets.vans import vans_of
 from app.formats.sheets.work import Import
 from app.schemas.limits import MAX_CUSTOMERS
@@ -50,9 +51,8 @@ def import_file(content: bytes, settings: ImportSettings, finder: Finder = NO_FI
         If it holds no rows of cells.
     """
     file = read_sheets(content, settings.mapping.encoding)
-    work, vans = _columns(file, settings)
-    if vans is not None:
-        _read_vans(work, vans)
+    work, found = _columns(file, settings)
+    _read_others(work, found)
     if not work.errors:
         _understand(work, settings, finder, road_profiles)
     work.errors += work.asking.errors
@@ -61,15 +61,15 @@ def import_file(content: bytes, settings: ImportSettings, finder: Finder = NO_FI
     return reply_of(work, file, settings)
 
 
-def _columns(file: SheetFile, settings: ImportSettings) -> tuple[Import, Sheet | None]:
-    """Return a file with its columns known, and the sheet that lists vehicles."""
+def _columns(file: SheetFile, settings: ImportSettings) -> tuple[Import, Chosen]:
+    """Return a file with its columns known, and what its other sheets are for."""
     mapping = settings.mapping
     asking = Asking(mapping.answers)
     states_fleet = settings.vehicles is not None or settings.capacity is not None
-    table, vans = chosen(file, mapping, asking, states_fleet)
-    if not table.rows:
+    found = chosen(file, mapping, asking, states_fleet)
+    if not found.table.rows:
         raise NotASheetError("The sheet has no rows of customers below its headings.")
-    table, rejoining, cut = rejoined(table, file.delimiter)
+    table, rejoining, cut = rejoined(found.table, file.delimiter)
     table = without_hidden(table, asking)
     style, doubts = style_of(table, file, settings)
     stated = stated_columns(table, mapping, asking)
@@ -81,17 +81,20 @@ def _columns(file: SheetFile, settings: ImportSettings) -> tuple[Import, Sheet |
         work.doubts.append(encoding_doubt(file, table))
     if not table.header_rows:
         work.doubts.append(Doubt("NO_HEADINGS", "There are no headings: say what columns mean."))
-    return work, vans
+    return work, found
 
 
-def _read_vans(work: Import, sheet: Sheet) -> None:
-    """Read the vehicles that a sheet lists. In place."""
+def _read_others(work: Import, found: Chosen) -> None:
+    """Read the vehicles, and the rules of the whole plan, that sheets list. In place."""
     try:
-        work.vans, doubts = vans_of(sheet, work.style)
+        if found.fleet is not None:
+            work.vans, doubts = vans_of(found.fleet, work.style)
+            work.doubts += doubts
+        if found.rules is not None:
+            work.fairness, doubts = fairness_of(found.rules, work.style)
+            work.doubts += doubts
     except MisreadError as error:
         work.errors.append(CellError("MISREAD", f"{error}."))
-        return
-    work.doubts += doubts
 
 
 def _understand(work: Import, settings: ImportSettings, finder: Finder,

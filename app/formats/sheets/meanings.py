@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 Kind = Literal["text", "number", "amount", "clock", "windows", "duration", "names", "server",
-               "date", "degrees", "point", "kind"]
+               "date", "degrees", "point", "kind", "prices"]
 
 CLOCK_UNITS = ("clock", "hours", "h.mm", "hhmm", "minutes", "seconds", "days")
 """How bare numbers in a column of clock times are meant; `8:30` is 8:30 in any.
@@ -66,12 +66,18 @@ MEANINGS = {
     "forbidden_vehicles": Meaning("Not by vehicles", "names"),
     "preferred_vehicles": Meaning("Preferred vehicle or driver", "names"),
     "preference_cost": Meaning("Cost of any other vehicle", "number"),
+    "vehicle_costs": Meaning("Costs by vehicle or driver, such as van-1: 5; van-2: 0", "prices"),
     "together": Meaning("On one vehicle with (customer or group)", "names", (), True),
     "apart": Meaning("On no vehicle with (customer or group)", "names", (), True),
+    "together_on_trip": Meaning("On one trip with (customer or group)", "names", (), True),
+    "apart_on_trip": Meaning("On no trip with (customer or group)", "names", (), True),
     "before": Meaning("Served before (customer)", "names", (), True),
     "after": Meaning("Served after (customer)", "names", (), True),
+    "min_lag": Meaning("Least time between the two of an order", "duration", DURATION_UNITS),
+    "max_lag": Meaning("Longest time between the two of an order", "duration", DURATION_UNITS),
     "shipment": Meaning("Shipment, named in the rows of both its ends", "text"),
     "max_between": Meaning("Longest time from pickup to delivery", "duration", DURATION_UNITS),
+    "max_detour": Meaning("Longest way to delivery, as a multiple of the direct one", "number"),
     "alternative_to": Meaning("Other place of (customer)", "text"),
     "alternative_cost": Meaning("Cost of the other place", "number"),
     "kind": Meaning("Delivery, pickup or depot", "kind"),

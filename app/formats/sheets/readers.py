@@ -51,6 +51,8 @@ _PAIRS = (re.compile(r"(?<!\d)(-?\d++,\d++)[\s;,/]++(-?\d++,\d++)"),
           re.compile(r"(?<!\d)(-?\d++\.\d++)\s++(-?\d++\.\d++)"))
 """Two numbers with decimal commas, or with a blank between."""
 _NAMES = re.compile(r"[,;|]")
+_ENTRIES = re.compile(r"[;|\n]")
+"""What stands between entries that may hold decimal commas."""
 
 
 def _text(raw: Raw, unit: str | None, style: Style) -> str:
@@ -83,6 +85,17 @@ def _duration(raw: Raw, unit: str | None, style: Style) -> float:
 
 def _names(raw: Raw, unit: str | None, style: Style) -> list[str]:
     return [name for part in _NAMES.split(shown(raw)) if (name := part.strip())]
+
+
+def _prices(raw: Raw, unit: str | None, style: Style) -> list[tuple[str, float]]:
+    """Return names, each with a price behind a colon."""
+    found = []
+    for part in filter(None, map(str.strip, _ENTRIES.split(shown(raw)))):
+        name, sign, price = part.rpartition(":")
+        if not sign or not name.strip():
+            raise MisreadError(f"{part!r} is no vehicle with a price: write one such as van-1: 5")
+        found.append((name.strip(), number_of(price.strip(), style.comma)))
+    return found
 
 
 def _server(raw: Raw, unit: str | None, style: Style) -> str:
@@ -190,7 +203,7 @@ def _kind(raw: Raw, unit: str | None, style: Style) -> str:
 READERS: dict[Kind, Reader] = {
     "text": _text, "number": _number, "amount": _amount, "clock": _clock, "windows": _windows,
     "duration": _duration, "names": _names, "server": _server, "degrees": _degrees, "point": _point,
-    "date": _date, "kind": _kind,
+    "date": _date, "kind": _kind, "prices": _prices,
 }
 
 
@@ -232,6 +245,8 @@ def reading_text(value: Any, kind: Kind, unit: str | None) -> str:
             return ", ".join(f"{number:.7g}\u00b0" for number in value)
         case "names":
             return ", ".join(value)
+        case "prices":
+            return ", ".join(f"{name}: {price:.10g}" for name, price in value)
         case "server":
             return {"either": "by drone or truck", "truck": "by truck alone",
                     "drone": "by drone alone"}[value]

@@ -12,7 +12,14 @@ from app.formats.sheets.questions import Asking, Question
 from app.formats.sheets.rows import Row
 from app.formats.sheets.vans import Van
 
-RELATED = ("together", "apart")
+Data = dict[str, Any]
+
+RELATED: dict[str, Data] = {
+    "together": {"kind": "together"}, "apart": {"kind": "apart"},
+    "together_on_trip": {"kind": "together", "scope": "trip"},
+    "apart_on_trip": {"kind": "apart", "scope": "trip"}}
+"""Columns of who goes with whom, and what of relations they state."""
+
 NAMES = ("name", "order", "shipment")
 """Columns by which others name a customer or shipment."""
 
@@ -25,14 +32,18 @@ SHARE_OF_HOUR = 0.25
 MOST_NUMBERED = 1000
 """Single vehicles of a type that are known by name."""
 
-Data = dict[str, Any]
-
-
 class Relation(NamedTuple):
     """A relation of the request, and the first cell that states it."""
 
     stated: Data
     cell: str
+
+
+class Order(NamedTuple):
+    """The first cell that states who is before whom, and all rows that do."""
+
+    cell: str
+    rows: list[Row]
 
 
 def relations_of(stops: Sequence[Entry],
@@ -44,7 +55,7 @@ def relations_of(stops: Sequence[Entry],
     """
     known = stops_called(stops)
     found, alone = _orders(stops, known, asking)
-    for kind in RELATED:
+    for kind, stated in RELATED.items():
         groups, first = _groups(stops, kind)
         names_groups = _names_groups(kind, groups, first, known, asking)
         sets: dict[tuple[str, ...], str] = {}
@@ -55,7 +66,7 @@ def relations_of(stops: Sequence[Entry],
                     sets.setdefault(tuple(dict.fromkeys(group)), first[name][0])
             else:
                 alone.append(_alone(*first[name]))
-        found += [Relation({"kind": kind, "customers": list(group)}, cell)
+        found += [Relation({**stated, "customers": list(group)}, cell)
                   for group, cell in sets.items()]
     return found, alone
 
@@ -68,7 +79,7 @@ def _alone(cell: str, text: str) -> Doubt:
 def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
             asking: Asking) -> tuple[list[Relation], list[Doubt]]:
     """Return who is served before whom, and which names are nobody's. In place."""
-    pairs: dict[tuple[str, str], str] = {}
+    orders: dict[tuple[str, str], Order] = {}
     alone = []
     for stop in stops:
         for row, meaning in product(stop.rows, ("before", "after")):
@@ -78,20 +89,41 @@ def _orders(stops: Sequence[Entry], known: Mapping[str, Sequence[str]],
                 alone += [] if others else [_alone(row.cell(meaning), text)]
                 for other in others:
                     pair = stop.last, other
-                    pairs.setdefault(pair if meaning == "before" else pair[::-1],
-                                     row.cell(meaning))
-    if not pairs:
+                    orders.setdefault(pair if meaning == "before" else pair[::-1],
+                                      Order(row.cell(meaning), [])).rows.append(row)
+    alone += _lags_alone(stops, orders.values())
+    if not orders:
         return [], alone
     begins = {stop.last: stop.first for stop in stops}
-    (first, second), cell = next(iter(pairs.items()))
+    (first, second), (cell, _) = next(iter(orders.items()))
     answer = asking.ask(Question(
         "orders", "orders", f"Some are served before others, such as {first!r} before {second!r} "
         f"({cell}): by one vehicle?",
         {ONE: "By one vehicle", ANY: "By any, trucks alone"}, ONE,
-        {"count": len(pairs), "first": first[:80], "second": second[:80]}, cell=cell))
+        {"count": len(orders), "first": first[:80], "second": second[:80]}, cell=cell))
     across = {} if answer == ONE else {"same_vehicle": False}
-    return [Relation({"kind": "before", "customers": [before, begins[behind]], **across}, cell)
-            for (before, behind), cell in pairs.items()], alone
+    return [Relation({"kind": "before", "customers": [before, begins[behind]], **across,
+                      **_lags(order.rows)}, order.cell)
+            for (before, behind), order in orders.items()], alone
+
+
+def _lags(rows: Iterable[Row]) -> Data:
+    """Return the least and the longest time between two, the tighter where rows differ."""
+    found: Data = {}
+    for meaning, tighter in (("min_lag", max), ("max_lag", min)):
+        stated = [row.values[meaning] for row in rows if row.get(meaning) is not None]
+        found |= {meaning: tighter(stated)} if stated else {}
+    return found
+
+
+def _lags_alone(stops: Sequence[Entry], orders: Iterable[Order]) -> list[Doubt]:
+    """Return what is told of rows with a time between two, and nobody before or behind."""
+    ordered = {row.number for order in orders for row in order.rows}
+    cells = [row.cell("min_lag", "max_lag") for stop in stops for row in stop.rows
+             if row.number not in ordered and _lags([row])]
+    return [Doubt("LAG_WITHOUT_ORDER", f"{len(cells)} rows state a time between two, such as "
+                  f"{cells[0]}, and nobody who is served before or after: it isn't used.",
+                  cell=cells[0])] if cells else []
 
 
 def stops_called(stops: Sequence[Entry]) -> dict[str, list[str]]:
@@ -138,7 +170,7 @@ def _groups(stops: Sequence[Entry], kind: str) -> tuple[
 
 def _sets(kind: str, called: Sequence[str], members: Sequence[str]) -> Iterable[list[str]]:
     """Yield who is bound: those who name a group, or each of them to the one that they name."""
-    if kind == "apart" and called:
+    if RELATED[kind]["kind"] == "apart" and called:
         for stop in called:
             yield from (sorted((stop, member)) for member in members if stop != member)
     else:
@@ -151,12 +183,13 @@ def _named(row: Row, meaning: str) -> list[str]:
 
 def price_others(stops: Sequence[Entry], fleet: Sequence[Data],
                  vans: Sequence[Van]) -> list[Doubt]:
-    """Have vehicles cost what they do where others are preferred; tell of doubts. In place."""
+    """Have vehicles cost what rows say, or what they do where others are preferred. In place."""
     known = _vehicles(fleet, vans)
     assumed = round(SHARE_OF_HOUR * fleet[0]["costs"]["per_hour"], 2)
     unknown: list[tuple[str, str]] = []
     without_price = []
     for stop in stops:
+        unknown += _price_each(stop, known)
         row = next((row for row in stop.rows if row.get("preferred_vehicles")), stop.rows[0])
         texts = row.get("preferred_vehicles") or ()
         unknown += [(row.cell("preferred_vehicles"), text) for text in texts
@@ -171,8 +204,20 @@ def price_others(stops: Sequence[Entry], fleet: Sequence[Data],
         costs = {kind["id"]: price for kind in fleet if kind["id"] not in preferred}
         costs |= dict.fromkeys(sorted(preferred - {kind["id"] for kind in fleet}), 0)
         if any(costs.values()):
-            stop.customer["vehicle_costs"] = costs
+            stop.customer["vehicle_costs"] = costs | stop.customer.get("vehicle_costs", {})
     return _preference_doubts(unknown, without_price, assumed)
+
+
+def _price_each(stop: Entry, known: Mapping[str, str]) -> list[tuple[str, str]]:
+    """Have vehicles cost what a stop's rows say of each; return who is unknown. In place."""
+    unknown = []
+    for row in stop.rows:
+        for text, price in row.get("vehicle_costs") or ():
+            if simple(text) in known:
+                stop.customer.setdefault("vehicle_costs", {})[known[simple(text)]] = price
+            else:
+                unknown.append((row.cell("vehicle_costs"), text))
+    return unknown
 
 
 def _vehicles(fleet: Sequence[Data], vans: Sequence[Van]) -> dict[str, str]:
@@ -194,9 +239,10 @@ def _preference_doubts(unknown: Sequence[tuple[str, str]], without_price: Sequen
     doubts = []
     if unknown:
         cell, text = unknown[0]
-        doubts.append(Doubt("PREFERENCE_UNKNOWN", f"{len(unknown)} preferred vehicles or drivers "
-                            f"are none of the fleet's, such as {text!r} ({cell}): nobody is "
-                            "preferred for that. List them on a sheet of vehicles.", cell=cell))
+        doubts.append(Doubt("PREFERENCE_UNKNOWN", f"{len(unknown)} vehicles or drivers that rows "
+                            f"prefer or price are none of the fleet's, such as {text!r} ({cell}): "
+                            "nothing is made of that. List them on a sheet of vehicles.",
+                            cell=cell))
     if without_price:
         doubts.append(Doubt("PREFERENCE_ASSUMED", f"{len(without_price)} customers prefer a "
                             f"vehicle and don't say how much, such as {without_price[0]}: any "

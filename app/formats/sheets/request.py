@@ -26,8 +26,9 @@ CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "deman
          "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
          "service_duration": ("service",), "release_time": ("ready",), "skills": ("skills",),
          "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",),
-         "vehicle_costs": ("preference_cost", "preferred_vehicles"), "amount": ("demand",),
-         "max_time_between": ("max_between",), "alternatives": ("alternative_cost", "name")}
+         "vehicle_costs": ("vehicle_costs", "preference_cost", "preferred_vehicles"),
+         "amount": ("demand",), "max_time_between": ("max_between",),
+         "max_detour": ("max_detour",), "alternatives": ("alternative_cost", "name")}
 """Meanings of the columns that fields of a customer come from."""
 
 _RELATION = re.compile(r"\$\.relations\[(\d+)\]")
@@ -52,7 +53,9 @@ def request_of(work: Import, depots: Sequence[Row], ground: Ground,
     """
     columns, served = work.columns, [*work.stops, *work.shipments]
     depot, doubts = _depots(served, depots, ground, settings)
-    fleet, assumed = fleet_of(served, columns, settings, work.vans)
+    fairness = (work.fairness if settings.fairness is None
+                else settings.fairness.model_dump(exclude_defaults=True))
+    fleet, assumed = fleet_of(served, columns, settings, work.vans, fairness.get("min_vehicles", 1))
     assumed += price_others(served, fleet, work.vans)
     unit: Data = {}
     if not ground.is_geographic:
@@ -67,6 +70,8 @@ def request_of(work: Import, depots: Sequence[Row], ground: Ground,
                      "customers": [stop.customer for stop in work.stops], "fleet": fleet}
     if work.shipments:
         request["shipments"] = [shipment.customer for shipment in work.shipments]
+    if fairness:
+        request["fairness"] = fairness
     return request, [*doubts, *assumed]
 
 

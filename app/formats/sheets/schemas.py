@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.formats.sheets.meanings import MEANINGS
 from app.formats.sheets.questions import Asked, QuestionKind
 from app.maps.addresses.geocoder import Quality
+from app.schemas.fairness import FairnessInput
 from app.schemas.fields import Amount, Demand, Input, Money, Speed
 from app.schemas.response import WarningReply
 from app.schemas.times import Currency
@@ -88,6 +89,9 @@ class ImportSettings(Input):
         0, description="Drones on each vehicle.")
     drone_capacity: Demand | None = Field(
         None, description="What a drone carries, of each amount. Needed with drones.")
+    fairness: FairnessInput | None = Field(
+        None, description="What the plan costs as a whole, as `fairness` of a request. Null: as a "
+        "sheet of the file says, if one does.")
     service_minutes: Amount | None = Field(
         None, description="Minutes at each stop whose row states none. Null: none.")
     leave_out_errors: bool = Field(

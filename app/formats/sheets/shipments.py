@@ -97,9 +97,10 @@ def _shipment(pickups: Sequence[Entry], delivery: Entry, names: set[str]) -> Ent
             shipment[name] = stated[0]
     if skills := list(dict.fromkeys(skill for end in ends for skill in end.get("skills", ()))):
         shipment["skills"] = skills
-    between = [row.values["max_between"] for row in rows if row.get("max_between") is not None]
-    return Entry(shipment | ({"max_time_between": min(between)} if between else {}), rows,
-                 tuple([each.rows[0] for each in (*pickups, delivery)]))
+    for meaning, field in (("max_between", "max_time_between"), ("max_detour", "max_detour")):
+        if limits := [row.values[meaning] for row in rows if row.get(meaning) is not None]:
+            shipment[field] = min(limits)
+    return Entry(shipment, rows, tuple([each.rows[0] for each in (*pickups, delivery)]))
 
 
 def _fetched(pickups: Sequence[Entry], delivery: Entry) -> Data:

@@ -13,61 +13,32 @@ from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import read
 from app.formats.sheets.table import Sheet
 from app.formats.sheets.units import clock_unit, duration_unit
-
-WORDS = {
-    "name": "fahrzeug|fahrzeuge|kennzeichen|vehicle|vehicles|van|truck|lkw|wagen|fzg|plate|"
-            "license plate|licence plate|registration|auto|vehicule|vehicules|camion|camions|"
-            "immatriculation|vehiculo|vehiculos|matricula|veicolo|veicoli|mezzo|targa|voertuig|"
-            "kenteken|pojazd|veiculo|fahrzeugtyp|vehicle type|transporter",
-    "driver": "fahrer|driver|chauffeur|conducteur|conductor|autista|kierowca|motorista",
-    "count": "anzahl|count|number|stuck|how many|nombre|numero|cantidad|quantita|aantal|ilosc",
-    "capacity": "kapazitat|capacity|nutzlast|zuladung|payload|max load|load|capacite|"
-                "charge utile|capacidad|capacita|portata|capaciteit|laadvermogen|ladownosc|"
-                "max gewicht|max weight|stellplatze|ladevolumen|volume|volumen",
-    "earliest": "von|ab|from|start|begin|beginn|dienstbeginn|schichtbeginn|shift start|start time|"
-                "debut|de|desde|inicio|dalle|vanaf|od|arbeitsbeginn",
-    "latest": "bis|to|until|end|ende|dienstende|schichtende|shift end|end time|fin|a|hasta|alle|"
-              "tot|do|arbeitsende|feierabend",
-    "window": "schicht|shift|arbeitszeit|dienst|working hours|hours|dienstzeit|horaire|turno|"
-              "orario|einsatzzeit",
-    "speed": "geschwindigkeit|speed|tempo|vitesse|velocidad|velocita|km h|kmh",
-    "per_km": "kosten km|kosten pro km|cost per km|euro km|eur km|per km|km kosten|cout km|"
-              "km cost|cost km",
-    "per_hour": "kosten stunde|kosten pro stunde|stundensatz|stundenlohn|cost per hour|hourly rate|"
-                "eur h|per hour|cout heure|kosten h|eur std|hour cost|cost hour",
-    "fixed": "fixkosten|tagessatz|fixed cost|fixed|daily rate|grundkosten|cout fixe",
-    "max_trips": "touren|fahrten|max touren|max trips|trips|rotations|max fahrten",
-    "skills": "ausstattung|skills|equipment|merkmale|eigenschaften|equipement|hebebuhne|kuhlung",
-    "drones": "drohnen|drones|drone|drohne",
-    "break": "pause|pausen|mittagspause|pausenfenster|pausenzeit|break|breaks|lunch|lunch break|"
-             "break window|break time|pause dejeuner|descanso|pausa|pausa pranzo|pauze|lunchpauze|"
-             "przerwa|intervalo",
-    "break_duration": "pausendauer|pausenlange|dauer der pause|break duration|break length|"
-                      "length of break|duree de la pause|duree pause|duracion del descanso|"
-                      "durata pausa|pauzeduur|czas przerwy|duracao da pausa",
-    "max_work": "max arbeitszeit|maximale arbeitszeit|hochstarbeitszeit|max hours|max working time|"
-                "max work|longest working time|max duty|duree max de travail|max jornada|"
-                "orario massimo|max werktijd",
-    "max_travel": "max fahrzeit|maximale fahrzeit|max driving|max driving time|longest driving|"
-                  "max travel time|conduite max|max rijtijd",
-    "driving_rules": "lenkzeiten|lenkzeitregel|lenk und ruhezeiten|driving rules|driver rules|"
-                     "hours of service|hos|temps de conduite|tiempos de conduccion|"
-                     "tempi di guida|rijtijden",
-}
-"""Headings of columns, in simple letters; `|` stands between phrases."""
+from app.formats.sheets.van_words import WORDS
 
 KINDS: dict[str, Kind] = {
     "name": "text", "driver": "text", "count": "number", "capacity": "amount", "earliest": "clock",
     "latest": "clock", "window": "windows", "speed": "number", "per_km": "number",
     "per_hour": "number", "fixed": "number", "max_trips": "number", "skills": "names",
-    "break": "windows", "break_duration": "duration", "max_work": "duration",
-    "max_travel": "duration", "driving_rules": "text"}
+    "break": "windows", "break_duration": "duration", "break_within": "duration",
+    "break_paid": "text", "break_anywhere": "text", "break_max_load": "amount",
+    "max_work": "duration", "max_travel": "duration", "driving_rules": "text",
+    "max_driving": "duration", "max_work_before_break": "duration",
+    "max_driving_per_day": "duration", "rest": "duration", "rest_split": "text",
+    "driven_before": "duration", "worked_before": "duration", "lifo": "text"}
 """What is read; of drones nothing is made, though a number of them is none of vehicles."""
 
 MEANINGS = {phrase: meaning for meaning, phrases in WORDS.items() for phrase in phrases.split("|")}
 
-USUAL_UNITS = {"max_work": "hours", "max_travel": "hours"}
+REPEATED = ("capacity", "break", "break_duration")
+"""Meanings of several columns."""
+
+IN_HOURS = ("max_work", "max_travel", "break_within", "max_driving", "max_work_before_break",
+            "max_driving_per_day", "driven_before", "worked_before")
 """What lengths of time are in where neither heading nor cells say so."""
+
+LENGTHS = frozenset(("dauer", "lange", "duration", "length", "duree", "duracion", "durata", "duur",
+                     "minutes", "minuten"))
+"""Words by which a heading of a numbered break is about its length."""
 
 MOST_VANS = 1000
 
@@ -83,8 +54,9 @@ class Van:
     shift: tuple[float | None, float | None] | None = None
     skills: list[str] = field(default_factory=list)
     driver: str = ""
-    breaks: list[tuple[float | None, float | None]] | None = None
-    driving_rules: str = ""
+    breaks: list[list[tuple[float | None, float | None]] | None] = field(default_factory=list)
+    break_durations: list[float | None] = field(default_factory=list)
+    texts: dict[str, str] = field(default_factory=dict)
 
 
 def lists_vans(sheet: Sheet) -> bool:
@@ -138,17 +110,18 @@ def _unit_in(table: Table, column: int, meaning: str) -> str | None:
     if KINDS[meaning] != "duration":
         return None
     stated = _unit_of(table.headings[column], None)
-    return duration_unit(cells, stated or USUAL_UNITS.get(meaning)).unit
+    return duration_unit(cells, stated or ("hours" if meaning in IN_HOURS else None)).unit
 
 
 def _columns(table: Table) -> dict[int, str]:
-    """Return what columns mean; all but capacities stand once."""
+    """Return what columns mean; most stand once."""
     meant: dict[int, str] = {}
     for column, heading in enumerate(table.headings):
         meaning = _meaning_of(heading)
-        if meaning == "break" and _unit_of(heading, None) in DURATION_UNITS:
+        if meaning == "break" and (_unit_of(heading, None) in DURATION_UNITS
+                                   or LENGTHS & set(simple(heading).split())):
             meaning = "break_duration"
-        if meaning in KINDS and (meaning == "capacity" or meaning not in meant.values()):
+        if meaning in KINDS and (meaning in REPEATED or meaning not in meant.values()):
             meant[column] = meaning
     return meant
 
@@ -160,9 +133,13 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
     ends: dict[str, float] = {}
     for column, meaning in meant.items():
         value = _value(table, row, column, KINDS[meaning], units.get(column), style)
-        if value is None:
+        if meaning == "break":
+            van.breaks.append(value)
+        elif meaning == "break_duration":
+            van.break_durations.append(value)
+        elif value is None:
             continue
-        if meaning in ("name", "driver"):
+        elif meaning in ("name", "driver"):
             van.name = str(value) if meaning == "name" or not van.name else van.name
             van.driver = str(value) if meaning == "driver" else van.driver
         elif meaning == "capacity":
@@ -174,10 +151,8 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
             ends[meaning] = value
         elif meaning == "skills":
             van.skills = value
-        elif meaning == "break":
-            van.breaks = value
-        elif meaning == "driving_rules":
-            van.driving_rules = value
+        elif KINDS[meaning] == "text":
+            van.texts[meaning] = value
         else:
             van.values[meaning] = value
     if ends:

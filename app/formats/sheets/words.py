@@ -210,7 +210,7 @@ WORDS: dict[str, dict[str, str]] = {
         "en": "service|service time|service duration|duration|stop time|unloading time|"
               "unload time|handling time|dwell|dwell time|time at stop|stop duration|"
               "visit duration|unloading|unload|time on site|serv time|drop time|work time|handling|"
-              "time needed",
+              "time needed|minutes at stop",
         "de": "dauer|servicezeit|entladezeit|standzeit|haltezeit|abladezeit|aufenthalt|"
               "entladedauer|servicedauer|stoppzeit|entladung|bedienzeit|verweildauer|"
               "aufenthaltsdauer|ladezeit|abladen|entladen|ausladen|zeitbedarf|einsatzdauer",

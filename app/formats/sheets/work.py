@@ -23,6 +23,7 @@ class Import:
     columns: list[Column]
     asking: Asking
     vans: list[Van] = field(default_factory=list)  # those that a sheet of the file lists
+    fairness: dict[str, Any] = field(default_factory=dict)  # what a sheet says of the whole plan
     doubts: list[Doubt] = field(default_factory=list)
     errors: list[CellError] = field(default_factory=list)
     stops: list[Entry] = field(default_factory=list)

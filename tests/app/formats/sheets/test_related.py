@@ -47,7 +47,9 @@ def told(reply: ImportReply, code: str) -> list[str | None]:
     ("Ne pas livrer avec", "apart"), ("Preferred vehicle", "preferred_vehicles"),
     ("Stammfahrer", "preferred_vehicles"), ("Regular driver", "preferred_vehicles"),
     ("Cost of other vehicle", "preference_cost"), ("Nicht mit", "forbidden_vehicles"),
-    ("Vehicle", "vehicles")])
+    ("Vehicle", "vehicles"), ("Gleiche Tour wie", "together_on_trip"),
+    ("Not same trip", "apart_on_trip"), ("Mindestabstand (min)", "min_lag"),
+    ("Max gap", "max_lag"), ("\u00c9cart maximal", "max_lag")])
 def test_headings_of_rules_are_known(heading: str, meaning: str) -> None:
     reply = read(heading, "7", "7", "7", "7")
     assert reply.columns[-1].meaning == meaning
@@ -114,6 +116,40 @@ def test_another_vehicle_than_the_preferred_one_costs() -> None:
         {"vehicle": 4.5, "vehicle-2": 0}, None, {"vehicle": 7.5, "vehicle-1": 0}, None]
     assert told(reply, "PREFERENCE_ASSUMED") == ["F4"]
     assert told(reply, "PREFERENCE_UNKNOWN") == ["F5"]
+
+
+def test_those_on_one_trip_are_bound_to_it() -> None:
+    reply = read("Same trip;Other trip than", "A;x", "A;", ";x", ";")
+    assert reply.request is not None
+    assert reply.request["relations"] == [
+        {"kind": "together", "scope": "trip", "customers": ["Anna", "Ben"]},
+        {"kind": "apart", "scope": "trip", "customers": ["Anna", "Cleo"]}]
+
+
+def test_orders_have_the_tighter_of_the_lags_that_rows_state() -> None:
+    reply = read("Served before;Served after;Min lag (min);Max lag (h)",
+                 "Ben;;10;2", ";Anna;20;", ";;5;", "Cleo;;;")
+    assert reply.request is not None
+    assert reply.request["relations"] == [
+        {"kind": "before", "customers": ["Anna", "Ben"], "min_lag": 1200, "max_lag": 7200},
+        {"kind": "before", "customers": ["Dora", "Cleo"]}]
+    assert told(reply, "LAG_WITHOUT_ORDER") == ["H4"]
+
+
+def test_lags_that_exclude_each_other_are_refused_at_a_cell() -> None:
+    reply = read("Served before;Min lag (min);Max lag (min)", "Ben;30;20", ";;", ";;", ";;")
+    assert [error.cell for error in reply.errors] == ["F2"]
+
+
+def test_each_vehicle_has_the_price_that_a_row_states() -> None:
+    reply = read("Costs by vehicle;Preferred vehicle", "vehicle-2: 4,5 | vehicle: 1;",
+                 "vehicle-1: 0;vehicle-1", "Zeppelin: 3;", ";")
+    assert reply.request is not None
+    assert [customer.get("vehicle_costs") for customer in reply.request["customers"]] == [
+        {"vehicle-2": 4.5, "vehicle": 1}, {"vehicle": 7.5, "vehicle-1": 0}, None, None]
+    assert told(reply, "PREFERENCE_UNKNOWN") == ["F4"]
+    wrong = read("Costs by vehicle", "vehicle 5", "van: 3", "van: 3", "van: 3")
+    assert [(error.code, error.cell) for error in wrong.errors] == [("MISREAD", "F2")]
 
 
 def test_a_price_below_nothing_is_refused_at_its_cell() -> None:

@@ -14,10 +14,10 @@ pytestmark = pytest.mark.slow
 
 ENGLISH = """\
 Order;Pickup name;Pickup lat;Pickup lon;Pickup from;Pickup until;Client;Delivery lat;Delivery lon;\
-Delivery until;Qty;Max ride time (min)
-A1;Mill;48.10;11.50;8:00;10:00;Baker;48.2;11.6;12:00;3;60
-A2;Mine;48.11;11.51;8:00;10:00;Smith;48.3;11.6;12:00;4;
-A3;;;;;;Shop;48.3;11.7;12:00;4;
+Delivery until;Qty;Max ride time (min);Max detour
+A1;Mill;48.10;11.50;8:00;10:00;Baker;48.2;11.6;12:00;3;60;1.5
+A2;Mine;48.11;11.51;8:00;10:00;Smith;48.3;11.6;12:00;4;;
+A3;;;;;;Shop;48.3;11.7;12:00;4;;
 """
 
 TWO_ROWS = """\
@@ -69,7 +69,7 @@ def test_a_row_of_two_places_is_a_shipment_and_one_of_one_a_customer() -> None:
     assert (reply.customers, reply.shipments) == (1, 2)
     first, second = request(reply)["shipments"]
     assert first == {
-        "id": "A1", "amount": [3], "max_time_between": 3600,
+        "id": "A1", "amount": [3], "max_time_between": 3600, "max_detour": 1.5,
         "pickup": {"location": [11.5, 48.1], "info": {"name": "Mill"},
                    "time_window": {"earliest": 28800, "latest": 36000}},
         "delivery": {"location": [11.6, 48.2], "info": {"name": "Baker", "order": "A1"},

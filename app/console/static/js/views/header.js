@@ -13,6 +13,7 @@ import { openFile } from './files.js';
 import { LanguageChoice } from './language-choice.js';
 import { ProblemName } from './problem-name.js';
 
+const SHEET = new URL('../../examples/working-day.xlsx', import.meta.url).href;
 const ICON = new URL('../../icon.svg', import.meta.url).href;
 
 /** The bar at the top. */
@@ -54,20 +55,29 @@ export function switchTheme() {
   document.documentElement.dataset.theme = theme;
 }
 
+/** Open the spreadsheet that shows what columns are understood. */
+async function openSheet() {
+  const content = await (await fetch(SHEET)).blob();
+  await openFile(new File([content], SHEET.split('/').at(-1)));
+}
+
 function Opener() {
   const examples = useStore((state) => state.examples);
   const input = useRef(null);
   const choose = (event) => {
-    const example = examples.find(({ name }) => name === event.target.value);
+    const { value } = event.target;
     event.target.value = '';
+    if (value === SHEET) return openSheet();
+    const example = examples.find(({ name }) => name === value);
     openRequest(example.request, { name: example.name, isSafe: true });
-    plan();
+    return plan();
   };
   return html`<div class="problem">
     <select aria-label=${t('header.example')} onChange=${choose} value="">
       <option value="" disabled hidden>${t('header.examples')}</option>
       ${examples.map(({ name, summary }) => html`<option key=${name}
         value=${name}>${name}: ${summary}</option>`)}
+      <option value=${SHEET}>${t('header.exampleSheet')}</option>
     </select>
     <button type="button" onClick=${() => input.current.click()}>
       ${t('header.file')}</button>

@@ -5,13 +5,16 @@ import { changeColumn } from '../importing.js';
 import { html, useState } from '../libraries.js';
 import { t } from '../texts.js';
 
+const EXAMPLE = new URL('../../examples/working-day.xlsx', import.meta.url).href;
+
 /** All columns that hold anything. */
 export function Columns({ reply }) {
   return html`<h3>${t('import.columns')}</h3>
     <ul class="import-columns">${reply.columns.map(
       (column) => html`<${Column} key=${column.column} column=${column}
         meanings=${reply.meanings} />`,
-    )}</ul>`;
+    )}</ul>
+    <p><a href=${EXAMPLE} download>${t('import.exampleSheet')}</a></p>`;
 }
 
 function Column({ column, meanings }) {

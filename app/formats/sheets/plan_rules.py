@@ -1,0 +1,108 @@
+"""A sheet of names and values -> what a plan costs as a whole: `fairness`."""
+
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+from app.formats.sheets.cells import Doubt, MisreadError, Raw, cell_name, shown
+from app.formats.sheets.clocks import Style
+from app.formats.sheets.headings import simple
+from app.formats.sheets.numbers import number_of
+from app.formats.sheets.table import Sheet
+
+WORDS = {
+    "makespan_cost_per_hour": "makespan cost|makespan cost per hour|cost of the last hour|"
+                              "cost per hour of the longest day|cost per hour until all are back|"
+                              "kosten je stunde bis alle zuruck sind|kosten der gesamtdauer|"
+                              "kosten je stunde gesamtdauer",
+    "balance": "balance|balance of|balanced|fair share of|ausgleich|ausgleich nach|"
+               "gleichmassig nach|gerecht nach",
+    "balance_cost": "balance cost|cost of balance|cost of imbalance|ausgleichskosten|"
+                    "kosten des ausgleichs|kosten ungleicher arbeit",
+    "min_vehicles": "min vehicles|minimum vehicles|least vehicles|least number of vehicles|"
+                    "mindestzahl fahrzeuge|mindestens fahrzeuge|fahrzeuge mindestens",
+}
+"""Names of what holds for the whole plan, in simple letters; `|` stands between phrases."""
+
+MEASURES = {
+    "duration": "duration|hours|working hours|time|dauer|arbeitszeit|stunden",
+    "stops": "stops|customers|stopps|kunden|halte",
+    "load": "load|amount|ladung|menge",
+    "distance": "distance|km|kilometres|kilometers|strecke|kilometer",
+}
+
+NAMES = {phrase: name for name, phrases in WORDS.items() for phrase in phrases.split("|")}
+MEASURE_NAMES = {phrase: name for name, phrases in MEASURES.items()
+                 for phrase in phrases.split("|")}
+
+MOST_ROWS = 100
+
+Data = dict[str, Any]
+
+
+class Line(NamedTuple):
+    """A name and what stands beside it."""
+
+    name: str | None  # None: it is none that is known
+    shown: str
+    raw: Raw
+    cell: str
+
+
+def lists_rules(sheet: Sheet) -> bool:
+    """Tell whether a sheet states what holds for the whole plan: it has few rows, and names it."""
+    return len(sheet.rows) <= MOST_ROWS and any(line.name for line in _lines(sheet))
+
+
+def fairness_of(sheet: Sheet, style: Style) -> tuple[Data, list[Doubt]]:
+    """Return what a sheet says of the whole plan, and what of it isn't used.
+
+    Raises
+    ------
+    MisreadError
+        If a value isn't what its name says.
+    """
+    stated: Data = {}
+    unused = []
+    for line in _lines(sheet):
+        if line.name is None:
+            unused.append(line.shown)
+        else:
+            stated[line.name] = _value(line, style)
+    measure, cost = stated.pop("balance", None), stated.pop("balance_cost", None)
+    doubts = [Doubt("RULES_IN_FILE", f"The sheet {sheet.name} is read as rules of the whole plan.")]
+    if (measure is None) != (cost is None):
+        lacks = "what is balanced" if measure is None else "its cost"
+        doubts.append(Doubt("BALANCE_INCOMPLETE", f"The sheet {sheet.name} doesn't say {lacks}: "
+                            "nothing is balanced. State both."))
+    elif measure is not None:
+        stated["balance"] = {"measure": measure, "cost": cost}
+    if unused:
+        doubts.append(Doubt("RULES_UNUSED", f"Of the sheet {sheet.name} nothing is made of "
+                            f"{', '.join(unused[:10])}."))
+    return stated, doubts
+
+
+def _lines(sheet: Sheet) -> Iterator[Line]:
+    """Yield the rows with a name and a value, but for a row of headings."""
+    for number, row in enumerate(sheet.rows[:MOST_ROWS]):
+        cells = [(column, raw) for column, raw in enumerate(row) if raw is not None]
+        if len(cells) < 2 or not isinstance(cells[0][1], str):
+            continue
+        (_, name), (column, raw) = cells[:2]
+        known = NAMES.get(simple(name))
+        if known is not None or number:
+            yield Line(known, shown(name)[:80], raw, f"{sheet.name}!{cell_name(number, column)}")
+
+
+def _value(line: Line, style: Style) -> Any:
+    try:
+        if line.name != "balance":
+            found = number_of(line.raw, style.comma)
+            return round(found) if line.name == "min_vehicles" else found
+    except MisreadError as error:
+        raise MisreadError(f"{line.cell}: {error}") from error
+    measure = MEASURE_NAMES.get(simple(shown(line.raw)))
+    if measure is None:
+        raise MisreadError(f"{line.cell}: {shown(line.raw)[:80]!r} is nothing that can be balanced "
+                           f"here: write one of {', '.join(MEASURES)}")
+    return measure
