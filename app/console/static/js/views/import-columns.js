@@ -14,7 +14,7 @@ export function Columns({ reply }) {
       (column) => html`<${Column} key=${column.column} column=${column}
         meanings=${reply.meanings} />`,
     )}</ul>
-    <p><a href=${EXAMPLE} download>${t('import.exampleSheet')}</a></p>`;
+    <p><a href=${EXAMPLE} download="working-day.xlsx">${t('import.exampleSheet')}</a></p>`;
 }
 
 function Column({ column, meanings }) {
