@@ -32,6 +32,11 @@ struct Best {
         return true;
     }
 
+    // Takes a move for the best likewise.
+    void try_move(double other, const Move& made) {
+        if (takes(other)) move = made;
+    }
+
     // Takes the place behind `before` if that is the best and the customer may come there, which is
     // asked last.
     template <class MayCome>

@@ -9,8 +9,8 @@
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "search/insertion/cheapest.h"
-#include "search/insertion/newcomer.h"
 #include "search/insertion/offers.h"
+#include "search/insertion/trip_scan.h"
 #include "search/route/drone_data.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -49,26 +49,17 @@ struct PairPlace {
 
 using EndPlaces = Cheapest<EndPlace, most_places>;
 
-class FlownPairScan {
+class FlownPairScan : TripScan {
 public:
-    FlownPairScan(const Insertion& insertion, Int slot, const Trip& trip)
-        : data_(insertion.data),
-          fleet_(insertion.searcher.now),
-          best_(insertion.best),
-          slot_(slot),
-          trip_(trip),
-          route_(fleet_.route[slot]),
-          stops_(fleet_.stop[slot]),
-          type_(data_.type[route_.type]),
-          rate_(data_.rate[route_.type]),
-          pickup_(insertion.node),
-          delivery_(data_.pair[pickup_].partner),
+    FlownPairScan(const Insertion& insertion, Int of_slot, const Trip& tried)
+        : TripScan(insertion, of_slot, tried),
+          delivery_(data.pair[node].partner),
           fits_(insertion.searcher.scratch->fits) {}
 
     void scan() {
         EndPlaces pickups, deliveries;
-        const bool fetches = fly(pickup_, pickups), brings = fly(delivery_, deliveries);
-        if (brings) drive(pickup_, pickups);
+        const bool fetches = fly(node, pickups), brings = fly(delivery_, deliveries);
+        if (brings) drive(node, pickups);
         if (fetches) drive(delivery_, deliveries);
         if (fetches && brings) fly_both();
         for (const EndPlace& pickup : pickups.items()) {
@@ -76,55 +67,49 @@ public:
         }
         pairs_.sort();
         for (const PairPlace& place : pairs_.items()) {
-            if (is_dear(place.cost) || data_.deadline.passed()) return;
+            if (is_dear(place.cost) || data.deadline.passed()) return;
             price(place);
         }
     }
 
 private:
-    // Whether an insertion that costs at least so much may be passed over.
-    bool is_dear(double least) const { return data_.strategy.give_up_early && least >= best_.cost; }
-
     // Lists where the truck may serve an end. In place.
-    void drive(Int node, EndPlaces& places) const {
-        if (!allows_stops(type_, stops_on(trip_) + 1)) return;
-        const Newcomer newcomer = newcomer_for(data_, type_, node);
-        for (Int p = trip_.first; p < trip_.last; ++p) {
-            const Stop& here = stops_[p];
-            const auto [out, on, distance] =
-                newcomer.detour(here.node, stops_[p + 1].node, here.leg);
-            const double cost = double(distance) * rate_.distance + rate_.stop;
-            if (is_dear(cost) || newcomer.place.too_late(here.leave + out.duration)) continue;
+    void drive(Int end, EndPlaces& places) const {
+        if (!allows_stops(type, stops_on(trip) + 1)) return;
+        const Newcomer driven = newcomer(end);
+        for (Int p = trip.first; p < trip.last; ++p) {
+            const auto [out, on, distance] = detour(driven, p);
+            const double cost = double(distance) * rate.distance + rate.stop;
+            if (is_dear(cost) || driven.place.too_late(stops[p].leave + out.duration)) continue;
             places.add({cost, by_wheels, p, p});
         }
     }
 
     // Lists where drones may serve an end; false if nowhere. In place.
-    bool fly(Int node, EndPlaces& places) const {
-        if (!data_.can(route_.type, 1, node) ||
-            !may_launch(type_, route_, fleet_.sortie[slot_], trip_)) {
+    bool fly(Int end, EndPlaces& places) const {
+        if (!data.can(route.type, 1, end) || !may_launch(type, route, fleet.sortie[slot], trip)) {
             return false;
         }
-        for_each_row(node, node, [&](Int row) { fly_by(row, node, places); });
+        for_each_row(end, end, [&](Int row) { fly_by(row, end, places); });
         return !places.items().empty();
     }
 
-    void fly_by(Int row, Int node, EndPlaces& places) const {
-        const Windows place = data_.place.by_air(data_.type[row])[node];
+    void fly_by(Int row, Int end, EndPlaces& places) const {
+        const Windows place = data.place.by_air(data.type[row])[end];
         const auto note = [&](const Flown& flown) {
-            const Flight flight{data_.type[row], place, flown.out, flown.home};
+            const Flight flight{data.type[row], place, flown.out, flown.home};
             if (flight.can_serve()) places.add({flown.cost, row, flown.launch, flown.recovery});
         };
-        for_each_flight(row, node, node, 0, note);
+        for_each_flight(row, end, end, 0, note);
     }
 
     // Lists sorties that serve both ends. In place.
     void fly_both() {
-        for_each_row(pickup_, delivery_, [&](Int row) {
-            if (data_.visits[row] < 2) return;
-            const TravelLegs legs = legs_of(data_.leg, data_.type[row].drone_travel);
-            const Int between = leg(legs, pickup_, delivery_).distance;
-            for_each_flight(row, pickup_, delivery_, between, [&](const Flown& flown) {
+        for_each_row(node, delivery_, [&](Int row) {
+            if (data.visits[row] < 2) return;
+            const TravelLegs legs = legs_of(data.leg, data.type[row].drone_travel);
+            const Int between = leg(legs, node, delivery_).distance;
+            for_each_flight(row, node, delivery_, between, [&](const Flown& flown) {
                 const EndPlace pickup{flown.cost, row, flown.launch, flown.recovery};
                 pairs_.add({flown.cost, pickup, {0.0, by_same, 0, 0}});
             });
@@ -134,10 +119,10 @@ private:
     // Calls `visit` with each row of drones that may serve two customers and has a battery.
     template <class Visit>
     void for_each_row(Int first, Int last, const Visit& visit) const {
-        for (Int row = first_drone_row(data_.type, route_.type); row >= 0;
-             row = next_drone_row(data_.type, row)) {
-            if (data_.can(row, 1, first) && data_.can(row, 1, last) &&
-                has_battery(data_.type, route_, fleet_.sortie[slot_], trip_, row)) {
+        for (Int row = first_drone_row(data.type, route.type); row >= 0;
+             row = next_drone_row(data.type, row)) {
+            if (data.can(row, 1, first) && data.can(row, 1, last) &&
+                has_battery(data.type, route, fleet.sortie[slot], trip, row)) {
                 visit(row);
             }
         }
@@ -155,24 +140,23 @@ private:
     // recovered.
     template <class Visit>
     void for_each_flight(Int row, Int first, Int last, Int between, const Visit& visit) const {
-        const VehicleType& drone = data_.type[row];
-        const Rate& rate = data_.rate[row];
-        const LegRow inward = legs_to(data_.back, drone.drone_travel, first);
-        const LegRow onward = legs_from(data_.leg, drone.home_travel, last);
-        const bool crosses = data_.strategy.crossings && !waits_for_drones(type_);
-        for (Int launch = trip_.first; launch <= trip_.last; ++launch) {
-            const Leg out = leg_from(inward, stops_[launch].node);
+        const VehicleType& drone = data.type[row];
+        const Rate& rate = data.rate[row];
+        const LegRow inward = legs_to(data.back, drone.drone_travel, first);
+        const LegRow onward = legs_from(data.leg, drone.home_travel, last);
+        const bool crosses = data.strategy.crossings && !waits_for_drones(type);
+        for (Int launch = trip.first; launch <= trip.last; ++launch) {
+            const Leg out = leg_from(inward, stops[launch].node);
             const Int far_out = out.distance + between;
-            if (is_dear(flown_cost(rate, far_out)) ||
-                !may_meet(drone, stops_[launch].node, first)) {
+            if (is_dear(flown_cost(rate, far_out)) || !may_meet(drone, stops[launch].node, first)) {
                 continue;
             }
-            const Int latest = crosses ? std::min(trip_.last, launch + max_span) : launch;
-            for (Int recovery = data_.strategy.loops ? launch : launch + 1; recovery <= latest;
+            const Int latest = crosses ? std::min(trip.last, launch + max_span) : launch;
+            for (Int recovery = data.strategy.loops ? launch : launch + 1; recovery <= latest;
                  ++recovery) {
-                const Leg home = leg_to(onward, stops_[recovery].node);
+                const Leg home = leg_to(onward, stops[recovery].node);
                 const double cost = flown_cost(rate, far_out + home.distance);
-                if (!is_dear(cost) && may_meet(drone, stops_[recovery].node, last)) {
+                if (!is_dear(cost) && may_meet(drone, stops[recovery].node, last)) {
                     visit({launch, recovery, out.duration, home.duration, cost});
                 }
             }
@@ -181,7 +165,7 @@ private:
 
     // Whether drones of a type that serve a customer may be launched or recovered at a node.
     bool may_meet(const VehicleType& drone, Int here, Int customer) const {
-        return is_launch_place(data_.no_launch, here) && in_range(data_, drone, here, customer);
+        return is_launch_place(data.no_launch, here) && in_range(data, drone, here, customer);
     }
 
     // Lists a shipment at two places if the truck holds it between, and a drone flies one. In
@@ -201,54 +185,29 @@ private:
 
     Int drone_for(const EndPlace& place) const {
         if (place.row < 0) return nowhere;
-        return free_drone(data_, fleet_, slot_, {2 * place.first, 2 * place.last}, place.row);
+        return free_drone(data, fleet, slot, {2 * place.first, 2 * place.last}, place.row);
+    }
+
+    static Int kind_of(const PairPlace& place) {
+        if (place.pickup.row == by_wheels) return by_truck_and_drone;
+        if (place.delivery.row == by_wheels) return by_drone_and_truck;
+        return place.delivery.row == by_same ? on_one_flight : by_drones;
     }
 
     void price(const PairPlace& place) {
         const auto& [cost, pickup, delivery] = place;
-        Move move{};
-        move.slot = slot_;
-        move.type = route_.type;
         const Int fetching = drone_for(pickup), bringing = drone_for(delivery);
-        if ((pickup.row != by_wheels && fetching < 0) || (delivery.row >= 0 && bringing < 0)) {
-            return;
-        }
-        move.first = pickup.first;
-        if (pickup.row == by_wheels) {
-            move.kind = by_truck_and_drone;
-            move.last = delivery.first;
-            move.landing = delivery.last;
-            move.drone = bringing;
-        } else if (delivery.row == by_same) {
-            move.kind = on_one_flight;
-            move.last = pickup.last;
-            move.drone = fetching;
-        } else if (delivery.row == by_wheels) {
-            move.kind = by_drone_and_truck;
-            move.last = delivery.first;
-            move.landing = pickup.last;
-            move.drone = fetching;
-        } else {
-            move.kind = by_drones;
-            move.last = pickup.last;
-            move.halt = delivery.first;
-            move.landing = delivery.last;
-            move.drone = fetching;
-            move.sortie = bringing;
-        }
-        if (best_.takes(price_move(data_, fleet_, move, pickup_))) best_.move = move;
+        const bool fetches = pickup.row >= 0, brings = delivery.row >= 0;
+        if ((fetches && fetching < 0) || (brings && bringing < 0)) return;
+        const bool lands = fetches && delivery.row != by_wheels;
+        Move move = move_of(kind_of(place), pickup.first, lands ? pickup.last : delivery.first);
+        move.halt = delivery.first;
+        move.landing = brings ? delivery.last : pickup.last;
+        move.drone = fetches ? fetching : bringing;
+        move.sortie = bringing;
+        best.try_move(price_move(data, fleet, move, node), move);
     }
 
-    const ProblemData& data_;
-    const Fleet& fleet_;
-    Best& best_;
-    const Int slot_;
-    const Trip& trip_;
-    const Route& route_;
-    const View<const Stop, 1> stops_;
-    const VehicleType& type_;
-    const Rate& rate_;
-    const Int pickup_;
     const Int delivery_;
     const View<bool, 1> fits_;
     Cheapest<PairPlace, most_priced> pairs_;

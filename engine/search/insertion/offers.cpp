@@ -316,7 +316,7 @@ void take_cheapest(const Insertion& insertion) {
         const Int first = cheapest.first();
         if (least[first] >= best.cost) break;
         const double cost = price_offer(data, searcher, offer[first], node, least[first]);
-        if (best.takes(cost)) best.move = offer[first];
+        best.try_move(cost, offer[first]);
         cheapest.take_out(first);
         offer[first] = offer[--left];
     }

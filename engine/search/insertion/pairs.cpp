@@ -13,8 +13,8 @@
 #include "rules/start.h"
 #include "search/insertion/cheapest.h"
 #include "search/insertion/flown_pairs.h"
-#include "search/insertion/newcomer.h"
 #include "search/insertion/parts.h"
+#include "search/insertion/trip_scan.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -56,30 +56,22 @@ bool disturbs_stack(const Fleet& fleet, Int slot, Int p) {
 }
 
 // A shipment on its way along a trip.
-class PairScan {
+class PairScan : TripScan {
 public:
-    PairScan(const Insertion& insertion, Int slot, const Trip& trip)
-        : data_(insertion.data),
-          fleet_(insertion.searcher.now),
-          best_(insertion.best),
-          slot_(slot),
-          trip_(trip),
-          route_(fleet_.route[slot]),
-          type_(data_.type[route_.type]),
-          rate_(data_.rate[route_.type]),
-          stops_(fleet_.stop[slot]),
-          pickup_(newcomer_for(data_, type_, insertion.node)),
-          delivery_(newcomer_for(data_, type_, data_.pair[insertion.node].partner)),
+    PairScan(const Insertion& insertion, Int of_slot, const Trip& tried)
+        : TripScan(insertion, of_slot, tried),
+          pickup_(newcomer(node)),
+          delivery_(newcomer(data.pair[node].partner)),
           fits_(insertion.searcher.scratch->fits),
-          time_rate_(data_.evaluation[route_.type].timed ? rate_.time : 0.0),
-          stops_cost_(double(ends_of_pair) * rate_.stop +
-                      vehicle_cost_at(data_.vehicle_cost, route_.type, pickup_.node) +
-                      vehicle_cost_at(data_.vehicle_cost, route_.type, delivery_.node)) {}
+          time_rate_(data.evaluation[route.type].timed ? rate.time : 0.0),
+          stops_cost_(double(ends_of_pair) * rate.stop +
+                      vehicle_cost_at(data.vehicle_cost, route.type, pickup_.node) +
+                      vehicle_cost_at(data.vehicle_cost, route.type, delivery_.node)) {}
 
     // Tries all places by what is known of the stops' times.
     void walk() {
-        for (Int p = trip_.first; p < trip_.last; ++p) {
-            if (pickup_.place.too_late(stops_[p].leave)) return;
+        for (Int p = trip.first; p < trip.last; ++p) {
+            if (pickup_.place.too_late(stops[p].leave)) return;
             if (fits_[p]) walk_from(p);
         }
     }
@@ -92,13 +84,13 @@ public:
         for (Int tried = 0; tried < most_tried && !possible; ++tried) {
             const Spots spots = cheapest_behind(last);
             for (const Spot& spot : spots.items()) {
-                if (data_.deadline.passed()) return;
+                if (data.deadline.passed()) return;
                 last = spot;
-                if (data_.strategy.give_up_early && spot.least >= best_.cost) continue;
-                const Move move = move_to(spot.p, spot.q);
-                const double cost = price_move(data_, fleet_, move, pickup_.node);
+                if (is_dear(spot.least)) continue;
+                const Move move = move_of(both_ends, spot.p, spot.q);
+                const double cost = price_move(data, fleet, move, node);
                 possible = possible || cost < infeasible;
-                if (best_.takes(cost)) best_.move = move;
+                best.try_move(cost, move);
             }
             if (!spots.is_full()) return;
         }
@@ -126,16 +118,16 @@ private:
     // The cheapest of those that come behind `last`.
     Spots cheapest_behind(const std::optional<Spot>& last) const {
         Spots spots;
-        for (Int p = trip_.first; p < trip_.last; ++p) {
-            const Leg out = leg_from(pickup_.inward, stops_[p].node);
-            const Int arrival = stops_[p].leave + out.duration;
+        for (Int p = trip.first; p < trip.last; ++p) {
+            const Leg out = leg_from(pickup_.inward, stops[p].node);
+            const Int arrival = stops[p].leave + out.duration;
             if (pickup_.place.too_late(arrival)) continue;
             const Int aboard = pickup_.place.end_of_service(arrival);
             const Leg apart = more_behind(pickup_, p);
             Int above = 0;
-            for (Int q = p; q < trip_.last && fits_[q]; ++q) {
+            for (Int q = p; q < trip.last && fits_[q]; ++q) {
                 if (q > p && !goes_past(q, above)) break;
-                if (delivery_.place.too_late(std::max(aboard, stops_[q].leave))) break;
+                if (delivery_.place.too_late(std::max(aboard, stops[q].leave))) break;
                 if (above > 0) continue;
                 const Leg more = q == p ? more_together(out, q) : more_behind(delivery_, q, apart);
                 const double least = cost_of(more.distance);
@@ -149,51 +141,40 @@ private:
 
     // How much longer and further it is by one end behind a stop, beside another detour.
     Leg more_behind(const Newcomer& end, Int p, Leg beside = {0, 0}) const {
-        const auto [out, on, distance] =
-            end.detour(stops_[p].node, stops_[p + 1].node, stops_[p].leg);
-        return {beside.duration + out.duration + on.duration - stops_[p].gap,
+        const auto [out, on, distance] = detour(end, p);
+        return {beside.duration + out.duration + on.duration - stops[p].gap,
                 beside.distance + distance};
     }
 
     // How much longer and further it is by both ends behind a stop, from which `out` leads.
     Leg more_together(const Leg& out, Int p) const {
         const Leg aboard = leg_to(pickup_.onward, delivery_.node);
-        const Leg on = leg_to(delivery_.onward, stops_[p + 1].node);
-        return {out.duration + aboard.duration + on.duration - stops_[p].gap,
-                out.distance + aboard.distance + on.distance - stops_[p].leg};
+        const Leg on = leg_to(delivery_.onward, stops[p + 1].node);
+        return {out.duration + aboard.duration + on.duration - stops[p].gap,
+                out.distance + aboard.distance + on.distance - stops[p].leg};
     }
 
-    double cost_of(Int detour) const { return double(detour) * rate_.distance + stops_cost_; }
-
-    Move move_to(Int p, Int q) const {
-        Move move{};
-        move.kind = both_ends;
-        move.slot = slot_;
-        move.first = p;
-        move.last = q;
-        move.type = route_.type;
-        return move;
-    }
+    double cost_of(Int detour) const { return double(detour) * rate.distance + stops_cost_; }
 
     // How much further it is to stop `q`, once a vehicle that takes the pickup behind `p` has come
     // so much further to who is before.
     Int driven_on(Int further, Int p, Int q) const {
         if (q > p + 1) return further;
-        return further + distance_to(pickup_.onward, stops_[q].node) - stops_[p].leg;
+        return further + distance_to(pickup_.onward, stops[q].node) - stops[p].leg;
     }
 
     // How much further it is by the delivery behind the pickup, or behind stop `q`.
     Int delivered_behind(Int p, Int q) const {
-        const Int on = distance_to(delivery_.onward, stops_[q + 1].node) - stops_[q].leg;
+        const Int on = distance_to(delivery_.onward, stops[q + 1].node) - stops[q].leg;
         if (q == p) return distance_to(pickup_.onward, delivery_.node) + on;
-        return distance_from(delivery_.inward, stops_[q].node) + on;
+        return distance_from(delivery_.inward, stops[q].node) + on;
     }
 
     // Whether the shipment may be aboard at stop `q`; of a stack, below `above` others behind it.
     bool goes_past(Int q, Int& above) const {
-        if (!is_stack(type_)) return true;
-        above += fleet_.stop_load(slot_, 0, q).stacks;
-        return above >= 0 && !disturbs_stack(fleet_, slot_, q);
+        if (!is_stack(type)) return true;
+        above += fleet.stop_load(slot, 0, q).stacks;
+        return above >= 0 && !disturbs_stack(fleet, slot, q);
     }
 
     static void serve(Way& way, Windows place, Int duration) {
@@ -205,23 +186,23 @@ private:
     }
 
     void walk_from(Int p) {
-        const Stop& here = stops_[p];
+        const Stop& here = stops[p];
         const Leg out = leg_from(pickup_.inward, here.node);
         if (pickup_.place.too_late(here.leave + out.duration)) return;
         Way way{here.leave, here.cum, here.depart, out.distance};
         Int above = 0;
         serve(way, pickup_.place, out.duration);
-        const NodeTable places = data_.place.by_truck(type_);
+        const NodeTable places = data.place.by_truck(type);
         for (Int q = p;; ++q) {
             if (delivery_.place.too_late(way.leave)) return;
             if (above == 0) try_delivery(way, p, q);
-            if (q + 1 == trip_.last || !fits_[q + 1] || !goes_past(q + 1, above)) return;
-            const Stop& next = stops_[q + 1];
-            const Int gap = q == p ? leg_to(pickup_.onward, next.node).duration : stops_[q].gap;
+            if (q + 1 == trip.last || !fits_[q + 1] || !goes_past(q + 1, above)) return;
+            const Stop& next = stops[q + 1];
+            const Int gap = q == p ? leg_to(pickup_.onward, next.node).duration : stops[q].gap;
             if (way.leave + gap > next.latest) return;
             way.further = driven_on(way.further, p, q + 1);
             // By the triangle inequality no later delivery is nearer.
-            if (cost_of(way.further) >= best_.cost) return;
+            if (cost_of(way.further) >= best.cost) return;
             if (next.kind == customer_stop) {
                 serve(way, places[next.node], gap);
             } else {
@@ -232,10 +213,10 @@ private:
 
     void try_delivery(const Way& way, Int p, Int q) {
         const double least = cost_of(way.further + delivered_behind(p, q));
-        if (least >= best_.cost) return;
-        const Stop& behind = stops_[q + 1];
+        if (least >= best.cost) return;
+        const Stop& behind = stops[q + 1];
         const Leg out = q == p ? leg_to(pickup_.onward, delivery_.node)
-                               : leg_from(delivery_.inward, stops_[q].node);
+                               : leg_from(delivery_.inward, stops[q].node);
         if (delivery_.place.too_late(way.leave + out.duration)) return;
         Way done = way;
         serve(done, delivery_.place, out.duration);
@@ -243,30 +224,21 @@ private:
         const Int time = done.leave + on;
         if (time > behind.latest || time < behind.early) return;
         const double cost = least + longer(done, on, behind);
-        if (cost < infeasible && best_.takes(cost)) best_.move = move_to(p, q);
+        if (cost < infeasible && best.takes(cost)) best.move = move_of(both_ends, p, q);
     }
 
     // What it costs that the route lasts longer; `infeasible` if it may not.
     double longer(const Way& way, Int on, const Stop& behind) const {
-        if (!data_.evaluation[route_.type].timed) return 0.0;
+        if (!data.evaluation[route.type].timed) return 0.0;
         const Int cum = way.cum + on + behind.rest;
         const Int depart = std::min(way.depart, behind.latest - way.cum - on);
         const Int finish = std::max(way.leave + on + behind.rest, behind.end);
         const Int working =
-            finish - counted_from(type_, std::min(depart, finish - cum)) - route_.offset;
-        if (!may_work(type_, working)) return infeasible;
-        return longer_cost(type_, rate_, route_, finish, working);
+            finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
+        if (!may_work(type, working)) return infeasible;
+        return longer_cost(type, rate, route, finish, working);
     }
 
-    const ProblemData& data_;
-    const Fleet& fleet_;
-    Best& best_;
-    const Int slot_;
-    const Trip& trip_;
-    const Route& route_;
-    const VehicleType& type_;
-    const Rate& rate_;
-    const View<const Stop, 1> stops_;
     const Newcomer pickup_;
     const Newcomer delivery_;
     const View<bool, 1> fits_;
@@ -365,11 +337,11 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
             move.drone = fetching;
             if (fetching >= 0 && may_bring_within(data, move.type, fetching, partner)) {
                 move.sortie = on_same_flight;
-                if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+                best.try_move(price_move(data, fleet, move, node), move);
             }
             for_each_server(data, move.type, partner, [&](Int bringing) {
                 move.sortie = bringing;
-                if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+                best.try_move(price_move(data, fleet, move, node), move);
             });
         });
     }

@@ -6,9 +6,8 @@
 
 #include "rules/load.h"
 #include "rules/pair.h"
-#include "rules/rates.h"
-#include "search/insertion/newcomer.h"
-#include "search/route/rarer.h"
+#include "search/insertion/cheapest.h"
+#include "search/insertion/trip_scan.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
 
@@ -59,32 +58,20 @@ Newcomers newcomers_for(const ProblemData& data, const VehicleType& type, const 
 }
 
 // A shipment of several pickups on its way along a trip.
-class PartsScan {
+class PartsScan : TripScan {
 public:
-    PartsScan(const Insertion& insertion, Int slot, const Trip& trip, bool is_walked)
-        : data_(insertion.data),
-          fleet_(insertion.searcher.now),
-          best_(insertion.best),
-          first_(insertion.node),
-          slot_(slot),
-          trip_(trip),
-          type_(data_.type[fleet_.route[slot].type]),
-          rate_(data_.rate[fleet_.route[slot].type]),
-          stops_(fleet_.stop[slot]),
+    PartsScan(const Insertion& insertion, Int of_slot, const Trip& tried, bool is_walked)
+        : TripScan(insertion, of_slot, tried),
           is_walked_(is_walked),
-          delivery_(newcomer_for(data_, type_, data_.pair[insertion.node].partner)),
-          pickup_(newcomers_for(data_, type_, pickups_of(data_.pair, first_))),
-          count_(num_pickups(data_.pair, first_)),
-          stops_cost_(double(count_ + 1) * rate_.stop +
-                      vehicle_cost_at(data_.vehicle_cost, fleet_.route[slot].type, first_)) {
-        move_.kind = all_ends;
-        move_.slot = slot;
-        move_.type = fleet_.route[slot].type;
-    }
+          delivery_(newcomer(data.pair[node].partner)),
+          pickup_(newcomers_for(data, type, pickups_of(data.pair, node))),
+          count_(num_pickups(data.pair, node)),
+          stops_cost_(double(count_ + 1) * rate.stop +
+                      vehicle_cost_at(data.vehicle_cost, route.type, node)) {}
 
     void scan() {
         for (Int number = 0; number < count_; ++number) note_limit(number);
-        follow({trip_.first, none_here, 0, 0, stops_[trip_.first].leave, 0, 0});
+        follow({trip.first, none_here, 0, 0, stops[trip.first].leave, 0, 0});
     }
 
 private:
@@ -100,50 +87,38 @@ private:
 
     const Newcomer& pickup(Int number) const { return pickup_[std::size_t(number)]; }
 
-    double cost_of(Int further) const { return double(further) * rate_.distance + stops_cost_; }
+    double cost_of(Int further) const { return double(further) * rate.distance + stops_cost_; }
 
-    bool is_dear(Int further) const {
-        return data_.strategy.give_up_early && cost_of(further) >= best_.cost;
-    }
+    bool is_too_far(Int further) const { return is_dear(cost_of(further)); }
 
     // Notes how much further it is at most to a pickup alone where it is tried.
     void note_limit(Int number) {
-        const Int places = places_for_each(count_);
-        std::array<Int, most_combined> least;
-        Int found = 0;
-        for (Int p = trip_.first; p < trip_.last; ++p) {
-            const Int further =
-                pickup(number).further(stops_[p].node, stops_[p + 1].node, stops_[p].leg);
-            Int place = found < places ? found++ : places;
-            for (; place > 0 && least[std::size_t(place - 1)] > further; --place) {
-                if (place < places) least[std::size_t(place)] = least[std::size_t(place - 1)];
-            }
-            if (place < places) least[std::size_t(place)] = further;
+        Cheapest<Int, most_combined> least(places_for_each(count_));
+        for (Int p = trip.first; p < trip.last; ++p) {
+            least.add(detour(pickup(number), p).distance);
         }
-        limit_[std::size_t(number)] = least[std::size_t(found - 1)];
+        limit_[std::size_t(number)] = least.dearest();
     }
 
     Leg leg_to_pickup(const Way& way, Int number) const {
         if (way.here != none_here) return leg_to(pickup(way.here).onward, pickup(number).node);
-        return leg_from(pickup(number).inward, stops_[way.behind].node);
+        return leg_from(pickup(number).inward, stops[way.behind].node);
     }
 
     Leg leg_to_delivery(const Way& way) const {
         if (way.here != none_here) return leg_to(pickup(way.here).onward, delivery_.node);
-        return leg_from(delivery_.inward, stops_[way.behind].node);
+        return leg_from(delivery_.inward, stops[way.behind].node);
     }
 
     // Whether so much more may be aboard behind a stop, of what is compared first.
     bool holds_more(Int behind, Int aboard) const {
-        return fleet_.stop_load(slot_, 0, behind).load + aboard <= capacity_of(type_)[0];
+        return fleet.stop_load(slot, 0, behind).load + aboard <= capacity_of(type)[0];
     }
 
     // Whether a pickup is tried right behind a stop.
     bool is_near(const Way& way, Int number) const {
         if (way.here != none_here) return true;
-        const Stop& stop = stops_[way.behind];
-        return pickup(number).further(stop.node, stops_[way.behind + 1].node, stop.leg) <=
-               limit_[std::size_t(number)];
+        return detour(pickup(number), way.behind).distance <= limit_[std::size_t(number)];
     }
 
     // Takes what is left to be picked up, at all places from here on.
@@ -157,15 +132,15 @@ private:
     }
 
     void take(Way way, Int number) {
-        if (++steps_ > most_steps || data_.deadline.passed()) return;
+        if (++steps_ > most_steps || data.deadline.passed()) return;
         const Leg out = leg_to_pickup(way, number);
         const Newcomer& newcomer = pickup(number);
         way.further += out.distance;
-        way.aboard += picked_of(data_.amount, newcomer.node, 0)[0];
-        if (is_dear(way.further) || !holds_more(way.behind, way.aboard)) return;
+        way.aboard += picked_of(data.amount, newcomer.node, 0)[0];
+        if (is_too_far(way.further) || !holds_more(way.behind, way.aboard)) return;
         if (is_walked_ && newcomer.place.too_late(way.leave + out.duration)) return;
         way.leave = newcomer.place.end_of_service(way.leave + out.duration);
-        move_.end[way.rank++] = picked_behind(way.behind, number);
+        end_[std::size_t(way.rank++)] = picked_behind(way.behind, number);
         way.taken |= Int{1} << number;
         way.here = number;
         follow(way);
@@ -173,8 +148,8 @@ private:
 
     // Drives to the next stop. False if that is the last, or too late, or costs too much.
     bool drive_on(Way& way) const {
-        const Stop &stop = stops_[way.behind], &next = stops_[way.behind + 1];
-        if (way.behind + 1 == trip_.last) return false;
+        const Stop &stop = stops[way.behind], &next = stops[way.behind + 1];
+        if (way.behind + 1 == trip.last) return false;
         ++way.behind;
         if (way.taken == 0) {
             way.leave = next.leave;
@@ -187,33 +162,24 @@ private:
             gap = on.duration;
         }
         way.here = none_here;
-        if (is_dear(way.further) || !holds_more(way.behind, way.aboard)) return false;
+        if (is_too_far(way.further) || !holds_more(way.behind, way.aboard)) return false;
         if (!is_walked_) return true;
         if (next.kind != customer_stop || way.leave + gap > next.latest) return false;
-        way.leave = data_.place.by_truck(type_)[next.node].end_of_service(way.leave + gap);
+        way.leave = data.place.by_truck(type)[next.node].end_of_service(way.leave + gap);
         return true;
     }
 
     void deliver(const Way& way) {
         const Leg out = leg_to_delivery(way);
-        const Stop &stop = stops_[way.behind], &next = stops_[way.behind + 1];
+        const Stop &stop = stops[way.behind], &next = stops[way.behind + 1];
         const Int on = distance_to(delivery_.onward, next.node) - stop.leg;
-        if (is_dear(way.further + out.distance + on)) return;
+        if (is_too_far(way.further + out.distance + on)) return;
         if (is_walked_ && delivery_.place.too_late(way.leave + out.duration)) return;
-        move_.first = move_.end[0] / most_pickups;
-        move_.last = way.behind;
-        if (best_.takes(price_move(data_, fleet_, move_, first_))) best_.move = move_;
+        Move move = move_of(all_ends, end_[0] / most_pickups, way.behind);
+        std::copy(end_.begin(), end_.end(), move.end);
+        best.try_move(price_move(data, fleet, move, node), move);
     }
 
-    const ProblemData& data_;
-    const Fleet& fleet_;
-    Best& best_;
-    const Int first_;
-    const Int slot_;
-    const Trip& trip_;
-    const VehicleType& type_;
-    const Rate& rate_;
-    const View<const Stop, 1> stops_;
     const bool is_walked_;
     const Newcomer delivery_;
     const Newcomers pickup_;
@@ -221,7 +187,7 @@ private:
     const double stops_cost_;
     std::array<Int, most_pickups> limit_{};
     Int steps_ = 0;
-    Move move_{};
+    std::array<std::int32_t, most_pickups> end_{};
 };
 
 }  // namespace
@@ -246,7 +212,7 @@ void try_parts_trip(const Insertion& insertion, Int slot, Int behind) {
         for (const Int number : in_order(numbers, order)) {
             move.end[rank++] = picked_behind(behind + 1, number);
         }
-        if (best.takes(price_move(data, fleet, move, node))) best.move = move;
+        best.try_move(price_move(data, fleet, move, node), move);
     }
 }
 
