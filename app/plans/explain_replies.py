@@ -2,29 +2,31 @@
 
 from collections.abc import Iterable, Sequence
 
-from app.plans.replies import Data, cost_reply, one_per_type, reason_reply, vehicle_name
+from app.plans.replies import (
+    Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
+)
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
 from model.judge.alternatives import Alternative, halt_of
 from model.judge.bench import Bench, Trial
-from model.judge.binding import Binding
+from model.judge.binding import Binding, Limit
 from model.judge.clock import window_of
 from model.judge.explain import Reason
 from model.judge.idle_drones import Idle
-from model.judge.places import Found, find_place
+from model.judge.places import Found, find_place, halts
 from model.judge.rules import Violation
 from model.judge.worth import Worth
 from model.planner import PlanResult
 from model.problem import Problem
-from model.solution import Cost, Solution
+from model.solution import Cost, Solution, Stop, Visit
 
 
 def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: Iterable[Binding],
                    reasons: Iterable[Reason]) -> Data:
-    """Return what is said of one customer."""
+    """Return what is said of one customer or shipment."""
     problem = bench.problem
     return {
-        "customer": problem.customer_at(problem.first_place(bench.node)).id,
+        **subject_reply(bench),
         "cost": cost_reply(bench.plan.evaluation.cost),
         "here": here_reply(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],
@@ -33,10 +35,18 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
     }
 
 
+def subject_reply(bench: Bench) -> Data:
+    """Return who is moved: a customer, or a shipment as one."""
+    problem = bench.problem
+    customer = problem.customer_at(problem.first_place(bench.node)).id
+    return {"customer": customer if bench.shipment is None else None,
+            "shipment": None if bench.shipment is None else bench.shipment.id}
+
+
 def nobody_reply(cost: Cost) -> Data:
     """Return the same where nobody is asked about."""
-    return {"customer": None, "cost": cost_reply(cost), "here": None, "alternatives": [],
-            "binding": [], "reasons": []}
+    return {"customer": None, "shipment": None, "cost": cost_reply(cost), "here": None,
+            "alternatives": [], "binding": [], "reasons": []}
 
 
 def difference(cost: Cost, less: Cost) -> dict[str, float]:
@@ -49,7 +59,7 @@ def here_reply(bench: Bench) -> Data | None:
     """Return where a plan serves the customer, and what that costs; None: nowhere."""
     if bench.found is None:
         return None
-    return placed_reply(bench, bench.plan, bench.found) | {
+    return placed_reply(bench, bench.plan) | {
         "saving": more_than_without(bench, bench.plan)}
 
 
@@ -63,9 +73,11 @@ def more_than_without(bench: Bench, trial: Trial) -> dict[str, float]:
 
 def _alternative(bench: Bench, each: Alternative) -> Data:
     trial = each.trial
-    placed = placed_reply(bench, trial, find_place(trial.solution, bench.node))
+    placed = placed_reply(bench, trial)
     if each.window is not None:
         placed["window"] = each.window
+        if bench.shipment is not None and each.node is not None:
+            placed["window_at"] = bench.problem.customer_at(each.node).id
     return {
         "kind": each.kind,
         **placed,
@@ -81,23 +93,38 @@ def rules_reply(violations: Sequence[Violation]) -> list[Data]:
         (item.code, item.message) for item in telling(violations))]
 
 
-def placed_reply(bench: Bench, trial: Trial, found: Found | None) -> Data:
-    """Return who serves the customer where and when in a plan."""
-    halt = halt_of(trial, bench.node)
-    if found is None or halt is None:
+def placed_reply(bench: Bench, trial: Trial) -> Data:
+    """Return who serves the customer where and when in a plan, or all ends of the shipment."""
+    placed = [(node, found, halt) for node in bench.nodes
+              if (found := find_place(trial.solution, node)) is not None
+              and (halt := halt_of(trial, node)) is not None]
+    if not placed:
         return {"vehicle": None, "by": None, "window": None, "position": None,
                 "service_start": None}
+    placed.sort(key=lambda each: each[2].service_start)
+    problem = bench.problem
+    ends = [{**place_reply(problem, node), **_at_place(bench, trial, node, found, halt),
+             "arrival": whole(halt.arrival)} for node, found, halt in placed]
+    node, found, halt = placed[0]
+    reply = {"vehicle": vehicle_name(problem, trial.solution.routes[found.route]),
+             **_at_place(bench, trial, node, found, halt)}
+    if bench.shipment is None:
+        return reply
+    by = "drone" if any(end["by"] == "drone" for end in ends) else "truck"
+    return reply | {"by": by, "ends": ends}
+
+
+def _at_place(bench: Bench, trial: Trial, node: int, found: Found, halt: Stop | Visit) -> Data:
+    """Return who comes to a node, in which window, where in the vehicle's work and when."""
     problem, place = bench.problem, found.place
-    route = trial.solution.routes[found.route]
-    stops = route.trips[place.trip].stops
-    by_drone = place.by == "drone"
+    trip = trial.solution.routes[found.route].trips[place.trip]
+    stops, by_drone = trip.stops, place.by == "drone"
     return {
-        "vehicle": vehicle_name(problem, route),
         "by": "drone" if problem.vehicle_types[place.vehicle.type].flies else place.by,
-        "window": window_of(problem.customer_at(bench.node), halt.service_start),
+        "window": window_of(problem.customer_at(node), halt.service_start),
         "position": {
             "trip": place.trip,
-            "own_trip": place.own_trip,
+            "own_trip": {each.node for each in halts(trip)} <= {*bench.nodes},
             "stop": place.stop,
             "after": _name(problem, stops[place.stop - (not by_drone)].node),
             "recovery_stop": place.recovery if by_drone else None,
@@ -117,12 +144,19 @@ def _binding(bench: Bench, each: Binding) -> Data:
     limit, problem = each.limit, bench.problem
     return {
         "rule": limit.field,
-        "at": ("" if limit.whose == "request" else problem.customer_at(bench.node).id
+        "at": ("" if limit.whose == "request" else _name_of_limited(bench, limit)
                if limit.kind is None else problem.vehicle_types[limit.kind].type_id),
         "slack": limit.slack,
         "unit": limit.unit,
         "saves_per_unit": each.saves_per_unit,
     }
+
+
+def _name_of_limited(bench: Bench, limit: Limit) -> str:
+    """Return the name of the customer whose limit it is, or of a shipment that has it whole."""
+    if bench.shipment is not None and (limit.unit == "rule" or limit.field == "max_time_between"):
+        return bench.shipment.id
+    return bench.problem.customer_at(bench.node if limit.node is None else limit.node).id
 
 
 def drones_reply(problem: Problem, solution: Solution, cost: Cost, sorties: Sequence[Worth],

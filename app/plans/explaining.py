@@ -1,8 +1,9 @@
-"""Any legal plan: why a customer is served where he is, and what drones save."""
+"""Any legal plan: why a customer or shipment is served where it is, and what drones save."""
 
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 from pydantic_core import to_json
 
@@ -27,7 +28,7 @@ from model.judge.places import used_place
 from model.judge.retiming import read_route, time_route
 from model.judge.worth import sorties_worth
 from model.planner import Listener, Planner, PlanOptions, PlanResult
-from model.problem import Problem
+from model.problem import Problem, Shipment
 from model.solution import Route, Solution
 
 ALTERNATIVES_SHARE = 0.7
@@ -46,11 +47,19 @@ LEAST_SEARCH = 0.05
 """Seconds without which a search is not worth the name."""
 
 
+class Subject(NamedTuple):
+    """Of whom it is asked: the id of a customer, of a shipment, or neither."""
+
+    customer: str | None
+    shipment: str | None
+
+
 @dataclass(frozen=True)
 class Question:
     """What is asked of a plan, and until when it is to be answered, on `time.perf_counter`."""
 
     customer: str | None
+    shipment: str | None
     drones: bool
     idle_drones: bool
     began: float
@@ -75,22 +84,22 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Planner,
     task = task_of(request.problem, preparing_within(bounds, should_stop),
                    roads=roads.with_all_legs())
     solution = read_plan(request.plan, task.problem, (PLAN,))
-    question = _question(request.customer, request.drones, request.options, body.received_at,
-                         request.idle_drones)
+    question = _question(Subject(request.customer, request.shipment), request.drones,
+                         request.options, body.received_at, request.idle_drones)
     return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
 
 
-def explain_job(request: PlanRequest, plan: bytes, customer: str | None, drones: bool,
+def explain_job(request: PlanRequest, plan: bytes, subject: Subject, drones: bool,
                 options: ExplainOptions, bounds: Bounds, planner: Planner,
                 should_stop: Callable[[], bool], roads: Roads = NO_ROADS) -> bytes:
     """Return the same of a job's plan, as JSON; raises as `answer_explain` does."""
     began = time.perf_counter()
     require_within(options, bounds, "query.time_limit")
-    require_known(request, customer, "query.customer")
+    _require_subject(request, subject, "query.")
     task = task_of(request, preparing_within(bounds, should_stop),
                    roads=roads.with_all_legs())
     solution = read_plan(parse_plan(plan), task.problem)
-    question = _question(customer, drones, options, began)
+    question = _question(subject, drones, options, began)
     return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
 
 
@@ -98,8 +107,17 @@ def read_explain(body: bytes, bounds: Bounds) -> ExplainRequest:
     """Return the request that `body` holds; raises as `read_about_plan` does."""
     request = read_about_plan(body, bounds, ExplainRequest)
     require_within(request.options, bounds, "$.options.time_limit")
-    require_known(request.problem, request.customer, "$.customer")
+    _require_subject(request.problem, Subject(request.customer, request.shipment), "$.")
     return request
+
+
+def _require_subject(request: PlanRequest, subject: Subject, where: str) -> None:
+    require_known(request, subject.customer, f"{where}customer")
+    require_shipment(request, subject.shipment, f"{where}shipment")
+    if None not in subject:
+        raise InvalidRequestError([InputError(
+            code="UNKNOWN_FIELD", path=f"{where}shipment",
+            message="A customer is asked about already: ask of one, and of the other then.")])
 
 
 def require_within(options: ExplainOptions, bounds: Bounds, path: str) -> None:
@@ -119,17 +137,36 @@ def require_known(request: PlanRequest, customer: str | None, path: str) -> None
             message=f"The problem has no customer {customer[:200]!r}: use the id of one it has.")])
 
 
+def require_shipment(request: PlanRequest, shipment: str | None, path: str) -> None:
+    """Refuse a shipment that a problem doesn't have; raises `InvalidRequestError`."""
+    if shipment is not None and all(each.id != shipment for each in request.shipments):
+        raise InvalidRequestError([InputError(
+            code="UNKNOWN_SHIPMENT", path=path,
+            message=f"The problem has no shipment {shipment[:200]!r}: use the id of one it has.")])
+
+
+def node_named(problem: Problem, customer: str | None) -> int:
+    """Return the node of a customer that there is."""
+    return next(node for node, each in enumerate(problem.customers, problem.num_depots)
+                if each.id == customer)
+
+
+def shipment_named(problem: Problem, shipment: str | None) -> Shipment:
+    """Return a shipment that there is."""
+    return next(each for each in problem.shipments if each.id == shipment)
+
+
 def preparing_within(bounds: Bounds, should_stop: Callable[[], bool]) -> Preparing:
     """Return the work before plans are judged, which may take as long as a plan."""
     return Preparing(should_stop, bounds.time_limit,
                      f"the {bounds.time_limit:g} s of {bounds.time_setting}")
 
 
-def _question(customer: str | None, drones: bool, options: ExplainOptions,
+def _question(subject: Subject, drones: bool, options: ExplainOptions,
               received_at: float, idle_drones: bool = False) -> Question:
     """Return what is asked, now that all that it is asked of is read."""
     now, limit = time.perf_counter(), options.time_limit
-    return Question(customer, drones, idle_drones, now,
+    return Question(*subject, drones, idle_drones, now,
                     max(received_at + limit, now + LEAST_TRYING * limit))
 
 
@@ -160,11 +197,16 @@ class _Explainer:
     def answer(self, question: Question) -> Data:
         """Return the reply to a question."""
         reply, complete = nobody_reply(self._cost), True
-        if question.customer is not None:
-            reply, complete = self._of_customer(question, question.customer)
-            self._task.name_hindrances([question.customer], reply["reasons"])
+        bench = self._bench(question)
+        if bench is not None:
+            reply, complete = self._of(question, bench)
+            names = [self._problem.customer_at(node).id for node in bench.nodes]
+            if question.customer is not None:
+                names = [question.customer]
+            self._task.name_hindrances(names, reply["reasons"])
             if self._task.closures is not None:
-                reply["zones"] = self._task.closures.around(question.customer)
+                reply["zones"] = [zone for name in names
+                                  for zone in self._task.closures.around(name)]
         drones = None
         if question.drones:
             drones, in_time = self._of_drones(question)
@@ -179,18 +221,25 @@ class _Explainer:
         warnings = warning_replies(warning.within(PROBLEM) for warning in self._task.warnings)
         return reply | {"drones": drones, "complete": complete, "warnings": warnings}
 
-    def _of_customer(self, question: Question, name: str) -> tuple[Data, bool]:
-        node = next(node for node, customer
-                    in enumerate(self._problem.customers, self._problem.num_depots)
-                    if customer.id == name)
-        node = used_place(self._problem, self._solution, node)
-        bench = Bench(self._problem, self._solution, node, self._setting, self._judged)
+    def _bench(self, question: Question) -> Bench | None:
+        """Return what tries whom is asked about elsewhere; None: nobody is."""
+        if question.shipment is not None:
+            whole = shipment_named(self._problem, question.shipment)
+            return Bench(self._problem, self._solution, whole.pickup, self._setting, self._judged,
+                         whole)
+        if question.customer is None:
+            return None
+        node = used_place(self._problem, self._solution,
+                          node_named(self._problem, question.customer))
+        return Bench(self._problem, self._solution, node, self._setting, self._judged)
+
+    def _of(self, question: Question, bench: Bench) -> tuple[Data, bool]:
         share = ALTERNATIVES_SHARE * (0.3 if question.drones else 1.0)
         found = find_alternatives(bench, question.after(share))
         binding, in_time = find_binding(bench, found,
                                         question.after(0.3 if question.drones else 1.0))
         reasons = (() if bench.found is not None else self._task.reasons(
-            self._solution, node, time.perf_counter() + REASONS_SECONDS))
+            self._solution, bench.node, time.perf_counter() + REASONS_SECONDS))
         return (customer_reply(bench, found.alternatives, binding, reasons),
                 found.is_complete and in_time)
 

@@ -1,15 +1,20 @@
-"""Where one more customer fits a plan best, or one whom it serves elsewhere."""
+"""Where one more customer or shipment fits a plan best, or one whom it serves elsewhere."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.checking import PLAN, PROBLEM, illegal_plan, read_about_plan
-from app.plans.explain_replies import here_reply, more_than_without, placed_reply, rules_reply
-from app.plans.explaining import LEAST_TRYING, preparing_within, require_known, require_within
+from app.plans.explain_replies import (
+    here_reply, more_than_without, placed_reply, rules_reply, subject_reply,
+)
+from app.plans.explaining import (
+    LEAST_TRYING, node_named, preparing_within, require_known, require_shipment, require_within,
+    shipment_named,
+)
 from app.plans.replies import Data, cost_reply
 from app.plans.task import Task, task_of, warning_replies
 from app.plans.timing import timed_plan
@@ -18,10 +23,13 @@ from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.fit import FitReply, FitRequest
 from app.serving.load.bodies import ReceivedBody
 from model.judge.bench import Bench, Trial
-from model.judge.check import Evaluation
+from model.judge.check import Evaluation, JudgedRoute
 from model.judge.fitting import find_fits, new_violations, spot_of, vehicle_of
 from model.judge.places import find_place, used_place
 from model.solution import Solution
+
+SUBJECTS = "customer", "new_customer", "shipment", "new_shipment"
+"""Fields one of which says for whom a place is sought."""
 
 TRYING_SHARE = 0.9
 """Share of the time limit after which no more places are tried."""
@@ -47,12 +55,11 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     _require_readable(evaluation)
     now, limit = time.perf_counter(), request.options.time_limit
     until = max(body.received_at + TRYING_SHARE * limit, now + LEAST_TRYING * limit)
-    node = used_place(problem, solution, _node_of(task, request))
-    bench = Bench(problem, _with_customer(solution, node), node, task.setting, judged)
+    bench = _bench(task, request, solution, judged)
     fits = find_fits(bench, request.count, until,
                      vehicle_of if request.one_per_vehicle else spot_of)
     reply: Data = {
-        "customer": problem.customer_at(problem.first_place(node)).id,
+        **subject_reply(bench),
         "cost": cost_reply(evaluation.cost),
         "here": here_reply(bench),
         "places": [_place_reply(bench, trial) | {"route": _route(task, bench, trial)}
@@ -72,11 +79,14 @@ def read_fit(body: bytes, bounds: Bounds) -> FitRequest:
     request = read_about_plan(body, bounds, FitRequest)
     require_within(request.options, bounds, "$.options.time_limit")
     require_known(request.problem, request.customer, "$.customer")
-    if (request.customer is None) == (request.new_customer is None):
+    require_shipment(request.problem, request.shipment, "$.shipment")
+    stated = [name for name in SUBJECTS if getattr(request, name) is not None]
+    if len(stated) != 1:
         raise InvalidRequestError([InputError(
-            code="MISSING_FIELD" if request.customer is None else "UNKNOWN_FIELD",
-            path="$.customer", message="Either customer or new_customer says for whom a place is "
-            "sought: state one of the two.")])
+            code="UNKNOWN_FIELD" if stated else "MISSING_FIELD",
+            path=f"$.{stated[0] if stated else SUBJECTS[0]}",
+            message="For whom a place is sought is stated by one of customer, new_customer, "
+            "shipment and new_shipment: state one, and no other.")])
     return request
 
 
@@ -88,25 +98,32 @@ def _require_readable(evaluation: Evaluation) -> None:
                        "correct it.")
 
 
-def _node_of(task: Task, request: FitRequest) -> int:
-    """Return the customer's node."""
+def _bench(task: Task, request: FitRequest, solution: Solution,
+           judged: Mapping[int, JudgedRoute]) -> Bench:
+    """Return what tries the customer or shipment at places of a plan."""
+    problem = task.judged_problem
+    if request.shipment is not None or request.new_shipment is not None:
+        shipment = (shipment_named(problem, request.shipment) if request.new_shipment is None
+                    else problem.shipments[-1])
+        return Bench(problem, _with_nodes(solution, shipment.nodes), shipment.pickup, task.setting,
+                     judged, shipment)
     customer = request.new_customer
-    name = request.customer if customer is None else customer.id
-    return next(node for node, each
-                in enumerate(task.problem.customers, task.problem.num_depots) if each.id == name)
+    node = used_place(problem, solution, node_named(
+        problem, request.customer if customer is None else customer.id))
+    return Bench(problem, _with_nodes(solution, (node,)), node, task.setting, judged)
 
 
-def _with_customer(solution: Solution, node: int) -> Solution:
-    """Return a plan that leaves a customer out, if it doesn't have him at all."""
-    if node in solution.unassigned or find_place(solution, node) is not None:
-        return solution
-    return replace(solution, unassigned=(*solution.unassigned, node))
+def _with_nodes(solution: Solution, nodes: Iterable[int]) -> Solution:
+    """Return a plan that leaves customers out whom it doesn't have at all."""
+    lacking = [node for node in nodes if node not in solution.unassigned
+               and find_place(solution, node) is None]
+    return replace(solution, unassigned=(*solution.unassigned, *lacking))
 
 
 def _place_reply(bench: Bench, trial: Trial) -> Data:
     broken = new_violations(bench, trial)
     return {
-        **placed_reply(bench, trial, find_place(trial.solution, bench.node)),
+        **placed_reply(bench, trial),
         "cost": more_than_without(bench, trial),
         "feasible": not broken,
         "reasons": rules_reply(broken),
@@ -114,7 +131,7 @@ def _place_reply(bench: Bench, trial: Trial) -> Data:
 
 
 def _route(task: Task, bench: Bench, trial: Trial) -> Data | None:
-    """Return the route that serves the customer."""
+    """Return the route that serves the customer or shipment."""
     found = find_place(trial.solution, bench.node)
     if found is None:
         return None

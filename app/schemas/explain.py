@@ -7,7 +7,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.check import PlannedProblem
 from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.hindrances import StormReply, ZoneReply
+from app.schemas.plan import PART_TEXT
 from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
+from app.schemas.shipment import EndKind
 from app.schemas.times import InstantReply, WordsReply
 
 OTHERS_STAY = "All other customers stay with their vehicles, in their order."
@@ -28,7 +30,10 @@ class ExplainRequest(PlannedProblem):
 
     customer: str | None = Field(
         None, description="Id of the customer of whom it is asked why he is served where he is. "
-        "Null: of nobody.")
+        "One end of a shipment (`s1/pickup`) moves alone. Null: of nobody.")
+    shipment: str | None = Field(
+        None, description="Id of a shipment of which the same is asked, all ends of which move as "
+        "one. Null: of none.")
     drones: bool = Field(
         False, description="Whether to tell what drones save: each sortie, and all in sum.")
     idle_drones: bool = Field(
@@ -54,17 +59,33 @@ class PositionReply(_Reply):
     recovered_at: str | None = Field(description="Id of that stop. Null by truck.")
 
 
+class EndPlacedReply(_Reply):
+    """Where and when an end of a shipment is served."""
+
+    kind: EndKind = Field(description="Which end.")
+    id: str = Field(description="Id of the shipment.")
+    part: str | None = Field(None, description=f"{PART_TEXT} Left out where it hasn't.")
+    by: Literal["truck", "drone"] = Field(description="Who comes.")
+    window: int | None = Field(description="As a customer's.")
+    position: PositionReply = Field(description="Where in the vehicle's work.")
+    arrival: InstantReply = Field(description="Arrival.")
+    service_start: InstantReply = Field(description="Start of service.")
+
+
 class PlacedReply(_Reply):
-    """Where and when a customer is served."""
+    """Where and when a customer is served; of a shipment, its first end."""
 
     vehicle: str | None = Field(description="Name of the vehicle. Null: none.")
-    by: Literal["truck", "drone"] | None = Field(description="Who comes. Null: nobody.")
+    by: Literal["truck", "drone"] | None = Field(
+        description="Who comes; `drone` if one comes to any end of a shipment. Null: nobody.")
     window: int | None = Field(
         description="Index in `time_windows` of the one in which service starts. Null: there is "
         "but one, or no service.")
     position: PositionReply | None = Field(description="Where in its work. Null: nowhere.")
     service_start: InstantReply | None = Field(
         description="Start of service. Null: there is none.")
+    ends: list[EndPlacedReply] = Field(
+        [], description="All ends of a shipment, in the order of visits. Left out of customers.")
 
 
 class HereReply(PlacedReply):
@@ -89,6 +110,8 @@ class AlternativeReply(PlacedReply):
         description="`place`: elsewhere with the same vehicle, in the same way. `by`: by drone "
         "instead of truck, or the other way round, with any vehicle. `window`: in this window "
         "alone. `vehicle`: with this other vehicle. `unassigned`: not at all.")
+    window_at: str | None = Field(
+        None, description="Of a shipment's `window`: the end whose it is, as `s1/delivery`.")
     cost: CostReply = Field(
         description="What the plan would cost more, by term; less where negative. "
         f"{OTHERS_STAY} Where it is not feasible: the cost with the rule broken.")
@@ -171,6 +194,7 @@ class ExplainReply(_Reply):
     """Why a customer is served where he is, and what else it would cost."""
 
     customer: str | None = Field(description="Id of the customer asked about.")
+    shipment: str | None = Field(description="Id of the shipment asked about.")
     cost: CostReply = Field(description="What the plan costs, by term.")
     here: HereReply | None = Field(description="Where the plan serves him. Null: nowhere.")
     alternatives: list[AlternativeReply] = Field(

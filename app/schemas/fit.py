@@ -9,19 +9,27 @@ from app.schemas.customer import CustomerInput
 from app.schemas.explain import OTHERS_STAY, ExplainOptions, HereReply, PlacedReply, RuleReply
 from app.schemas.request import PlanRequest
 from app.schemas.response import WARNINGS_TEXT, CostReply, RouteReply, WarningReply
+from app.schemas.shipment import ShipmentInput
 
 MAX_PLACES = 20
 
 
 class FitRequest(CheckRequest):
-    """A problem, a plan for it, and a customer for whom places are sought."""
+    """A problem, a plan for it, and a customer or shipment for whom places are sought."""
 
     customer: str | None = Field(
-        None, description="Id of a customer of the problem, whether the plan serves him or not. "
-        "Null: `new_customer` is stated.")
+        None, description="Id of a customer of the problem, whether the plan serves him or not, or "
+        "of one end of a shipment (`s1/pickup`), which then moves alone. Null: another of the four "
+        "is stated.")
     new_customer: CustomerInput | None = Field(
         None, description="A customer whom the problem doesn't have, as one of its `customers`. "
-        "Null: `customer` is stated.")
+        "Null: another is stated.")
+    shipment: str | None = Field(
+        None, description="Id of a shipment of the problem, all ends of which move as one. "
+        "Null: another is stated.")
+    new_shipment: ShipmentInput | None = Field(
+        None, description="A shipment that the problem doesn't have, as one of its `shipments`. "
+        "Null: another is stated.")
     count: Annotated[int, Field(ge=1, le=MAX_PLACES)] = Field(
         3, description="How many places are asked for.")
     one_per_vehicle: bool = Field(
@@ -30,20 +38,27 @@ class FitRequest(CheckRequest):
 
     @property
     def whole_problem(self) -> PlanRequest:
-        """The problem, the new customer being its last."""
-        if self.new_customer is None:
-            return self.problem
-        return self.problem.model_copy(
-            update={"customers": [*self.problem.customers, self.new_customer]})
+        """The problem, the new customer or shipment being its last."""
+        customers, added = self.problem.customers, self.new_shipment
+        if self.new_customer is not None:
+            return self.problem.model_copy(update={"customers": [*customers, self.new_customer]})
+        if added is not None:
+            return self.problem.model_copy(update={
+                "customers": [*customers, *added.ends()],
+                "shipments": [*self.problem.shipments, added]})
+        return self.problem
 
     def path_of(self, path: str) -> str:
         """Return where in the request something of `whole_problem` is stated."""
+        if self.new_shipment is not None:
+            return path.replace(f"$.problem.shipments[{len(self.problem.shipments)}]",
+                                "$.new_shipment")
         return path.replace(f"$.problem.customers[{len(self.problem.customers)}]",
                             "$.new_customer")
 
 
 class FitPlaceReply(PlacedReply):
-    """A place for the customer."""
+    """A place for the customer or shipment."""
 
     cost: CostReply = Field(
         description="What the plan costs more than without him, by term; nothing is counted for "
@@ -57,16 +72,17 @@ class BestPlaceReply(FitPlaceReply):
     """One of the best places, and the vehicle's route with him."""
 
     route: RouteReply = Field(
-        description="The vehicle's work with the customer there, as `POST /plan` tells it: in "
+        description="The vehicle's work with it there, as `POST /plan` tells it: in "
         "place of its route, or beside the others, it makes the plan.")
 
 
 class FitReply(BaseModel):
-    """The best places for a customer."""
+    """The best places for a customer or shipment."""
 
     model_config = ConfigDict(extra="forbid")
 
-    customer: str = Field(description="Id of the customer.")
+    customer: str | None = Field(description="Id of the customer. Null: it is a shipment.")
+    shipment: str | None = Field(description="Id of the shipment. Null: it is a customer.")
     cost: CostReply = Field(description="What the plan given costs, by term.")
     here: HereReply | None = Field(description="Where the plan serves him. Null: nowhere.")
     places: list[BestPlaceReply] = Field(

@@ -1,4 +1,4 @@
-"""What it would cost to serve a customer elsewhere, otherwise or not at all.
+"""What it would cost to serve a customer, or bring a shipment, elsewhere, otherwise or not at all.
 
 What is said of an alternative is true, since the judge has judged the whole plan; that it is the
 cheapest of its kind is true of those tried.
@@ -6,7 +6,7 @@ cheapest of its kind is true of those tried.
 
 import math
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -14,7 +14,10 @@ from model.judge.bench import Bench, Draft, Trial
 from model.judge.clock import window_of
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
+from model.judge.retiming import read_route
 from model.judge.screening import Guess, Screen
+from model.judge.shipment_screening import ShipmentScreen
+from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
 from model.solution import Stop, Visit
 
@@ -39,7 +42,8 @@ class Alternative:
 
     kind: Kind
     trial: Trial
-    window: int | None = None  # which of several the customer is served in
+    window: int | None = None  # which of several is the only one
+    node: int | None = None  # whose window; None: nobody's
 
 
 @dataclass(frozen=True)
@@ -109,7 +113,7 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
     All of them have their first turn before any has its second.
     """
     guesses = {group: [guess for guess in some if not _is_here(bench, guess.place)]
-               for group, some in _guesses(bench, bench.problem).items()}
+               for group, some in guesses_for(bench, bench.problem).items()}
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)
     tried: dict[Group, list[Draft]] = {}
@@ -124,8 +128,12 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
     return tried, True
 
 
-def _guesses(bench: Bench, problem: Problem) -> dict[Group, list[Guess]]:
-    return Screen(problem, bench.left_out.solution, bench.node, bench.setting.past).guesses()
+def guesses_for(bench: Bench, problem: Problem) -> dict[Group, list[Guess]]:
+    """Return the places of each vehicle and means that may be tried, the likeliest first."""
+    solution, past = bench.left_out.solution, bench.setting.past
+    if bench.shipment is None:
+        return Screen(problem, solution, bench.node, past).guesses()
+    return ShipmentScreen(problem, solution, bench.shipment, past).guesses()
 
 
 def _is_settled(drafts: Sequence[Draft], turn: int, enough: int) -> bool:
@@ -141,31 +149,64 @@ def _is_here(bench: Bench, place: Place) -> bool:
     if bench.found is None:
         return False
     here = bench.found.place
+    if bench.shipment is not None:
+        route = read_route(bench.problem, bench.plan.solution.routes[bench.found.route])
+        return (place.vehicle == here.vehicle or place.own_trip) and (
+            _order_of(bench.decide(place)[1], bench.nodes) == _order_of(route, bench.nodes))
     if here.own_trip and len(bench.plan.solution.routes[bench.found.route].trips) == 1:
         # Alone with a vehicle, he may as well be so with another of its type.
         place = place._replace(vehicle=Vehicle(place.vehicle.type, here.vehicle.number))
     return place._replace(drone=here.drone) == here
 
 
+def here_of(bench: Bench) -> Place | None:
+    """Return where a plan has the customer or shipment, as a place to put it; None if nowhere."""
+    if bench.found is None or bench.shipment is None:
+        return None if bench.found is None else bench.found.place
+    some = guesses_for(bench, bench.problem)
+    return next((guess.place for (vehicle, by), guesses in some.items()
+                 if (vehicle.type, by) == (bench.found.place.vehicle.type, bench.found.place.by)
+                 for guess in guesses if _is_here(bench, guess.place)), None)
+
+
+def _order_of(route: RouteDecision, nodes: Collection[int]) -> tuple[object, ...]:
+    """Return whom a type of vehicle serves in which order, and from where drones fly to `nodes`."""
+    return route.vehicle_type, *[
+        (trip.nodes, sorted([
+            (sortie.nodes, () if frozenset(sortie.nodes).isdisjoint(nodes)
+             else (sortie.launch_stop, sortie.recovery_stop)) for sortie in trip.sorties]))
+        for trip in route.trips]
+
+
 def _windows(bench: Bench, until: float) -> tuple[list[Alternative], bool]:
     """Return the best place in each other window, and tell whether there was time for all."""
-    customer = bench.problem.customer_at(bench.node)
-    halt = halt_of(bench.plan, bench.node)
+    found: list[Alternative] = []
+    for node in bench.nodes:
+        some, in_time = _windows_of(bench, node, until)
+        found += some
+        if not in_time:
+            return found, False
+    return found, True
+
+
+def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative], bool]:
+    customer = bench.problem.customer_at(node)
+    halt = halt_of(bench.plan, node)
     now = None if halt is None else window_of(customer, halt.service_start)
     found: list[Alternative] = []
     for window in range(len(customer.openings) if customer.gaps else 0):
         if window == now:
             continue
-        problem = with_customer(bench.problem, bench.node, in_window(customer, window))
-        guesses = sorted([guess for some in _guesses(bench, problem).values() for guess in some],
-                         key=lambda guess: guess.rank)
+        problem = with_customer(bench.problem, node, in_window(customer, window))
+        guesses = sorted([guess for some in guesses_for(bench, problem).values()
+                          for guess in some], key=lambda guess: guess.rank)
         drafts: list[Draft] = []
         for turn, guess in enumerate(guesses[:ALL_TRIES]):
             if time.perf_counter() >= until:
                 return found, False
             if not _is_settled(drafts, turn, MORE_TRIES):
                 drafts.append(bench.draft(guess.place, problem))
-        found += [replace(each, window=window)
+        found += [replace(each, window=window, node=node)
                   for each in best_of(bench, "window", drafts, problem)]
     return found, True
 

@@ -1,4 +1,4 @@
-"""A plan without one customer, who is put at places of it by way of trial.
+"""A plan without one customer, or one shipment, that is put at places of it by way of trial.
 
 All others stay where they are, in their order. Each trial is a whole plan that was judged.
 """
@@ -11,18 +11,21 @@ from model.judge.clock import with_all_setups
 from model.judge.ends import with_ends
 from model.judge.launch_sites import without_idle_stops
 from model.judge.lags import Awaited, soonest_across
+from model.judge.metrics import unassigned_cost
 from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
-from model.judge.places import Found, Place, changed, find_place, route_with, routes_without
+from model.judge.places import (
+    Found, Place, changed, find_place, find_shipment, route_with, routes_without,
+)
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.rules import Violation
 from model.judge.timing import RouteDecision
-from model.problem import Problem
+from model.problem import Problem, Shipment
 from model.solution import Solution
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A customer at a place, or left out, and what the judge says of the whole plan."""
+    """A customer or shipment at a place, or left out, and what the judge says of the whole plan."""
 
     place: Place | None
     solution: Solution
@@ -57,7 +60,7 @@ class Setting:
 
 
 class Bench:
-    """Tries one customer at places of a plan that leaves him out.
+    """Tries one customer, or all ends of a shipment, at places of a plan that leaves them out.
 
     Parameters
     ----------
@@ -66,20 +69,26 @@ class Bench:
     solution
         A plan without broken rules.
     node
-        The customer.
+        The customer; of a shipment the first of its ends.
     setting
         What else it is judged by.
     judged
         Its routes, judged by `setting`; None: they aren't yet.
+    shipment
+        What is moved as one; None: the customer alone.
     """
 
     def __init__(self, problem: Problem, solution: Solution, node: int,
                  setting: Setting | None = None,
-                 judged: Mapping[int, JudgedRoute] | None = None) -> None:
+                 judged: Mapping[int, JudgedRoute] | None = None,
+                 shipment: Shipment | None = None) -> None:
         self.problem = problem
         self.node = node
+        self.shipment = shipment
+        self.nodes = (node,) if shipment is None else shipment.nodes
         self.setting = setting or Setting()
-        self.found: Found | None = find_place(solution, node)
+        self.found: Found | None = (find_place(solution, node) if shipment is None
+                                    else find_shipment(solution, shipment))
         judged = self.setting.judge_routes(problem, solution) if judged is None else judged
         solution = with_all_setups(problem, solution)
         self.plan = Trial(None if self.found is None else self.found.place, solution,
@@ -89,12 +98,20 @@ class Bench:
     def _leave_out(self, judged: Mapping[int, JudgedRoute]
                    ) -> tuple[Trial, Mapping[int, JudgedRoute]]:
         """Return the plan that leaves the customer out, and its routes as judged."""
-        solution, found = self.plan.solution, self.found
+        left_out = self.plan
+        for node in self.nodes:
+            left_out, judged = self._without(left_out, node, judged)
+        return left_out, judged
+
+    def _without(self, trial: Trial, node: int, judged: Mapping[int, JudgedRoute]
+                 ) -> tuple[Trial, Mapping[int, JudgedRoute]]:
+        """Return a plan without one node, and its routes as judged."""
+        solution, found = trial.solution, find_place(trial.solution, node)
         if found is None:
-            return self.plan, judged
+            return trial, judged
         index = found.route
         decision = read_route(self.problem, solution.routes[index])
-        unassigned = (*solution.unassigned, self.node)
+        unassigned = (*solution.unassigned, node)
         ways = [*routes_without(decision, found)]
         if Vehicle(decision.vehicle_type, decision.vehicle) not in self.setting.past.trips:
             ways = [without_idle_stops(self.problem, way) for way in ways]
@@ -119,30 +136,36 @@ class Bench:
     def without(self) -> float:
         """What the plan costs without the customer, nothing being counted for leaving him out."""
         cost = self.left_out.evaluation.cost
-        own = self.problem.first_place(self.node)
-        left_out = self.problem.cost_of_leaving_out(self.problem.customer_at(own))
-        return cost.total - left_out
+        own = [self.problem.first_place(node) for node in self.nodes]
+        return cost.total - unassigned_cost(self.problem, own)
 
-    def draft(self, place: Place, problem: Problem | None = None) -> "Draft":
-        """Return the route with the customer at a place; `problem` as in `finish`."""
+    def decide(self, place: Place, problem: Problem | None = None) -> tuple[int, RouteDecision]:
+        """Return the index of a route, and it with the customer at a place, without times."""
         problem = problem or self.problem
         routes = self.left_out.solution.routes
         index = next((index for index, route in enumerate(routes)
                       if (route.vehicle_type, route.vehicle) == place.vehicle), len(routes))
-        kind, before = problem.vehicle_types[place.vehicle.type], 0.0
-        if index < len(routes):
-            decision, before = read_route(problem, routes[index]), self.judged[index].cost.total
-        else:
-            decision = RouteDecision(place.vehicle.type, place.vehicle.number, ())
+        kind = problem.vehicle_types[place.vehicle.type]
+        decision = (read_route(problem, routes[index]) if index < len(routes)
+                    else RouteDecision(place.vehicle.type, place.vehicle.number, ()))
         decision = route_with(decision, place, self.node, (kind.begins_at, kind.ends_at))
-        if self.node in problem.lags_across:
-            others = [route for number, route in enumerate(routes) if number != index]
-            until = soonest_across(problem, others, self.node)
-            decision = replace(decision, trips=tuple([
-                replace(trip, awaited=(*trip.awaited, Awaited(self.node, until)))
-                for trip in decision.trips]))
         if place.own_trip:
             decision = replace(decision, trips=with_ends(kind, decision.trips))
+        return index, decision
+
+    def draft(self, place: Place, problem: Problem | None = None) -> "Draft":
+        """Return the route with the customer at a place; `problem` as in `finish`."""
+        problem = problem or self.problem
+        index, decision = self.decide(place, problem)
+        routes = self.left_out.solution.routes
+        before = self.judged[index].cost.total if index < len(routes) else 0.0
+        others = [route for number, route in enumerate(routes) if number != index]
+        for node in self.nodes:
+            if node in problem.lags_across:
+                until = soonest_across(problem, others, node)
+                decision = replace(decision, trips=tuple([
+                    replace(trip, awaited=(*trip.awaited, Awaited(node, until)))
+                    for trip in decision.trips]))
         timed = self._best(problem, [decision], index)
         return Draft(place, index, timed, timed.judged.cost.total - before)
 
@@ -160,7 +183,7 @@ class Bench:
             The other routes as `problem` has them judged; None: as the problem as it is does.
         """
         problem, solution = problem or self.problem, self.left_out.solution
-        others = tuple([node for node in solution.unassigned if node != self.node])
+        others = tuple([node for node in solution.unassigned if node not in self.nodes])
         plan = changed(solution, draft.index, draft.timed.route, others)
         known = {**(self.judged if judged is None else judged), draft.index: draft.timed.judged}
         return Trial(draft.place, plan, self.setting.judge(problem, plan, known))

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
-from model.judge.alternatives import Findings, halt_of, with_customer
+from model.judge.alternatives import Findings, guesses_for, halt_of, here_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.driving import travel_duration
@@ -21,7 +21,6 @@ from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
 from model.judge.places import Place
 from model.judge.rules import airborne_duration, farthest
-from model.judge.screening import Screen
 from model.judge.work_limits import between_limits, duty_limits, fleet_limits, rest_limits
 from model.problem import (
     MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
@@ -57,6 +56,7 @@ class Limit(NamedTuple):
     slack: float | None  # units; None: the plan doesn't come near it
     problem: Problem
     gives_trips: bool = False  # a unit more is a trip more, which is at no place tried before
+    node: int | None = None  # the customer, or end of a shipment, that has it
 
 
 @dataclass(frozen=True)
@@ -73,9 +73,11 @@ def find_binding(bench: Bench, findings: Findings,
 
     `findings` are those of `find_alternatives`; `until` is on `time.perf_counter`.
     """
-    begun = _best_now(bench, findings)
+    here = here_of(bench)
+    begun = _best_now(bench, findings, here)
     cost = begun.evaluation.cost.total
-    places = [begun.place, *_cheaper_but_illegal(bench, findings, cost)]
+    places = [here, here if begun is bench.plan else begun.place,
+              *_cheaper_but_illegal(bench, findings, cost)]
     found: list[Binding] = []
     for limit in _limits(bench, places):
         if time.perf_counter() >= until:
@@ -89,12 +91,12 @@ def find_binding(bench: Bench, findings: Findings,
     return tuple(sorted(found, key=lambda each: -each.saves_per_unit)), True
 
 
-def _best_now(bench: Bench, findings: Findings) -> Trial:
+def _best_now(bench: Bench, findings: Findings, here: Place | None) -> Trial:
     """Return the best that can be done with the customer as things are."""
     known = [bench.plan, *[each.trial for each in findings.alternatives
                            if each.window is None and each.trial.evaluation.is_feasible]]
-    if bench.found is not None:
-        known.append(bench.put(bench.found.place))
+    if here is not None:
+        known.append(bench.put(here))
     return min(known, key=lambda trial: trial.rank)
 
 
@@ -110,7 +112,7 @@ def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None]) -> fl
     judged = None
     if limit.kind is not None:
         judged = bench.setting.judge_routes(limit.problem, bench.left_out.solution)
-    wanted = [None if bench.found is None else bench.found.place, *places]
+    wanted = [*places]
     if limit.gives_trips:
         wanted = [*_further_trips(bench, limit)]
     elif limit.unit == "rule" or limit.whose == "request":
@@ -123,15 +125,13 @@ def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None]) -> fl
 
 def _likeliest(bench: Bench, problem: Problem) -> list[Place]:
     """Return the places of all vehicles that look cheapest."""
-    screen = Screen(problem, bench.left_out.solution, bench.node, bench.setting.past)
-    guesses = [guess for some in screen.guesses().values() for guess in some]
+    guesses = [guess for some in guesses_for(bench, problem).values() for guess in some]
     return [guess.place for guess in sorted(guesses, key=lambda guess: guess.rank)[:MAX_LIFTED]]
 
 
 def _further_trips(bench: Bench, limit: Limit) -> Iterator[Place]:
     """Yield trips that a limit allows the customer for himself."""
-    screen = Screen(limit.problem, bench.left_out.solution, bench.node, bench.setting.past)
-    for (vehicle, _), guesses in screen.guesses().items():
+    for (vehicle, _), guesses in guesses_for(bench, limit.problem).items():
         own = [guess.place for guess in guesses if guess.place.own_trip]
         if vehicle.type == limit.kind:
             yield from own[:1]
@@ -139,7 +139,11 @@ def _further_trips(bench: Bench, limit: Limit) -> Iterator[Place]:
 
 def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
     """Yield the limits of the customer, and of the types of vehicles that might serve him."""
-    yield from _customer_limits(bench)
+    for node in bench.nodes:
+        for limit in _customer_limits(bench, node):
+            yield limit._replace(node=node)
+    for field, freed in lifted(bench.problem, bench.nodes):
+        yield Limit(field, "customer", None, "rule", None, freed, node=bench.node)
     kinds = dict.fromkeys([place.vehicle.type for place in (
         None if bench.found is None else bench.found.place, *places) if place is not None])
     one_each = {bench.problem.vehicle_types[kind].type_id: kind for kind in reversed(kinds)}
@@ -153,8 +157,8 @@ def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
         yield Limit(field, "vehicle_type", kind, "unit", 0.0, richer, gives_trips=True)
 
 
-def _customer_limits(bench: Bench) -> Iterator[Limit]:
-    problem, node = bench.problem, bench.node
+def _customer_limits(bench: Bench, node: int) -> Iterator[Limit]:
+    problem = bench.problem
     customer, halt = problem.customer_at(node), halt_of(bench.plan, node)
     window = "time_windows" if customer.gaps else "time_window"
     last, first = ("[-1]", "[0]") if customer.gaps else ("", "")
@@ -183,11 +187,10 @@ def _customer_limits(bench: Bench) -> Iterator[Limit]:
         changed = replace(customer, release_time=max(0, customer.release_time - MS_PER_MINUTE))
         yield Limit("release_time", "customer", None, "minute", _in_minutes(slack),
                     with_customer(problem, node, changed))
-    kind = None if trip is None else _kind_of(bench)
-    for field, left, longer in between_limits(problem, node, kind, trip):
-        yield Limit(field, "customer", None, "minute", left, longer)
-    for field, freed in lifted(problem, node):
-        yield Limit(field, "customer", None, "rule", None, freed)
+    if node == bench.nodes[-1]:
+        kind = None if trip is None else _kind_of(bench)
+        for field, left, longer in between_limits(problem, node, kind, trip):
+            yield Limit(field, "customer", None, "minute", left, longer)
 
 
 def _in_minutes(duration: int | None) -> float | None:

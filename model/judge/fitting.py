@@ -1,4 +1,4 @@
-"""The best places for one customer in a plan whose others stay, and why other vehicles have none.
+"""The best places of a customer or shipment in a plan whose others stay, and why not elsewhere.
 
 Each is a whole plan that was judged. They are the best of those tried: in small plans of all, else
 of each vehicle's likeliest, by truck and by drone.
@@ -20,7 +20,8 @@ SPARE = 8
 
 def spot_of(place: Place) -> tuple[object, ...]:
     """Return what places have in common that differ only in where a drone is recovered."""
-    return place.vehicle, place.trip, place.by, place.stop, place.sortie, place.own_trip
+    own = place.vehicle, place.trip, place.by, place.stop, place.sortie, place.own_trip
+    return *own, *[(node, each.by, each.stop, each.sortie) for node, each in place.ends]
 
 
 def vehicle_of(place: Place) -> tuple[object, ...]:
@@ -58,9 +59,9 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
 def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
     """Return the rules that a plan breaks and that it doesn't without the customer.
 
-    Without one end of a shipment the other end breaks one, which excuses no other trip.
+    Without one end of a shipment alone the other breaks one, which excuses no other trip.
     """
-    is_end = bench.node in bench.problem.shipment_at
+    is_end = bench.shipment is None and bench.node in bench.problem.shipment_at
     before = {(each.code, each.message) for each in bench.left_out.evaluation.violations
               if not (is_end and each.code == "PAIR")}
     return [each for each in trial.evaluation.violations

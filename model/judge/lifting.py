@@ -1,37 +1,52 @@
-"""Rules without a number that bind a customer, and the problem without each of them."""
+"""Rules without a number that bind a customer or shipment, and the problem without each of them."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 
-from model.judge.alternatives import with_customer
-from model.problem import Problem
+from model.problem import Customer, Problem
 
 
-def lifted(problem: Problem, node: int) -> Iterator[tuple[str, Problem]]:
+def lifted(problem: Problem, nodes: Sequence[int]) -> Iterator[tuple[str, Problem]]:
     """Yield rules that keep vehicles from a customer, as requests name them, and no longer do.
 
-    None of a shipment's ends: no vehicle is tried for one without the other.
+    `nodes` are all ends of a shipment, or one customer. None of one of a shipment's ends: no
+    vehicle is tried for one without the others.
     """
-    customer = problem.customer_at(node)
-    if node in problem.shipment_at:
+    customers, kinds = [problem.customer_at(node) for node in nodes], problem.vehicle_types
+    shipment = problem.shipment_at.get(nodes[0])
+    if shipment is not None and len(nodes) < len(shipment.nodes):
         return
-    if not all(problem.allows(kind, node) for kind in range(len(problem.vehicle_types))):
-        yield "vehicles", _open_to_all(problem, node)
-    if any(not customer.skills <= kind.skills for kind in problem.vehicle_types):
-        yield "skills", with_customer(problem, node, replace(customer, skills=frozenset()))
-    if customer.served_by != "either" and node not in problem.lags_across:
-        yield "served_by", with_customer(problem, node, replace(customer, served_by="either"))
-    if any(node in each.nodes for each in problem.relations):
+    if not all(problem.allows(kind, node) for kind in range(len(kinds)) for node in nodes):
+        yield "vehicles", _open_to_all(problem, nodes)
+    if any(not customer.skills <= kind.skills for kind in kinds for customer in customers):
+        yield "skills", _with_all(
+            problem, nodes, lambda customer: replace(customer, skills=frozenset()))
+    may_fly = shipment is None or not shipment.more
+    if may_fly and any(customer.served_by != "either" for customer in customers) and (
+            problem.lags_across.keys().isdisjoint(nodes)):
+        yield "served_by", _with_all(
+            problem, nodes, lambda customer: replace(customer, served_by="either"))
+    if any(not {*nodes}.isdisjoint(each.nodes) for each in problem.relations):
         yield "relations", replace(problem, relations=tuple(
-            each for each in problem.relations if node not in each.nodes))
-    if any(customer.goods & each.goods for each in problem.incompatible_goods):
-        yield "goods", with_customer(problem, node, replace(customer, goods=frozenset()))
+            each for each in problem.relations if {*nodes}.isdisjoint(each.nodes)))
+    if any(customer.goods & each.goods for each in problem.incompatible_goods
+           for customer in customers):
+        yield "goods", _with_all(
+            problem, nodes, lambda customer: replace(customer, goods=frozenset()))
 
 
-def _open_to_all(problem: Problem, node: int) -> Problem:
-    """Return the problem in which the table lets any vehicle serve a customer."""
+def _with_all(problem: Problem, nodes: Sequence[int],
+              change: Callable[[Customer], Customer]) -> Problem:
+    """Return a problem in which some customers are changed."""
+    customers = [change(each) if node in nodes else each
+                 for node, each in enumerate(problem.customers, problem.num_depots)]
+    return replace(problem, customers=tuple(customers))
+
+
+def _open_to_all(problem: Problem, nodes: Sequence[int]) -> Problem:
+    """Return the problem in which the table lets any vehicle serve some customers."""
     if problem.may_serve is None:
         return problem
     table = problem.may_serve.copy()
-    table[:, node - problem.num_depots] = True
+    table[:, [node - problem.num_depots for node in nodes]] = True
     return replace(problem, may_serve=table)

@@ -11,7 +11,7 @@ from typing import Literal, NamedTuple
 
 from model.judge.past import Vehicle
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
-from model.problem import Problem
+from model.problem import Problem, Shipment
 from model.solution import Route, Solution, Stop, Trip, Visit
 
 Means = Literal["truck", "drone"]
@@ -21,7 +21,10 @@ MAX_WAYS_OUT = 8
 
 
 class Place(NamedTuple):
-    """Where a customer is, or would be, served."""
+    """Where a customer is, or would be, served; of a shipment, where it is first.
+
+    A shipment's is by drone if any of its ends is.
+    """
 
     vehicle: Vehicle
     trip: int  # index among the vehicle's trips
@@ -32,6 +35,9 @@ class Place(NamedTuple):
     sortie: int | None = None  # by drone: which, where it serves others too; None: one of its own
     visit: int = 0  # index within the sortie
     own_trip: bool = False  # nobody else is on the trip
+    ends: tuple[tuple[int, "Place"], ...] = ()
+    """Of a shipment that is to be put there: nodes and their places on the trip without any of
+    them, in the order of visits."""
 
 
 @dataclass(frozen=True)
@@ -76,6 +82,19 @@ def find_place(solution: Solution, node: int) -> Found | None:
                         sortie.drone, flight if len(nodes) > 1 else None, nodes.index(node),
                         own_trip=is_alone), flight)
     return None
+
+
+def find_shipment(solution: Solution, shipment: Shipment) -> Found | None:
+    """Return where a plan first serves a shipment, none of whose ends it leaves out; else None."""
+    found = [find_place(solution, node) for node in shipment.nodes]
+    known = [each for each in found if each is not None]
+    if len(known) < len(found):
+        return None
+    first = known[0]
+    trip = solution.routes[first.route].trips[first.place.trip]
+    return replace(first, place=first.place._replace(
+        by="drone" if any(each.place.by == "drone" for each in known) else "truck",
+        own_trip={halt.node for halt in halts(trip)} == {*shipment.nodes}))
 
 
 def routes_without(decision: RouteDecision, found: Found) -> Iterator[RouteDecision]:
@@ -144,7 +163,7 @@ def _places_instead(index: int, gone: int) -> tuple[int, ...]:
 
 def route_with(decision: RouteDecision, place: Place, node: int,
                ends: tuple[int, int]) -> RouteDecision:
-    """Return a route with a customer at a place.
+    """Return a route with a customer, or all ends of a shipment, at a place.
 
     Parameters
     ----------
@@ -153,15 +172,15 @@ def route_with(decision: RouteDecision, place: Place, node: int,
     place
         Where he is put; a trip of his own comes before the one that has its index.
     node
-        His node.
+        His node; of a shipment the place tells those of its ends.
     ends
         Nodes where a trip of his own begins and ends.
     """
     trips = [*decision.trips]
     if place.own_trip:
-        trips.insert(place.trip, _with(TripDecision(ends), place, node))
-    else:
-        trips[place.trip] = _with(trips[place.trip], place, node)
+        trips.insert(place.trip, TripDecision(ends))
+    for each, where in reversed(place.ends or ((node, place),)):
+        trips[place.trip] = _with(trips[place.trip], where, each)
     return replace(decision, trips=tuple(trips))
 
 

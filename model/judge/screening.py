@@ -151,7 +151,7 @@ class Screen:
     def _on_trip(self, vehicle: Vehicle, number: int, trip: Trip, first_stop: int,
                  first_flight: int) -> Iterator[Guess]:
         kind = self._problem.vehicle_types[vehicle.type]
-        slacks = _slacks(self._problem, kind.latest + allowed_overtime(kind), trip)
+        slacks = slacks_of(self._problem, kind.latest + allowed_overtime(kind), trip)
         yield from self._by_truck(vehicle, number, trip, slacks, first_stop)
         if "drone" in self._means and kind.drones is not None:
             for first, drones in first_drones(kind):
@@ -251,7 +251,7 @@ class Screen:
                                       sortie.recovery_stop, sortie.drone, index, visit))
 
 
-def _slacks(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
+def slacks_of(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
     """Return by how much each stop may be reached later, by hard windows and the shift's end."""
     slack = max(0, shift_ends - trip.stops[-1].departure)
     slacks = [slack]

@@ -6,7 +6,7 @@ from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 from pydantic_core import to_json
 from sse_starlette import EventSourceResponse
 
-from app.plans.explaining import explain_job, preparing_within
+from app.plans.explaining import Subject, explain_job, preparing_within
 from app.plans.flights.answering import planned_flights
 from app.plans.flights.files import FORMAT_ASKED, flight_file
 from app.plans.flights.routes import FLIGHTS, sent
@@ -175,6 +175,8 @@ async def explain_plan(
     customer: Annotated[str | None, Query(
         description="Id of the customer of whom it is asked why he is served where he is. Left "
         "out: of nobody.")] = None,
+    shipment: Annotated[str | None, Query(
+        description="Id of the shipment of which the same is asked.")] = None,
     drones: Annotated[bool, Query(
         description="Whether to tell what drones save: each sortie, and all in sum.")] = False,
     time_limit: Annotated[float, Query(
@@ -185,8 +187,8 @@ async def explain_plan(
     wanted, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
     bounds = Bounds.of_plans(request.app.state.settings)
     reply = await planning.run(request, lambda should_stop: explain_job(
-        wanted, plan, customer, drones, ExplainOptions(time_limit=time_limit), bounds,
-        service.planner, should_stop, service.roads))
+        wanted, plan, Subject(customer, shipment), drones, ExplainOptions(time_limit=time_limit),
+        bounds, service.planner, should_stop, service.roads))
     return Response(reply, media_type="application/json")
 
 

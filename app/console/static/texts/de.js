@@ -1614,6 +1614,7 @@ export default {
     EMPTY_FLEET: 'Es gibt keinen Fahrzeugtyp: Fügen Sie einen hinzu.',
     UNKNOWN_DEPOT: 'Ein Depot dieses Namens gibt es nicht.',
     UNKNOWN_CUSTOMER: 'Einen Kunden dieses Namens gibt es nicht.',
+    UNKNOWN_SHIPMENT: 'Eine Sendung dieses Namens gibt es nicht.',
     CONTRADICTION: 'Eine andere Beziehung sagt das Gegenteil.',
     UNKNOWN_VEHICLE: 'Die Flotte hat kein Fahrzeug dieses Namens.',
     UNKNOWN_VEHICLE_TYPE: 'Die Flotte hat keinen Fahrzeugtyp dieses Namens.',

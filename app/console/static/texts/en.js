@@ -1590,6 +1590,7 @@ export default {
     EMPTY_FLEET: 'There is no vehicle type: add one.',
     UNKNOWN_DEPOT: 'There is no depot of this name.',
     UNKNOWN_CUSTOMER: 'There is no customer of this name.',
+    UNKNOWN_SHIPMENT: 'There is no shipment of this name.',
     CONTRADICTION: 'Another relation says the contrary.',
     UNKNOWN_VEHICLE: 'The fleet has no vehicle of this name.',
     UNKNOWN_VEHICLE_TYPE: 'The fleet has no vehicle type of this name.',
