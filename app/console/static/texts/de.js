@@ -1195,6 +1195,9 @@ export default {
     enough: 'genug',
   },
   choice: {
+    eu_561: 'EU 561/2006',
+    eu_561_2002_15: 'EU 561/2006 + 2002/15',
+    us_hos: 'US-Arbeitszeiten (HOS)',
     either: 'Fahrzeug oder Drohne',
     truck: 'Fahrzeug',
     drone: 'Drohne',
@@ -1408,11 +1411,11 @@ export default {
     },
     DrivingRulesInput: {
       preset: 'Eine veröffentlichte Vorschrift, deren Zahlen gelten, wenn keine anderen dastehen.',
-      max_driving: 'Längste Zeit am Steuer ohne Pause. Leer: beliebig.',
+      max_driving: 'Längste Zeit am Steuer ohne Pause. Leer: wie die Regel sagt, sonst beliebig.',
       break_duration: 'Wie lang eine Pause ist.',
       split: 'Zwei kürzere Pausen, die zusammen eine ersetzen, in dieser Folge. Leer: keine.',
-      max_driving_per_day: 'Längste Zeit am Steuer insgesamt. Leer: beliebig.',
-      max_work_before_break: 'Längste Arbeit ohne Pause. Leer: beliebig.',
+      max_driving_per_day: 'Längste Zeit am Steuer insgesamt. Leer: wie die Regel sagt, sonst beliebig.',
+      max_work_before_break: 'Längste Arbeit ohne Pause. Leer: wie die Regel sagt, sonst beliebig.',
       driven_before: 'Zeit am Steuer seit der letzten Pause, bevor das Fahrzeug beginnt.',
       worked_before: 'Arbeit seit der letzten Pause, bevor das Fahrzeug beginnt.',
       while_drones_fly: 'Ob gerastet werden darf, während Drohnen unterwegs sind.',
@@ -1517,7 +1520,7 @@ export default {
     },
     BalanceInput: {
       measure: 'Was verglichen wird.',
-      cost: 'Preis der Quadrate der Abstände vom Mittel, geteilt durch das Mittel.',
+      cost: 'Was jedes Quadrat des Abstands vom Mittel, geteilt durch das Mittel, kostet: je mehr, desto gleicher die Arbeit.',
     },
     RelationInput: {
       kind: 'Ob sie zusammen fahren, in dieser Reihenfolge bedient werden, oder keine zwei zusammen fahren.',
@@ -1535,7 +1538,7 @@ export default {
       planar_unit: 'Meter je Einheit von x und y.',
       planar_rounding: 'Wie Strecken auf der Ebene gerundet werden.',
       launch_sites: 'Orte, an denen Fahrzeuge allein für ihre Drohnen halten dürfen.',
-      relations: 'Kunden, die ein Fahrzeug bedient oder von denen es keine zwei bedient.',
+      relations: 'Wer zusammen, getrennt oder der Reihe nach fährt. Zusammen und getrennt geht auch mit den Häkchen der Tabelle.',
       unassigned_cost:
         'Was es kostet, einen Kunden auszulassen, der nichts anderes angibt. Leer: ' +
         'Alle müssen bedient werden, soweit es geht.',
@@ -1548,7 +1551,12 @@ export default {
     noTime: '„{{text}}“ ist keine Zeit: Schreiben Sie {{example}}.',
     noNumber: '„{{text}}“ ist keine Zahl: Geben Sie eine an.',
     numbers: 'Geben Sie Zahlen an, durch Kommas getrennt.',
-    lines: 'Schreiben Sie Zeilen wie phone: 089 1234.',
+    lines: 'Schreiben Sie Zeilen wie {{example}}.',
+    asRuled: 'wie die Regel',
+    addTo: { relations: 'Beziehung hinzufügen' },
+    exampleWords: 'phone: 089 1234',
+    exampleNumbers: 'van-1: 5',
+    exampleDurations: 'van: 2 min',
     remove: 'Eintrag {{number}} entfernen',
     add: 'Zu „{{list}}“ hinzufügen',
     exampleInstant: '„7:30“',
@@ -2342,6 +2350,8 @@ export default {
     count_other: '{{count}} ausgewählt',
     cancel_one: '{{count}} Auftrag stornieren',
     cancel_other: '{{count}} Aufträge stornieren',
+    together: 'Zusammen fahren',
+    apart: 'Getrennt fahren',
     none: 'Keinen auswählen',
   },
   idleDrones: {

@@ -1181,6 +1181,9 @@ export default {
     enough: 'enough',
   },
   choice: {
+    eu_561: 'EU 561/2006',
+    eu_561_2002_15: 'EU 561/2006 + 2002/15',
+    us_hos: 'US hours of service',
     either: 'truck or drone',
     truck: 'truck',
     drone: 'drone',
@@ -1387,11 +1390,11 @@ export default {
     },
     DrivingRulesInput: {
       preset: 'A published rule whose numbers count, unless others are stated.',
-      max_driving: 'Longest time at the wheel without a rest. Empty: no limit.',
+      max_driving: 'Longest time at the wheel without a rest. Empty: as the rule says, else no limit.',
       break_duration: 'How long a rest is.',
       split: 'Two shorter rests that are as good as one, in this order. Empty: none are.',
-      max_driving_per_day: 'Longest time at the wheel in all. Empty: no limit.',
-      max_work_before_break: 'Longest time at work without a rest. Empty: no limit.',
+      max_driving_per_day: 'Longest time at the wheel in all. Empty: as the rule says, else no limit.',
+      max_work_before_break: 'Longest time at work without a rest. Empty: as the rule says, else no limit.',
       driven_before: 'Time at the wheel since the last rest, before the vehicle begins.',
       worked_before: 'Time at work since the last rest, before the vehicle begins.',
       while_drones_fly: 'Whether a driver may rest while drones are out.',
@@ -1494,7 +1497,7 @@ export default {
     },
     BalanceInput: {
       measure: 'What of each vehicle is compared.',
-      cost: 'Price of the squares of the differences from the mean, by the mean.',
+      cost: 'How much each squared difference from the mean, divided by the mean, costs: the more, the more even the work.',
     },
     RelationInput: {
       kind: 'Whether they go together, are served in this order, or no two of them go together.',
@@ -1512,7 +1515,7 @@ export default {
       planar_unit: 'Metres per unit of x and y.',
       planar_rounding: 'How distances on the plane are rounded.',
       launch_sites: 'Places where trucks may stop for their drones alone.',
-      relations: 'Customers whom one vehicle serves, or no two of whom it does.',
+      relations: 'Who goes together, apart, or in an order. Together and apart can be said of those ticked in the table, too.',
       unassigned_cost:
         'What leaving out a customer costs who states nothing else. Empty: all must be ' +
         'served as far as possible.',
@@ -1525,7 +1528,12 @@ export default {
     noTime: '"{{text}}" is no time: write {{example}}.',
     noNumber: '"{{text}}" is not a number: state one.',
     numbers: 'State numbers with commas between.',
-    lines: 'Write lines such as phone: 089 1234.',
+    lines: 'Write lines such as {{example}}.',
+    asRuled: 'as ruled',
+    addTo: { relations: 'Add a relation' },
+    exampleWords: 'phone: 089 1234',
+    exampleNumbers: 'van-1: 5',
+    exampleDurations: 'van: 2 min',
     remove: 'Remove entry {{number}}',
     add: 'Add to {{list}}',
     exampleInstant: '"7:30"',
@@ -2287,6 +2295,8 @@ export default {
     count_other: '{{count}} picked',
     cancel_one: 'Cancel {{count}} order',
     cancel_other: 'Cancel {{count}} orders',
+    together: 'Go together',
+    apart: 'Keep apart',
     none: 'Pick none',
   },
   idleDrones: {

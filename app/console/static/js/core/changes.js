@@ -4,6 +4,7 @@ import { isInside } from './detour.js';
 import { removeIn, setIn } from './paths.js';
 import { assumedDrones } from './presets.js';
 import { windowsOf, withWindows } from './windows.js';
+import { withoutNamed } from './relations.js';
 
 const DECIMALS = { planar: 3, geographic: 6 };
 
@@ -118,9 +119,11 @@ export const removeCustomer = (request, id) => removeCustomers(request, [id]);
 export function removeCustomers(request, ids) {
   const gone = new Set(ids);
   const customers = request.customers.filter(({ id }) => !gone.has(id));
+  const relations = withoutNamed(request.relations, (name) => gone.has(name));
+  const left = { ...request, customers, ...(relations && { relations }) };
   const pinned = request.replan?.pinned?.filter((id) => !gone.has(id));
-  if (pinned?.length === request.replan?.pinned?.length) return { ...request, customers };
-  return { ...request, customers, replan: { ...request.replan, pinned } };
+  if (pinned?.length === request.replan?.pinned?.length) return left;
+  return { ...left, replan: { ...request.replan, pinned } };
 }
 
 /** Move a customer. */

@@ -1,6 +1,7 @@
 /** What is assumed of a part of the fleet when it is added, for a person to correct. */
 
 import { amounts, duration } from './format.js';
+import { getIn } from './paths.js';
 import { placeOf } from './places.js';
 import { t } from '../texts.js';
 
@@ -33,8 +34,23 @@ function blankPickup(request) {
   return { amount, ...pickup };
 }
 
-/** Return what a field of the fleet begins with when it is added, undefined for nothing known. */
-export function presetOf(name, request) {
+/** Return another place of a customer, at his own until it is stated. */
+function blankAlternative(request, keys) {
+  const location = placeOf(getIn(request, keys.slice(0, -1)) ?? {});
+  return location ? { location: [...location] } : {};
+}
+
+/** What parts of a problem begin with, whatever else it says. */
+const PRESETS = {
+  breaks: { duration: 1800, start: { latest: 21_600 }, after_departure: true },
+  driving_rules: { preset: 'eu-561' },
+  balance: { measure: 'duration', cost: 1 },
+};
+
+/** Return what a field of a problem begins with when it is added, undefined for nothing known. */
+export function presetOf(name, request, keys) {
+  if (name in PRESETS) return PRESETS[name];
+  if (name === 'alternatives') return blankAlternative(request, keys);
   if (name === 'drones') return assumedDrones(request);
   if (name === 'shipments') return blankShipment(request);
   if (name === 'pickups') return blankPickup(request);

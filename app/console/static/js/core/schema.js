@@ -40,12 +40,13 @@ export function kindOf(schema) {
   if (schema.type === 'boolean') return 'switch';
   if (schema.type === 'number' || schema.type === 'integer') return 'number';
   if (schema.type === 'object') {
-    return schema.additionalProperties?.type === 'string' ? 'words' : 'object';
+    return typeof schema.additionalProperties === 'object' ? 'words' : 'object';
   }
   if (schema.type !== 'array') return 'text';
   const item = schema.items ?? {};
   if (item.$ref || item.type === 'object') return 'objects';
   if (schema.prefixItems || item.type === 'number') return 'numbers';
+  if (item.anyOf?.some(({ title }) => title === 'Duration')) return 'durations';
   return item.type === 'string' ? 'texts' : 'other';
 }
 
@@ -57,23 +58,22 @@ export function unitOf(schema) {
   return typeof unit === 'function' ? unit() : unit;
 }
 
-/** Return texts by name as lines such as `phone: 089 1234`. */
-export function wordLines(words) {
+/** Return texts, or other values, by name as lines such as `phone: 089 1234`. */
+export function wordLines(words, show = String) {
   return Object.entries(words ?? {})
-    .map(([name, text]) => `${name}: ${text}`)
+    .map(([name, value]) => `${name}: ${show(value)}`)
     .join('\n');
 }
 
-/** Return what lines such as `phone: 089 1234` say; null if one lacks its name. */
-export function wordsOf(text) {
+/** Return what lines such as `phone: 089 1234` say; null if one lacks its name, or can't be read. */
+export function wordsOf(text, read = String) {
   const lines = text.split('\n').filter((line) => line.trim());
   if (!lines.every((line) => line.indexOf(':') > 0)) return null;
-  return Object.fromEntries(
-    lines.map((line) => {
-      const colon = line.indexOf(':');
-      return [line.slice(0, colon).trim(), line.slice(colon + 1).trim()];
-    }),
-  );
+  const entries = lines.map((line) => {
+    const colon = line.indexOf(':');
+    return [line.slice(0, colon).trim(), read(line.slice(colon + 1).trim())];
+  });
+  return entries.every(([, value]) => value !== null) ? Object.fromEntries(entries) : null;
 }
 
 /** Return a field's name in words; one that isn't known is called as the API calls it. */
@@ -115,7 +115,8 @@ export function apiHelpOf(schema) {
 
 /** Return one of the values to choose from in words, itself if it is a name. */
 export function choiceOf(value) {
-  return t(`choice.${value}`, { defaultValue: value });
+  const key = value.replaceAll(/\W/g, '_');
+  return t(`choice.${key}`, { defaultValue: value });
 }
 
 /** Return an object with what a schema demands and nothing else. */
@@ -149,6 +150,7 @@ function blankValue(schemas, schema) {
 
 /** Return what an empty field means, for its placeholder. */
 export function emptyMeans(schema, nullable) {
+  if (schema.empty) return schema.empty;
   const stated = schema.default;
   if (stated !== null && stated !== undefined && typeof stated !== 'object') {
     return choiceOf(String(stated));

@@ -4,6 +4,7 @@ import { edit, hover, indexOf, select, shownPlan } from '../actions.js';
 import { amounts, clock } from '../core/format.js';
 import { freeName } from '../core/changes.js';
 import { doubtedPlaces, placeOf } from '../core/places.js';
+import { renamed } from '../core/relations.js';
 import { saidOf } from '../core/said.js';
 import { windowsInWords, windowsOf } from '../core/windows.js';
 import { html, useMemo, useState } from '../libraries.js';
@@ -15,7 +16,7 @@ import { Fields } from './form.js';
 import { LongTable } from './long-table.js';
 import { NewOrder } from './new-order.js';
 import { Name } from './parts.js';
-import { Places, Shipments } from './places.js';
+import { Places, Relations, Shipments } from './places.js';
 import { pasteNames, Pick, PickAll, PickedBar, soughtBy } from './picked-customers.js';
 import { WhyHere } from './why-here.js';
 import { t } from '../texts.js';
@@ -27,7 +28,7 @@ export function CustomersTab() {
   return html`<${NewOrder} /><${CustomerTable} key=${epoch} request=${request} />
     <${AddressSearch} request=${request} />
     <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
-    <${Shipments} request=${request} /><${Places} request=${request} />
+    <${Shipments} request=${request} /><${Relations} request=${request} /><${Places} request=${request} />
     <${DayFields} request=${request} />`;
 }
 
@@ -139,8 +140,9 @@ function SelectedCustomer({ request }) {
     return html`<p class="help">${t('customers.select')}</p>`;
   }
   const change = (changed) => {
-    edit(changed);
     const name = changed.customers[position]?.id;
+    const former = request.customers[position].id;
+    edit(name && name !== former ? renamed(changed, former, name) : changed);
     if (name && name !== id) select(`c:${name}`);
   };
   return html`<details class="card" open><summary>${t('where.customer', {

@@ -8,6 +8,7 @@ import {
   apiHelpOf, blank, choiceOf, emptyMeans, helpOf, kindOf, labelOf, resolve, unitOf, withinSentence,
   wordLines, wordsOf,
 } from '../core/schema.js';
+import { needlessIn } from '../core/relations.js';
 import { durationText, readDuration, timeKind } from '../core/times.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -27,7 +28,8 @@ import { Said } from './said.js';
 export function Fields({ schema, keys, request, onChange, skip = [], choices = {} }) {
   const schemas = useStore((state) => state.schemas);
   const { properties = {}, required = [], title } = resolve(schemas, schema).schema;
-  const names = Object.keys(properties).filter((name) => !skip.includes(name));
+  const names = Object.keys(properties).filter((name) => !skip.includes(name)
+    && !isOfTables(name, request, keys));
   return html`<div class="fields">${names.map(
     (name) => html`
     <${Field} key=${keyOf([...keys, name])} name=${name} owner=${title}
@@ -36,6 +38,15 @@ export function Fields({ schema, keys, request, onChange, skip = [], choices = {
       required=${required.includes(name)} />`,
   )}</div>`;
 }
+
+/** Tell whether a field is of places in tables of legs, of which there are none. */
+function isOfTables(name, request, keys) {
+  return name.endsWith('location_index') && !request.matrices
+    && getIn(request, [...keys, name]) === undefined;
+}
+
+/** Kinds of fields whose entries have no field of their own. */
+const ENTRIES = new Set(['texts', 'numbers', 'durations', 'words']);
 
 /** One field, of whatever kind its schema says; `owner` is the title of the schema that has it. */
 export function Field({
@@ -49,11 +60,13 @@ export function Field({
   required = false,
 }) {
   const schemas = useStore((state) => state.schemas);
-  const errors = useStore((state) => state.errors).filter(
-    (error) => keyOf(error.keys) === keyOf(keys),
-  );
-  const found = resolve(schemas, schema);
+  const found = ruled(resolve(schemas, schema), owner, request, keys);
   const kind = choices[name] ? 'choice' : kindOf(found.schema);
+  const errors = useStore((state) => state.errors).filter(
+    // What is wrong with one of several texts or numbers is told at the field that has them all.
+    (error) => keyOf(ENTRIES.has(kind) ? error.keys.slice(0, keys.length) : error.keys)
+      === keyOf(keys),
+  );
   if (kind === 'other') return null;
   const time = timeKind(schema);
   const help = html`<${Help} id=${`${idOf(keys)}-help`} keys=${keys} schema=${found.schema}
@@ -68,6 +81,13 @@ export function Field({
   if (kind === 'objects') return html`<${ListField} ...${shared} nullable=${found.nullable} />`;
   return html`<${PlainField} ...${shared} kind=${time ?? kind} nullable=${found.nullable}
     required=${required} />`;
+}
+
+/** Return a schema whose empty field means what a published rule says, where one is stated. */
+function ruled(found, owner, request, keys) {
+  const isRuled = owner === 'DrivingRulesInput' && getIn(request, [...keys.slice(0, -1), 'preset']);
+  return isRuled && found.nullable
+    ? { ...found, schema: { ...found.schema, empty: t('form.asRuled') } } : found;
 }
 
 /** How numbers that are times are shown and read, by their kind. */
@@ -184,6 +204,7 @@ function textOf(kind, value) {
   if (value === null || value === undefined) return '';
   if (TIMES[kind] && typeof value === 'number') return TIMES[kind].show(value);
   if (kind === 'numbers' && !Array.isArray(value)) return value.address ?? '';
+  if (kind === 'durations') return value.map(durationText).join(', ');
   return kind === 'numbers' || kind === 'texts' ? value.join(', ') : String(value);
 }
 
@@ -205,6 +226,12 @@ function valueOf(text, { kind, required }) {
   if (kind === 'number') {
     const value = parseNumber(trimmed);
     return value === null ? { problem: t('form.noNumber', { text: trimmed }) } : { value };
+  }
+  if (kind === 'durations') {
+    const lengths = trimmed.split(LIST).map(readDuration);
+    return lengths.includes(null)
+      ? { problem: t('form.noTime', { text: trimmed, example: t('form.exampleDuration') }) }
+      : { value: lengths };
   }
   const values = trimmed.split(LIST).map(parseNumber);
   return values.includes(null)
@@ -251,7 +278,7 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices,
   const toggle = (event) =>
     onChange(
       event.target.checked
-        ? setIn(request, keys, presetOf(name, request) ?? blank(schemas, schema))
+        ? setIn(request, keys, presetOf(name, request, keys) ?? blank(schemas, schema))
         : removeIn(request, keys),
     );
   return html`<fieldset class="group">
@@ -271,14 +298,23 @@ function ObjectField({ name, schema, keys, request, onChange, nullable, choices,
   </fieldset>`;
 }
 
-function WordsField({ name, keys, request, onChange, errors, help }) {
+/** How what is named in lines is shown and read: words, numbers or lengths of time. */
+const LINES = {
+  string: { show: String, read: String, example: () => t('form.exampleWords') },
+  number: { show: String, read: parseNumber, example: () => t('form.exampleNumbers') },
+  duration: { ...TIMES.duration, example: () => t('form.exampleDurations') },
+};
+
+function WordsField({ name, keys, request, onChange, errors, schema, help }) {
   const id = idOf(keys);
-  const value = wordLines(getIn(request, keys));
+  const { additionalProperties } = schema;
+  const lines = LINES[timeKind(additionalProperties) ?? additionalProperties.type];
+  const value = wordLines(getIn(request, keys), lines.show);
   const [text, setText] = useState(value);
   useLayoutEffect(() => setText(value), [value]);
-  const words = wordsOf(text);
+  const words = wordsOf(text, lines.read);
   const commit = () => {
-    if (!words || wordLines(words) === value) return;
+    if (!words || wordLines(words, lines.show) === value) return;
     onChange(text.trim() ? setIn(request, keys, words) : removeIn(request, keys));
   };
   const isWrong = !words || errors.length > 0;
@@ -286,22 +322,25 @@ function WordsField({ name, keys, request, onChange, errors, help }) {
     <label for=${id}>${labelOf(name)}</label>
     <textarea id=${id} rows=${Math.min(value.split('\n').length + 1, 6)} value=${text}
       aria-describedby=${`${id}-help`} aria-invalid=${isWrong}
-      placeholder="phone: 089 1234" onInput=${(event) => setText(event.target.value)}
+      placeholder=${lines.example()} onInput=${(event) => setText(event.target.value)}
       onBlur=${commit}></textarea>
     ${help}
-    ${!words && html`<p class="error">${t('form.lines')}</p>`}
+    ${!words && html`<p class="error">${t('form.lines', { example: lines.example() })}</p>`}
     ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
   </div>`;
 }
 
 /** What entries that are added are called, with a number. */
-const STEMS = { drones: 'drone', launch_sites: 'site', shipments: 'shipment', pickups: 'pickup' };
+const STEMS = {
+  drones: 'drone', launch_sites: 'site', shipments: 'shipment', pickups: 'pickup',
+  breaks: 'break', alternatives: 'place',
+};
 
 function ListField({ name, schema, keys, request, onChange, nullable, errors, choices, help }) {
   const schemas = useStore((state) => state.schemas);
   const values = getIn(request, keys) ?? [];
   const add = () => {
-    const preset = presetOf(name, request);
+    const preset = presetOf(name, request, keys);
     const entry = preset && { id: freeName(values, STEMS[name]), ...preset };
     onChange(setIn(request, keys, [...values, entry ?? blank(schemas, schema.items)]));
   };
@@ -314,15 +353,16 @@ function ListField({ name, schema, keys, request, onChange, nullable, errors, ch
     ${help}
     ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
     ${values.map(
-      (_, index) => html`<div class="entry" key=${index}>
+      (entry, index) => html`<div class="entry" key=${index}>
       <${Fields} schema=${schema.items} keys=${[...keys, index]} request=${request}
-        onChange=${onChange} choices=${choices} />
+        onChange=${onChange} choices=${choices}
+        skip=${name === 'relations' ? needlessIn(entry) : []} />
       <button type="button" class="quiet"
         onClick=${() => remove(index)}>${t('form.remove', { number: index + 1 })}</button>
     </div>`,
     )}
-    <button type="button" onClick=${add}>${t('form.add', {
-      list: withinSentence(labelOf(name)),
+    <button type="button" onClick=${add}>${t(`form.addTo.${name}`, {
+      defaultValue: t('form.add', { list: withinSentence(labelOf(name)) }),
     })}</button>
   </fieldset>`;
 }

@@ -1,5 +1,7 @@
-/** Customers of the table who are picked, to be cancelled together. */
+/** Customers of the table who are picked, to be cancelled or bound together. */
 
+import { edit } from '../actions.js';
+import { relate } from '../core/relations.js';
 import { html } from '../libraries.js';
 import { cancelOrders } from '../ordering.js';
 import { t } from '../texts.js';
@@ -57,10 +59,16 @@ export function PickedBar({ request, picked, setPicked }) {
     cancelOrders(ids);
     setPicked(new Set());
   };
+  const bind = (kind) => {
+    edit(relate(request, kind, ids));
+    setPicked(new Set());
+  };
   return html`<div class="buttons" role="group" aria-label=${t('picked.title')}>
     <span>${t('picked.count', { count: ids.length })}</span>
     <button type="button" class="primary" onClick=${cancel}>${
       t('picked.cancel', { count: ids.length })}</button>
+    ${ids.length > 1 && ['together', 'apart'].map((kind) => html`<button type="button" key=${kind}
+      onClick=${() => bind(kind)}>${t(`picked.${kind}`)}</button>`)}
     <button type="button" onClick=${() => setPicked(new Set())}>${t('picked.none')}</button>
   </div>`;
 }

@@ -1,4 +1,4 @@
-/** Shipments, depots, launch sites and what else a problem has beside customers and fleet. */
+/** Shipments, relations, depots, launch sites and what else a problem has beside customers and fleet. */
 
 import { edit, openTab } from '../actions.js';
 import { freeName } from '../core/changes.js';
@@ -16,7 +16,8 @@ import { t } from '../texts.js';
 export function Shipments({ request }) {
   const schemas = useStore((state) => state.schemas);
   const selection = useStore((state) => state.selection);
-  const isSelected = request.shipments?.some((shipment) =>
+  // Never undefined: what becomes false closes the card, the first one added too.
+  const isSelected = (request.shipments ?? []).some((shipment) =>
     endsOf(shipment).some(({ name }) => selection === `c:${name}`));
   return html`<details class="card" open=${isSelected}><summary>${labelOf('shipments')}
       <span class="right">${number(request.shipments?.length ?? 0, 0)}</span></summary>
@@ -24,7 +25,17 @@ export function Shipments({ request }) {
       schema=${schemas.PlanRequest.properties.shipments} onChange=${edit} /></div></details>`;
 }
 
-/** Depots, launch sites, relations and how places are stated. */
+/** Who goes with whom, open where something is wrong with it. */
+export function Relations({ request }) {
+  const schemas = useStore((state) => state.schemas);
+  const isWrong = useStore((state) => state.errors).some(({ keys }) => keys[0] === 'relations');
+  return html`<details class="card" open=${isWrong}><summary>${labelOf('relations')}
+      <span class="right">${number(request.relations?.length ?? 0, 0)}</span></summary>
+    <div class="inside"><${Field} name="relations" keys=${['relations']} request=${request}
+      schema=${schemas.PlanRequest.properties.relations} onChange=${edit} /></div></details>`;
+}
+
+/** Depots, launch sites and how places are stated. */
 export function Places({ request }) {
   const schemas = useStore((state) => state.schemas);
   const { properties } = schemas.PlanRequest;
@@ -65,8 +76,6 @@ export function Places({ request }) {
       )}
       <${Field} name="launch_sites" schema=${properties.launch_sites} keys=${['launch_sites']}
         request=${request} onChange=${edit} />
-      <${Field} name="relations" schema=${properties.relations} keys=${['relations']}
-        request=${request} onChange=${edit} />
       <div class="buttons"><button type="button" onClick=${addDepot}>
         ${t('customers.addDepot')}</button>
         <button type="button" onClick=${clear}>${t('customers.empty')}</button></div>
@@ -80,6 +89,7 @@ function clear() {
     return {
       ...rest,
       customers: [],
+      ...(rest.relations && { relations: [] }),
       ...(rest.airspace && { airspace: { ...rest.airspace, no_fly: [] } }),
     };
   });

@@ -1,0 +1,36 @@
+/** Who goes with whom: what names customers, and follows them when they go or are renamed. */
+
+/** Fields that say nothing of relations of a kind. */
+const NEEDLESS = { before: ['scope'] };
+const OF_ORDERS = ['min_lag', 'max_lag', 'same_vehicle'];
+
+/** Return the fields of a relation that say nothing of its kind, and aren't stated. */
+export function needlessIn(relation) {
+  const names = NEEDLESS[relation.kind] ?? OF_ORDERS;
+  return names.filter((name) => relation[name] === undefined);
+}
+
+/** Return the problem with a relation more. */
+export function relate(request, kind, customers) {
+  return { ...request, relations: [...(request.relations ?? []), { kind, customers }] };
+}
+
+/** Return relations without names; those that bind nobody any more are left out. */
+export function withoutNamed(relations, isGone) {
+  return relations?.map((relation) => ({
+    ...relation, customers: relation.customers.filter((name) => !isGone(name)),
+  })).filter(({ customers }, index) => customers.length > 1
+    || customers.length === relations[index].customers.length);
+}
+
+/** Return the problem whose relations call a customer by another name. */
+export function renamed(request, former, name) {
+  if (!request.relations?.some(({ customers }) => customers.includes(former))) return request;
+  return {
+    ...request,
+    relations: request.relations.map((relation) => ({
+      ...relation,
+      customers: relation.customers.map((each) => (each === former ? name : each)),
+    })),
+  };
+}

@@ -1,0 +1,62 @@
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { removeCustomers } from '../../../app/console/static/js/core/changes.js';
+import { presetOf } from '../../../app/console/static/js/core/presets.js';
+import {
+  needlessIn, relate, renamed,
+} from '../../../app/console/static/js/core/relations.js';
+import { kindOf, wordLines, wordsOf } from '../../../app/console/static/js/core/schema.js';
+import { parseNumber } from '../../../app/console/static/js/core/format.js';
+
+const REQUEST = {
+  customers: ['A', 'B', 'C'].map((id) => ({ id, location: [1, 2] })),
+  relations: [
+    { kind: 'together', customers: ['A', 'B'] },
+    { kind: 'before', customers: ['A', 'B', 'C'], min_lag: 60 },
+  ],
+};
+
+test('a relation has the fields of its kind, and those that are stated', () => {
+  assert.deepEqual(needlessIn({ kind: 'before' }), ['scope']);
+  assert.deepEqual(needlessIn({ kind: 'apart', min_lag: 5 }), ['max_lag', 'same_vehicle']);
+  assert.deepEqual(relate({}, 'apart', ['A', 'B']).relations, [
+    { kind: 'apart', customers: ['A', 'B'] },
+  ]);
+});
+
+test('whoever is removed is named no longer, and a relation of one is left out', () => {
+  assert.deepEqual(removeCustomers(REQUEST, ['A']).relations, [
+    { kind: 'before', customers: ['B', 'C'], min_lag: 60 },
+  ]);
+  const typed = { ...REQUEST, relations: [{ kind: 'apart', customers: [] }] };
+  assert.deepEqual(removeCustomers(typed, ['A']).relations, typed.relations);
+  assert.equal('relations' in removeCustomers({ customers: [{ id: 'A' }] }, ['A']), false);
+});
+
+test('whoever is renamed is bound under the new name', () => {
+  assert.deepEqual(
+    renamed(REQUEST, 'B', 'Ben').relations.map(({ customers }) => customers),
+    [['A', 'Ben'], ['A', 'Ben', 'C']],
+  );
+  assert.equal(renamed(REQUEST, 'X', 'Y'), REQUEST);
+});
+
+test('another place begins where the customer is', () => {
+  assert.deepEqual(presetOf('alternatives', REQUEST, ['customers', 1, 'alternatives']), {
+    location: [1, 2],
+  });
+  assert.equal(presetOf('breaks', REQUEST, []).duration, 1800);
+});
+
+test('numbers by name are lines, too', () => {
+  assert.equal(kindOf({ type: 'object', additionalProperties: { type: 'number' } }), 'words');
+  assert.equal(kindOf({ type: 'object', additionalProperties: false }), 'object');
+  assert.deepEqual(wordsOf('van-1: 5\nvan: 2', parseNumber), { 'van-1': 5, van: 2 });
+  assert.equal(wordsOf('van-1: many', parseNumber), null);
+  assert.equal(wordLines({ van: 120 }, (value) => `${value / 60} min`), 'van: 2 min');
+});
+
+test('two lengths are one field', () => {
+  const length = { anyOf: [{ type: 'number' }, { type: 'string', title: 'Duration' }] };
+  assert.equal(kindOf({ type: 'array', items: length }), 'durations');
+});
