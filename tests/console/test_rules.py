@@ -118,7 +118,7 @@ def test_every_rule_is_stated_in_the_form_and_kept_by_the_plan(page: Page) -> No
     assert findings(page, ".panel") == []
     with page.expect_request("**/plan") as sent:
         page.get_by_role("button", name="Plan", exact=True).click()
-    request = sent.value.post_data_json
+    request: dict[str, Any] = json.loads(sent.value.post_data or "")
     assert {name: request[name] for name in EXPECTED} == EXPECTED
     assert request["customers"][3]["alternatives"] == [
         {"id": "place-1", "location": [-1, 1], "cost": 0.5}]
