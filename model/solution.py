@@ -145,9 +145,9 @@ def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
 def with_handling(stops: Sequence[Stop], launch: int, recovery: int) -> tuple[Stop, ...]:
     """Return the stops of a trip that departs after a launch and arrives before a recovery."""
     first, *others, last = stops
-    landing = last.arrival - recovery
     return (replace(first, departure=first.departure + launch), *others,
-            replace(last, arrival=landing, service_start=landing))
+            replace(last, arrival=last.arrival - recovery,
+                    service_start=last.service_start - recovery))
 
 
 @dataclass(frozen=True, slots=True)

@@ -57,22 +57,17 @@ def _hours_of_type(kind: VehicleTypeInput, path: Path, known: Mapping[str, Hours
         opens = max(opens, hours.earliest)
     if kind.end == "depot":
         closes = min(closes, _closing(hours))
-    places = {home, *kind.reload_depots} if kind.max_trips > 1 else set[str]()
-    if starts_there or kind.end == "depot":
-        places.add(home)
-    if opens > closes or (shift.latest is not None
+    leaves = _closing(hours) if starts_there else inf
+    if opens > min(closes, leaves) or (shift.latest is not None
                           and shift.earliest <= shift.latest < opens):
         yield error_at("DEPOT_CLOSED", (*path, "shift"),
                        f"The depot {home!r} isn't open during the shift: change the depot's "
                        "time_window or the shift.")
-    elif any(known[place].earliest > opens or _closing(known[place]) < closes for place in places):
+    elif kind.flies and any(known[place].earliest > opens or _closing(known[place]) < closes
+                            for place in {home, *kind.reload_depots}):
         yield error_at("HOURS_DIFFER", path,
-                       "A depot that it uses opens after its day begins, or closes before that "
+                       "A depot that it lands at opens after its day begins, or closes before that "
                        "ends: narrow its shift, or state one time_window at all its depots.")
-    elif overtime is not None and kind.max_working_duration is not None and closes < last:
-        yield error_at("HOURS_AND_OVERTIME", (*path, "overtime"),
-                       f"The depot {home!r} closes before all overtime: leave out "
-                       "max_working_duration, overtime, or the end of the depot's time_window.")
 
 
 def _closing(hours: HoursInput) -> float:

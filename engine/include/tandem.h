@@ -187,6 +187,7 @@ typedef struct tandem_vehicle_type {
     int64_t half_rested_before; /* whether the first part of a rest was the last */
     int64_t rests_in_flights; /* whether the driver may rest while drones are out */
     int64_t share_before;     /* what a vehicle has done of the work, -1: it isn't used yet */
+    int64_t keeps_hours; /* whether depots' hours limit its trips more than its shift does */
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;

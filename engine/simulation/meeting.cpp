@@ -8,6 +8,7 @@
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/hours.h"
 #include "rules/launch_place.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
@@ -333,7 +334,9 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
         });
         const auto [arrival, rests] = ride(setting, log, vehicle, drones, to, leave, out);
         if (arrival < 0) return impossible;
-        const Int free = meet(setting, drones, here, arrival);
+        const bool is_depot = to < setting.num_depots;
+        const Int there = is_depot ? let_in(setting.type, setting.node, to, arrival) : arrival;
+        const Int free = meet(setting, drones, here, there);
         if (free < 0) continue;
         return any_late(setting, here, drones) ? impossible : Leaving{left, arrival, free, rests};
     }

@@ -10,6 +10,7 @@
 #include "rules/company.h"
 #include "rules/driving.h"
 #include "rules/flight.h"
+#include "rules/hours.h"
 #include "rules/lag.h"
 #include "rules/load.h"
 #include "rules/pair.h"
@@ -154,7 +155,8 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Int last = last_aboard(open);
     const bool laden = last != no_delivery;
     const bool trying = holds_count(setting) || order_is_open(setting, vehicle) || laden ||
-                        has_breaks(setting.type) || has_driving_rules(setting.type);
+                        has_breaks(setting.type) || has_driving_rules(setting.type) ||
+                        keeps_hours(setting.type);
     const Size& size = instance.size[b];
     Int found = 0;
     const auto add_if_legal = [&](Verdict verdict, Service service) {

@@ -7,6 +7,7 @@
 #include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/hours.h"
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "rules/start.h"
@@ -120,10 +121,10 @@ void note_times(OpenVehicle& open) {
     const auto& [setting, vehicle, log, drones] = open;
     const Int here = log.count.stops - 1;
     const LoggedStop& stop = log.stop[here];
-    vehicle.service_end = stop.node < setting.num_depots
-                              ? leaves_first(setting.type, stop.start)
-                              : stop.start + setting.node[stop.node].service_duration();
-    vehicle.free = vehicle.crew = stop.arrival;
+    const bool is_depot = stop.node < setting.num_depots;
+    vehicle.service_end = is_depot ? leaves_first(setting.type, stop.start)
+                                   : stop.start + setting.node[stop.node].service_duration();
+    vehicle.free = vehicle.crew = is_depot ? stop.start : stop.arrival;
     for (Int last = log.count.ops - 1; last >= 0 && log.op[last].stop == here; --last) {
         const LoggedSortie& sortie = log.sortie[log.op[last].sortie];
         if (log.op[last].is_recovery != 0) {
@@ -178,6 +179,13 @@ void note_starts(const OpenVehicle& open, View<Int, 1> starts) {
             starts[stop.node] = stop.start;
         }
     }
+}
+
+// Whether the truck leaves its last stop before that closes, if it is a depot.
+bool left_in_hours(const Setting& setting, const VehicleLog& log) {
+    const LoggedStop& here = log.stop[log.count.stops - 1];
+    return here.node >= setting.num_depots ||
+           here.leave <= closes_at(setting.type, setting.node, here.node);
 }
 
 // End the trip at a depot.
@@ -292,12 +300,17 @@ bool drive(OpenVehicle& open, Int node) {
     }
     // The start known so far kept what was behind it, not breaks that come later than a start does.
     if (follow_departure(setting.type, rests)) vehicle.start_best = log.trip[0].start;
-    const Int start = is_customer ? place.start_of_service(ready) : arrival;
-    const Int service_end = is_customer ? place.end_of_service(ready) : arrival;
+    const Int there = is_customer ? arrival : let_in(setting.type, setting.node, node, arrival);
+    const Int start = is_customer ? place.start_of_service(ready) : there;
+    const Int service_end = is_customer ? place.end_of_service(ready) : there;
+    if (!left_in_hours(setting, log) ||
+        (!is_customer && std::max(there, free) > closes_at(setting.type, setting.node, node))) {
+        return false;
+    }
     log_stop(log, node, arrival, start, std::max(service_end, free));
     vehicle.node = node;
     vehicle.service_end = service_end;
-    vehicle.free = vehicle.crew = free;
+    vehicle.free = vehicle.crew = std::max(free, there);
     if (!keep_fresh(open)) return false;
     if (!setting.lag.empty()) {
         if (!logged_starts(log).keep_lags(setting)) return false;

@@ -7,6 +7,7 @@
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/hours.h"
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "rules/start.h"
@@ -193,9 +194,13 @@ private:
     bool run_stop(Int index, Int arrival) {
         LoggedStop& stop = log_.stop[index];
         if (!arrivals_.empty()) arrivals_[static_cast<std::size_t>(index)] = arrival;
-        Int service_start = arrival;
-        leave_ = index == first_ ? leaves_first(setting_.type, arrival) : arrival;
-        if (stop.node >= setting_.num_depots) {
+        const bool is_depot = stop.node < setting_.num_depots;
+        const bool comes_back = is_depot && index > first_;
+        const Int there =
+            comes_back ? let_in(setting_.type, setting_.node, stop.node, arrival) : arrival;
+        Int service_start = there;
+        leave_ = index == first_ ? leaves_first(setting_.type, arrival) : there;
+        if (!is_depot) {
             const Windows place = setting_.node[stop.node];
             Int ready = arrival, before = stop.arrival;
             if (!setting_.lag.empty()) {
@@ -209,11 +214,12 @@ private:
             if (!starts_.empty()) starts_[static_cast<std::size_t>(index)] = service_start;
             if (!served_.empty() && !note_served(index, service_start)) return false;
         }
-        free_ = busy_ = arrival;
+        free_ = busy_ = there;
         for (; op_ < log_.count.ops && log_.op[op_].stop == index; ++op_) {
             if (!run_operation(log_.op[op_], stop.node)) return false;
         }
         leave_ = std::max(leave_, free_);
+        if (is_depot && leave_ > closes_at(setting_.type, setting_.node, stop.node)) return false;
         departure_ = std::min(departure_, leave_);
         if constexpr (writes) {
             stop.arrival = arrival;

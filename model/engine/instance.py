@@ -16,6 +16,7 @@ from model.engine.asked import (
 from model.engine.battery_rows import battery_row, full_row, powers_row
 from model.engine.breaks import driver_row, longest_travel
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
+from model.engine.hour_rows import write_hours
 from model.engine.library import dtype_of
 from model.engine.nearest import write_nearest
 from model.engine.pair_rows import (
@@ -193,11 +194,8 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
             changes = len(kind.speed_profile.times)
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
             instance.profile_factor[row, index, : changes + 1] = kind.speed_profile.factors
-    for site in problem.launch_sites:
-        place = problem.depots[site]
-        for name, time in (("window_earliest", place.earliest), ("arrival_limit", place.latest),
-                           ("window_latest", place.latest)):
-            instance.node[row, :, site, 0][name] = time
+    write_hours(problem, [kind for kind, _, _ in kinds], instance.node[row, :, :, 0],
+                instance.type[row])
     if instance.hub.shape[1]:
         instance.hub[row, :problem.num_depots] = [
             (_limit(depot.batteries), _limit(depot.chargers)) for depot in problem.depots]
@@ -292,7 +290,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         kind.trips_uncharged, _pickup_order(kind), int(kind.lifo), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
-        *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room), UNUSED)
+        *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room), UNUSED, 0)
 
 
 def _overtime_rate(kind: VehicleType) -> float:

@@ -223,7 +223,9 @@ def _depot_hours(attempt: Attempt, closes: int) -> Diagnosis:
     enough = closes + late
     depots = [replace(each, latest=min(enough, UNLIMITED)) if each is depot else each
               for each in problem.depots]
-    changed = replace(vehicle_type, latest=min(enough, UNLIMITED))
+    longer = vehicle_type.latest + allowed_overtime(vehicle_type)
+    changed = replace(vehicle_type, latest=(
+        vehicle_type.latest if longer >= enough else min(enough, UNLIMITED)))
     suffices = enough <= vehicle_type.last_by_shift
     return Diagnosis(
         "SHIFT", f"{vehicle_type.id} would be back {in_minutes(late)} after {depot.id} closes.",
@@ -232,8 +234,27 @@ def _depot_hours(attempt: Attempt, closes: int) -> Diagnosis:
         replace(with_type(attempt, changed), depots=tuple(depots)))
 
 
+def _closed_before_departure(attempt: Attempt) -> Diagnosis | None:
+    """Say by how much the depot closes before a vehicle leaves it; None if it doesn't."""
+    problem, start = attempt.problem, attempt.solution.routes[0].trips[0].stops[0]
+    depot = problem.depots[start.node]
+    if start.departure <= depot.latest:
+        return None
+    late = up_to_tenth(start.departure - depot.latest, MS_PER_MINUTE)
+    enough = depot.latest + late
+    depots = [replace(each, latest=min(enough, UNLIMITED)) if each is depot else each
+              for each in problem.depots]
+    return Diagnosis(
+        "SHIFT", f"{attempt.vehicle_type.id} would leave {in_minutes(late)} after {depot.id} "
+        "closes.", if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough),
+        replace(problem, depots=tuple(depots)))
+
+
 def _shift(attempt: Attempt) -> Diagnosis:
     vehicle_type, overtime = attempt.vehicle_type, attempt.vehicle_type.overtime
+    closed = _closed_before_departure(attempt)
+    if closed is not None:
+        return closed
     closes = attempt.problem.depots[vehicle_type.ends_at].latest
     if closes <= vehicle_type.latest + allowed_overtime(vehicle_type) < UNLIMITED:
         return _depot_hours(attempt, closes)

@@ -13,9 +13,9 @@ def hours_violations(problem: Problem, trips: Sequence[TimedTrip]) -> Iterator[V
         for index in (0, len(stops) - 1):
             depot, stop = problem.depots[stops[index].node], stops[index]
             path = f"{timed.path}.stops[{index}]"
-            if stop.arrival < depot.earliest:
+            if stop.service_start < depot.earliest:
                 yield Violation("SHIFT", f"{depot.id} opens at {seconds(depot.earliest)}, after "
-                                f"{seconds(stop.arrival)}", path)
+                                f"{seconds(stop.service_start)}", path)
             if stop.departure > depot.latest:
                 yield Violation("SHIFT", f"{depot.id} closes at {seconds(depot.latest)}, before "
                                 f"{seconds(stop.departure)}", path)

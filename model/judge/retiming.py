@@ -152,12 +152,14 @@ class _Timer:
             return _plain_delay(self._problem, trip, room)
         high = room + sum([halt.service_start - halt.ready for halt in halts(trip)])
         high += sum([taken.start - taken.arrival for taken in trip.breaks])
+        high += trip.stops[-1].service_start - trip.stops[-1].arrival
         low, latest = 0, trip.stops[-1].departure + room
         late = _lateness(self._problem, trip)
         for step in range(BISECTIONS if high else 0):
             middle = high if step == 0 else (low + high) // 2
             tried = self._from(decision, trip.stops[0].arrival + middle, before=before)
-            if tried.stops[-1].departure <= latest and _lateness(self._problem, tried) <= late:
+            if (tried.stops[-1].departure <= latest and _is_open(self._problem, tried)
+                    and _lateness(self._problem, tried) <= late):
                 low = middle
             else:
                 high = middle
@@ -175,7 +177,15 @@ def _plain_delay(problem: Problem, trip: Trip, room: int) -> int:
         left = waited + max(0, closing(customer, stop.service_start) - stop.ready)
         most = left if most is None else min(most, left)
         waited += stop.service_start - stop.ready
-    return waited + room if most is None else min(most, waited + room)
+    waited += trip.stops[-1].service_start - trip.stops[-1].arrival
+    start = trip.stops[0]
+    closes = problem.depots[start.node].latest - start.departure
+    return min(waited + room, *([] if most is None else [most]), max(0, closes))
+
+
+def _is_open(problem: Problem, trip: Trip) -> bool:
+    """Tell whether a trip leaves its depot before that closes."""
+    return trip.stops[0].departure <= problem.depots[trip.stops[0].node].latest
 
 
 def _lateness(problem: Problem, trip: Trip) -> int:

@@ -253,7 +253,9 @@ class Screen:
 
 def slacks_of(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:
     """Return by how much each stop may be reached later, by hard windows and the shift's end."""
-    slack = max(0, shift_ends - trip.stops[-1].departure)
+    end = trip.stops[-1]
+    slack = max(0, min(shift_ends, problem.depots[end.node].latest) - end.departure)
+    slack += end.service_start - end.arrival
     slacks = [slack]
     for stop in reversed(trip.stops[1:-1]):
         if stop.is_launch_site:

@@ -166,6 +166,9 @@ def _tried(problem: Problem, kind: int, node: int, nodes: tuple[int, ...]) -> Pa
 def _lacking(end: Depot, vehicles: VehicleType, timed: TimedRoute) -> Lacking | None:
     """Say what a trip that breaks one rule lacks; None if it breaks another one."""
     codes = {each.code for each in timed.judged.violations}
+    most = min(end.latest, vehicles.latest + allowed_overtime(vehicles))
+    if codes == {"SHIFT"} and timed.judged.end <= most:
+        return None
     if codes == {"SHIFT"} and end.latest <= vehicles.latest + allowed_overtime(vehicles):
         late = up_to_tenth(timed.judged.end - end.latest, MS_PER_MINUTE)
         return Lacking("SHIFT", f"would be back {in_minutes(late)} after {end.id} closes",

@@ -292,7 +292,8 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     flights, stops = dict[int, _Flight](), list[Stop]()
     arrival = decision.start
     if arrival is None:
-        arrival = max(ready, latest_release(problem, decision))
+        opens = problem.depots[decision.nodes[0]].earliest
+        arrival = max(ready, latest_release(problem, decision), opens)
     began = before[0] if before else Trip((Stop(decision.nodes[0], arrival, arrival, arrival),))
     begin, breaks, departure, node = begin_of(vehicle_type, began), [], 0, 0
     for index, following in enumerate(decision.nodes):
@@ -308,11 +309,10 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
         start = departure = arrival
         if index == 0:
             departure = max(arrival, vehicle_type.busy_until) + vehicle_type.launch_duration
-        if index == last:
-            departure = arrival + vehicle_type.recovery_duration
-        if 0 < index < last and node < first:
+        if index and node < first:
             start = departure = max(arrival, problem.depots[node].earliest)
-        elif 0 < index < last:
+            departure += vehicle_type.recovery_duration if index == last else 0
+        elif index:
             customer = customers[node - first]
             start = service_start(customer, max(
                 arrival + setup, awaited(problem, node, before, stops, flights, decision.awaited)))
@@ -351,7 +351,7 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
         ready = arrival + setup
         start, departure = resumed_service(problem, vehicle_type, node, max(
             ready, awaited(problem, node, before, stops, flights, decision.awaited)), fact, now)
-        if problem.is_launch_site(node):
+        if node < problem.num_depots:
             ready = start
         if drones is not None and decision.sorties:
             departure = max(departure, _operate(problem, vehicle_type, decision, index, ready,

@@ -26,6 +26,7 @@ from tests.model.open_trip import (
     Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred, timed_trips,
 )
 from tests.model.tiny_company import companions
+from tests.model.tiny_hours import in_hours
 
 MINUTE = 60_000
 
@@ -290,7 +291,7 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
             return False
         return starts[1] <= max(starts[0], customer.latest)
 
-    if _end(late) > _end(soon) or not keeps_lags(problem, late):
+    if _end(late) > _end(soon) or not (keeps_lags(problem, late) and in_hours(problem, late)):
         return False
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.customer_stops, other.customer_stops)):
@@ -300,9 +301,8 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
         for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
             longer = (flown.recovery_start - flown.launch_time
                       > sortie.recovery_start - sortie.launch_time)
-            if _in_storm(kind, sortie, flown):
-                return False
-            if longer or not all(map(may_be, sortie.visits, flown.visits)):
+            if longer or _in_storm(kind, sortie, flown) or not all(
+                    map(may_be, sortie.visits, flown.visits)):
                 return False
     return True
 

@@ -5,7 +5,11 @@ from dataclasses import replace
 import numpy as np
 
 from model.problem import Problem, within_hours
-from tests.model.tiny import MINUTE
+from model.solution import Route
+from tests.model.tiny import (
+    MINUTE, with_duty, with_gaps, with_open_ends, with_open_reloads, with_pickups, with_places,
+    with_reloads,
+)
 
 
 def with_hours(rng: np.random.Generator, problem: Problem) -> Problem:
@@ -19,3 +23,19 @@ def with_hours(rng: np.random.Generator, problem: Problem) -> Problem:
         return problem
     return replace(problem, depots=depots,
                    vehicle_types=tuple([within_hours(depots, kind) for kind in kinds]))
+
+
+def with_hours_apart(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose vehicles use several depots, or leave one for good; mostly with more.
+    """
+    change = (with_reloads, with_open_reloads, with_open_ends, with_places)[int(rng.integers(4))]
+    problem = change(rng, problem)
+    for more in (with_gaps, with_duty, with_pickups):
+        problem = more(rng, problem) if rng.random() < 0.4 else problem
+    return with_hours(rng, problem)
+
+
+def in_hours(problem: Problem, route: Route) -> bool:
+    """Tell whether a route's trips leave their depots before those close."""
+    return all(trip.stops[0].departure <= problem.depots[trip.stops[0].node].latest
+               for trip in route.trips)

@@ -7,6 +7,7 @@
 #include "randomness.h"
 #include "rules/drone_types.h"
 #include "rules/flown_trip.h"
+#include "rules/hours.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/pair.h"
@@ -251,7 +252,8 @@ Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1>
                 const Progress& reached) {
     auto [cost, time, cum, depart] = reached;
     const Int last = route.length - 1;
-    const NodeTable places = data.place.by_truck(data.type[route.type]);
+    const VehicleType& type = data.type[route.type];
+    const NodeTable places = data.place.by_truck(type);
     for (Int q = p; q <= last; ++q) {
         const Stop& stop = stops[q];
         Int leave = time;
@@ -263,6 +265,8 @@ Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1>
             cum += place.service_duration();
         } else if (stop.kind == start_stop) {
             leave = std::max(time, stop.release);
+        } else {
+            leave = let_in(type, places, stop.node, time);
         }
         time = leave;
         if (q < last) {

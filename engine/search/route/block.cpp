@@ -258,6 +258,16 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int p, Int node, Block
     return true;
 }
 
+// Have the truck leave a depot, where all is done so, before that closes. In place; false if it
+// can't.
+bool leave_in_hours(const Truck& truck, const Stop& stop, TimeSegment done, BlockSums& sums) {
+    const Int closes = closes_at(truck.type, truck.places, stop.node);
+    if (done.c > closes) return false;
+    sums.hi = std::min(sums.hi, closes - done.d);
+    sums.dep = std::min(sums.dep, closes - done.d);
+    return true;
+}
+
 // Write how long the truck waits for drones in a block, at all stops but the last. In place.
 void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
     Int idle = stops[first].d;
@@ -333,6 +343,8 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
             }
         } else if (stop.kind == start_stop) {
             c = std::max(c, std::max(stop.release, stop.hold));
+        } else {
+            c = let_in(type, truck.places, stop.node, c);
         }
         sums.free_d = d;
         sums.free_c = c;
@@ -353,6 +365,7 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
             if (!may_end(type, c)) return -1;
             sums.hi = std::min(sums.hi, last_end(type) - d);
         }
+        if (!has_window(stop) && !leave_in_hours(truck, stop, {d, c}, sums)) return -1;
         if (sums.flying == 0) break;
         if (stop.kind == end_stop || p + 1 >= stops.size() || waits_for_drones(type)) return -1;
         const Int next = stops[p + 1].node;

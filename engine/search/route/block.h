@@ -8,6 +8,7 @@
 
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/hours.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
 #include "rules/start.h"
@@ -101,7 +102,7 @@ struct Truck {
             const Int ready = std::max(reached.c, std::max(stop.release, stop.hold));
             return {reached.d, leaves_first(type, ready)};
         }
-        return reached;
+        return {reached.d, let_in(type, places, stop.node, reached.c)};
     }
 
     // Write the block of a stop without launches, reached at `time`. In place.
@@ -118,6 +119,11 @@ struct Truck {
             stop.dep = place.in_same_window(time);
         } else if (stop.kind == end_stop) {
             stop.hi = last_end(type);
+        }
+        if (keeps_hours(type) && !has_window(stop)) {
+            const Int closes = closes_at(type, places, stop.node);
+            stop.dep = closes - d;
+            stop.hi = c > closes ? none : std::min(stop.hi, stop.dep);
         }
     }
 };

@@ -1,10 +1,12 @@
 #include "search/route/refresh.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "randomness.h"
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/hours.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
@@ -70,7 +72,7 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> s
         }
         if (plain) {
             arrival = has_window(stop) ? places[stop.node].latest_free_arrival(stop.arrival, leave)
-                                       : leave;
+                                       : std::min(leave, closes_at(type, places, stop.node));
         }
         leave = arrival;
         if (p == first) break;
@@ -254,12 +256,46 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     return true;
 }
 
+// Let a trip end at stop `p`, and the next begin, where that costs least of all places, which may
+// be `closed` where they do now. In place; false if all are.
+bool choose_open(const ProblemData& data, const Fleet& fleet, Int slot, Int p, bool closed) {
+    const Int k = fleet.route[slot].type;
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const Int now = stops[p].node;
+    Int best = closed ? nowhere : now;
+    double cost = closed ? std::numeric_limits<double>::infinity() : fleet.cost[slot];
+    for (Int node = 0; node < data.num_depots; ++node) {
+        if (node == now || !data.reload(k, node)) continue;
+        stops[p].node = node;
+        if (refresh_as_is(data, fleet, slot) && fleet.cost[slot] < cost) {
+            best = node;
+            cost = fleet.cost[slot];
+        }
+    }
+    stops[p].node = best == nowhere ? now : best;
+    return refresh_as_is(data, fleet, slot);
+}
+
+// Let the trips of a route end, one of them elsewhere, while depots are open. In place; false if
+// they can't.
+bool find_open(const ProblemData& data, const Fleet& fleet, Int slot) {
+    for (Int p = 1; p < fleet.route[slot].length - 1; ++p) {
+        if (fleet.stop(slot, p).kind != end_stop) continue;
+        if (choose_open(data, fleet, slot, p, true)) return true;
+    }
+    return false;
+}
+
 // Let the trips of a route end, and the next begin, where that costs least. In place.
 void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     for (Int p = 1; p < route.length - 1; ++p) {
         if (stops[p].kind != end_stop) continue;
+        if (keeps_hours(data.type[route.type])) {
+            choose_open(data, fleet, slot, p, false);
+            continue;
+        }
         const Int node = stops[p].node;
         const double cost = fleet.cost[slot];
         const Int place =
@@ -330,7 +366,11 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
 
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
-    if (!refresh_as_is(data, fleet, slot)) return false;
+    if (!refresh_as_is(data, fleet, slot) &&
+        !(is_apart(data, route.type) && keeps_hours(data.type[route.type]) &&
+          find_open(data, fleet, slot))) {
+        return false;
+    }
     if (is_apart(data, route.type) && route.trips > 1) choose_reloads(data, fleet, slot);
     return true;
 }

@@ -215,15 +215,15 @@ def _breaks(kind: Any, halts: Sequence[Stop], rows: Records, trip: tuple[int, in
 
 def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,
           start: int, setup: int) -> Stop:
-    """Return a timed stop; `start` is when service begins, `setup` of the arrival, if it is a
-    customer's.
+    """Return a timed stop; `start` is when service begins, or who comes back is let in; of
+    the arrival, if it is a customer's, `setup`.
     """
     begin = arrival
     if kind == START:
         arrival = begin = max(arrival, release, hold)
     elif kind == CUSTOMER:
         begin, arrival = start, arrival - setup
-    elif kind == HALT:
+    else:
         begin = start
     return Stop(node, arrival, begin, leave, setup if kind == CUSTOMER else 0, kind == HALT)
 

@@ -14,10 +14,7 @@ Request = dict[str, Any]
     ({"latest": 600}, {"shift": {"earliest": 900}}, "DEPOT_CLOSED"),
     ({"earliest": 600}, {"shift": {"latest": 300}, "overtime": {"cost_per_hour": 1}},
      "DEPOT_CLOSED"),
-    ({"latest": 600}, {"end": {"location": [9, 9]}, "max_trips": 2}, "HOURS_DIFFER"),
-    ({"earliest": 600}, {"start_location": [9, 9]}, "HOURS_DIFFER"),
-    ({"latest": 600}, {"overtime": {"cost_per_hour": 1}, "max_working_duration": 60,
-                       "shift": {"latest": 300}}, "HOURS_AND_OVERTIME"),
+    ({"latest": 600}, {"end": "open", "shift": {"earliest": 900}}, "DEPOT_CLOSED"),
 ])
 def test_hours_that_leave_no_day_are_refused(client: httpx.Client, smallest: Request, hours: Any,
                                              more: Any, code: str) -> None:
@@ -39,3 +36,35 @@ def test_depots_that_close_say_so(client: httpx.Client, smallest: Request) -> No
     depot = smallest["depots"][0]["id"]
     (reason,) = left_out["reasons"]
     assert reason["remedy"] == f"fits if {depot} closed 15 minutes later"
+
+
+def test_who_comes_back_before_the_depot_opens_waits(client: httpx.Client,
+                                                     smallest: Request) -> None:
+    smallest["depots"] = [{"id": "yard", "location": [2000, 0], "time_window": {"earliest": 900}}]
+    smallest["planar_unit"] = 1
+    smallest["customers"] = [{"id": "near", "location": [1000, 0], "demand": [1],
+                              "time_window": {"latest": 200}}]
+    smallest["fleet"] = [{"id": "truck", "count": 1, "capacity": [1], "speed_kmh": 36,
+                          "start_location": [0, 0], "max_working_duration": 3600,
+                          "overtime": {"max_duration": 600, "cost_per_hour": 1}}]
+    (route,) = client.post("/plan", json=smallest).json()["routes"]
+    back = route["trips"][0]["stops"][-1]
+    assert (back["arrival"], back["service_start"], back["departure"]) == (200, 900, 900)
+    assert (back["waiting"], route["working_duration"]) == (700, 900)
+
+
+def test_who_would_leave_after_the_depot_closes_is_told(client: httpx.Client,
+                                                        smallest: Request) -> None:
+    smallest["depots"][0] |= {"id": "hub", "time_window": {"latest": 300}}
+    smallest["customers"] = [smallest["customers"][0] | {"release_time": 360}]
+    smallest["fleet"][0]["end"] = "open"
+    (left_out,) = client.post("/plan", json=smallest).json()["unassigned"]
+    assert {reason["remedy"] for reason in left_out["reasons"]} == {
+        "fits if hub closed 1 minute later"}
+
+
+def test_vehicles_that_fly_have_depots_open_all_day(client: httpx.Client,
+                                                    smallest: Request) -> None:
+    smallest["depots"].append({"id": "yard", "location": [9, 9], "time_window": {"latest": 600}})
+    smallest["fleet"][0] |= {"flies": True, "max_trips": 2, "reload_depots": ["yard"]}
+    assert [code for code, _ in errors_of(client, smallest)] == ["HOURS_DIFFER"]

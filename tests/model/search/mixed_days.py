@@ -43,13 +43,6 @@ def with_missing_legs(rng: np.random.Generator, problem: Problem) -> Problem:
                    vehicle_types=tuple(map(in_time, problem.vehicle_types)))
 
 
-def with_open_depots(rng: np.random.Generator, problem: Problem) -> Problem:
-    """Return a problem whose depots open and close, unless that is refused beside overtime."""
-    if any(kind.overtime for kind in problem.vehicle_types):
-        return problem
-    return with_hours(rng, problem)
-
-
 def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem whose end costs, or unequal work."""
     measure: Measure = rng.choice(get_args(Measure))
@@ -78,7 +71,7 @@ def resting(rng: np.random.Generator, problem: Problem) -> Problem:
 
 CHANGES: tuple[Change, ...] = (
     with_vehicle_costs, with_gaps, with_duty, with_goods, with_pickups,
-    with_setups, with_own_durations, with_open_depots, with_missing_legs)
+    with_setups, with_own_durations, with_hours, with_missing_legs)
 """What goes with all else."""
 
 
