@@ -14,6 +14,7 @@ COPY engine ./engine
 COPY app ./app
 COPY model ./model
 RUN /opt/tandem/bin/pip install '.[trace,roads]' \
+    && /opt/tandem/bin/python -I -c 'from model.engine.header import interface; interface()' \
     && /opt/tandem/bin/pip uninstall --yes pip
 # What of packages nothing here loads: their tests, the runtime and HiGHS once more, for programs in
 # C, and OSRM's programs for another way to prepare roads.

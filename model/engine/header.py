@@ -1,11 +1,17 @@
 """The engine's C interface, `tandem.h`, read as it is: functions, structs and their layout."""
 
+import hashlib
+import io
+import os
 import re
+import sys
+from contextlib import suppress
 from functools import cache
+from importlib.util import cache_from_source
 from pathlib import Path
 from typing import Any, cast
 
-import cffi
+import _cffi_backend
 import numpy as np
 
 _HERE = Path(__file__).parent
@@ -23,10 +29,54 @@ def header() -> Path:
 
 @cache
 def interface() -> Any:
-    """Return what cffi knows from the header."""
+    """Return what cffi knows from the header.
+
+    To read C takes longer than to load modules: what was read is kept with them, as Python keeps
+    what it compiled.
+    """
+    read = hashlib.sha256(f"{_cffi_backend.__version__}\n{header().read_text()}".encode())
+    mark = f"# {read.hexdigest()}\n"
+    kept = Path(cache_from_source(str(_HERE / "tandem.py"))).with_suffix(".ffi")
+    source = kept.read_text() if kept.exists() else ""
+    if not source.startswith(mark):
+        source = mark + _compiled()
+        if not sys.dont_write_bytecode:
+            with suppress(OSError):  # as where others have installed it
+                _write(kept, source)
+    module: dict[str, Any] = {}
+    exec(source, module)
+    return module["ffi"]
+
+
+def declared() -> Any:
+    """Return what cffi reads the header as, for others to include."""
+    import cffi
+
     ffi = cffi.FFI()
     ffi.cdef(_declarations(header().read_text()))
     return ffi
+
+
+def _compiled() -> str:
+    """Return the module that cffi makes of the header."""
+    from cffi.recompiler import make_py_source
+
+    written = io.StringIO()
+    make_py_source(declared(), "tandem", written)
+    return written.getvalue()
+
+
+def _write(path: Path, text: str) -> None:
+    """Write a file that others may read meanwhile."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    unfinished = path.with_name(f"{path.name}.{os.getpid()}")
+    unfinished.write_text(text)
+    unfinished.replace(path)
+
+
+def name_of(kind: Any) -> str:
+    """Return what a type is called in the header."""
+    return str(kind.cname.removeprefix("struct "))
 
 
 def pointer_to(name: str) -> Any:
@@ -69,11 +119,11 @@ def dtype_of_type(kind: Any) -> np.dtype[Any]:
     if kind.kind == "primitive":
         return np.dtype(_NUMBERS[kind.cname])
     if not is_row(kind):
-        raise TypeError(f"{kind.cname} is no row of numbers")
+        raise TypeError(f"{name_of(kind)} is no row of numbers")
     row = np.dtype([_field(name, field.type) for name, field in kind.fields], align=True)
     if [row.fields[name][1] for name, _ in kind.fields] != [  # type: ignore[index]
             field.offset for _, field in kind.fields]:
-        raise TypeError(f"{kind.cname} is laid out otherwise")
+        raise TypeError(f"{name_of(kind)} is laid out otherwise")
     return cast("np.dtype[Any]", np.dtype((np.record, row)))
 
 
@@ -87,7 +137,12 @@ def is_row(kind: Any) -> bool:
 
 def is_opaque(kind: Any) -> bool:
     """Tell whether a type is a struct of which the engine alone knows what it holds."""
-    return kind.kind == "struct" and kind.fields is None
+    if kind.kind != "struct":
+        return False
+    try:
+        return not interface().sizeof(kind)
+    except interface().error:
+        return True
 
 
 @cache

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 
 from model.engine.header import (
-    dtype_of, dtype_of_type, header, interface, is_opaque, is_row, pointer_to,
+    dtype_of, dtype_of_type, header, interface, is_opaque, is_row, name_of, pointer_to,
 )
 from model.engine.packing import Packed, address_of, number_of, packed
 
@@ -140,7 +140,7 @@ def _conversion(kind: Any, path: str) -> Convert:
             except TypeError as error:
                 raise TypeError(f"{path}: {error}") from None
         if value.kind is not kind.item:
-            raise TypeError(f"{path}: {kind.item.cname} was expected, not {value.kind.cname}")
+            raise TypeError(f"{path}: {name_of(kind.item)} was expected, not {name_of(value.kind)}")
         return value.pointer
 
     return pack

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.header import dtype_of_type, interface, is_laid_out_as, pointer_to
+from model.engine.header import dtype_of_type, interface, is_laid_out_as, name_of, pointer_to
 
 Encode = Callable[[Any, list[Any]], None]
 """Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
@@ -98,7 +98,7 @@ def address_of(dtype: np.dtype[Any], path: str) -> Callable[[Any], Any]:
 
 @cache
 def _packing(kind: Any) -> tuple[struct.Struct, Encode]:
-    plan = _plan(kind, kind.cname)
+    plan = _plan(kind, name_of(kind))
     return struct.Struct("=" + plan.format), plan.encode
 
 
@@ -123,7 +123,7 @@ def _plan(kind: Any, path: str) -> _Plan:
         raise TypeError(f"{path}: arrays are not part of others")
     plans = {name: _plan(field.type, f"{path}.{name}") for name, field in kind.fields}
     return _Plan(_with_gaps(kind, [plan.format for plan in plans.values()]),
-                 (_legs if kind.cname == LEGS else _fields)(plans, path))
+                 (_legs if name_of(kind) == LEGS else _fields)(plans, path))
 
 
 def _with_gaps(kind: Any, formats: list[str]) -> str:
@@ -160,8 +160,8 @@ def _array(dtype: np.dtype[Any], dimensions: int, path: str) -> Encode:
 
     def encode(value: Any, numbers: list[Any]) -> None:
         try:
-            if value.ndim == dimensions and (
-                    value.dtype == dtype or is_laid_out_as(value.dtype, dtype)):
+            if value.ndim == dimensions and (value.dtype is dtype or value.dtype == dtype
+                                             or is_laid_out_as(value.dtype, dtype)):
                 numbers.append(int(cast(integer, from_buffer(value))))
                 numbers.extend(value.shape)
                 return

@@ -136,7 +136,7 @@ class _Team:
         while True:
             stay = STAY if self._is_in_parts() else 0
             for worker, (data, part) in zip(self.workers, crew.spread(), strict=True):
-                worker.data, worker.searcher, worker.span = data, part, span
+                worker.set_out(data, part, span)
                 part.count.stay = stay
                 if stay == 0:
                     part.count.focus = NOWHERE

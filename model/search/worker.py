@@ -57,15 +57,24 @@ class Worker:
     pace: float = 0.0  # seconds a turn takes
     cooled: float = 0.0  # share of the cooling that is left out
     looked: int = 0  # turns after which better parts were last looked for
-    given: tuple[Packed, Packed] = field(init=False)  # data and search, packed for a round
-    tied: Packed | None = field(default=None, init=False)  # likewise what is linked
+    given: tuple[Packed, Packed] = field(init=False)  # data and search, packed
+    tied: Packed | None = field(init=False)  # likewise what is linked
     scratch: Scratch = field(init=False)  # for a round
+
+    def __post_init__(self) -> None:
+        """Pack for the first rounds."""
+        self.given = packed(self.data), packed(self.searcher)
+        self.tied = None if self.linked is None else packed(self.linked)
+
+    def set_out(self, data: ProblemData, searcher: Searcher, span: Span) -> None:
+        """Have the next round go on from a search, often that of the last one. In place."""
+        if data is not self.data or searcher is not self.searcher:
+            self.given = packed(data), packed(searcher)
+        self.data, self.searcher, self.span = data, searcher, span
 
     def run(self) -> None:
         """Search for one round."""
         most, end = self.limits.round_end(self.turns, self.span)
-        self.given = packed(self.data), packed(self.searcher)
-        self.tied = None if self.linked is None else packed(self.linked)
         with Scratch(*self.given) as self.scratch:
             if self.tied is None:
                 self._search(most, end)

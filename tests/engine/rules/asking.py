@@ -11,7 +11,7 @@ from typing import Any
 import cffi
 import numpy as np
 
-from model.engine.header import interface
+from model.engine.header import declared
 from model.engine.packing import Packed, packed
 
 ENGINE = Path(__file__).parents[3] / "engine"
@@ -34,7 +34,7 @@ def built(target: str) -> Path:
 @cache
 def _library() -> tuple[Any, Any]:
     ffi = cffi.FFI()
-    ffi.include(interface())
+    ffi.include(declared())
     text = (ENGINE / "tests/rules.h").read_text()
     text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
     ffi.cdef(re.sub(r"^#.*$", "", text, flags=re.MULTILINE))

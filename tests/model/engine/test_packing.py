@@ -5,7 +5,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pytest
 
-from model.engine.header import dtype_of, interface
+from model.engine.header import declared, dtype_of, interface
 from model.engine.leg import ComputedLegs
 from model.engine.nearest import cells_of
 from model.engine.packing import Packed, packed, struct_name
@@ -103,7 +103,7 @@ def test_computed_legs_of_other_rows_are_refused() -> None:
 @pytest.fixture(scope="module")
 def made_up() -> Any:
     """Return pointers to a struct with gaps, a pointer, numbers and an array."""
-    ffi = interface()
+    ffi = declared()
     ffi.cdef("typedef struct made_up { bool flag; int64_t count; bool other; double share;"
              " tandem_least *row; bool last; tandem_i64_1d numbers; bool end; } made_up;")
     return ffi.typeof("made_up *")
