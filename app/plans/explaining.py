@@ -18,7 +18,7 @@ from app.requests.plan_reading import parse_plan, read_plan
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.explain import ExplainOptions, ExplainReply, ExplainRequest
 from app.schemas.request import PlanRequest
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench, Setting
 from model.judge.binding import find_binding

@@ -21,7 +21,7 @@ from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.fit import FitReply, FitRequest
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from model.judge.bench import Bench, Trial
 from model.judge.check import Evaluation, JudgedRoute
 from model.judge.fitting import find_fits, new_violations, spot_of, vehicle_of

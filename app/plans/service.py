@@ -13,7 +13,7 @@ from app.requests.conversion.preparing import Preparing, patience
 from app.requests.reading import read_request
 from app.requests.warnings.finding import warnings_of
 from app.schemas.request import OptionsInput, PlanRequest
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from model.engine.cores import num_cores
 from model.planner import ALONE, Listener, Planner, PlanOptions
 

@@ -6,7 +6,7 @@ from pydantic_core import from_json, to_json
 
 from app.plans.service import PlanService
 from app.schemas.openapi import EXAMPLES_DIR
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from model.planner import Planner
 
 SECONDS = 10.0

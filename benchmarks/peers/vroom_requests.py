@@ -22,7 +22,7 @@ from rich.table import Table
 
 from app.formats.vroom.answering import answer
 from app.schemas.limits import DEFAULT_POLICY
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.planner import Planner, load_planner
 

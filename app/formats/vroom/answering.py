@@ -17,7 +17,7 @@ from app.formats.vroom.violations import add_violations
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.requests.conversion.preparing import Preparing, patience
 from app.schemas.errors import InvalidRequestError
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.dialects.vroom.checking import drive, route_faults
 from model.dialects.vroom.errors import RefusedError

@@ -31,7 +31,8 @@ from app.schemas.openapi import EXAMPLES, event_stream, json_body, problems
 from app.schemas.request import PlanRequest
 from app.serving.access.guard import Guard, Jobs, Principal
 from app.serving.load.abandoned import Planning, watching
-from app.serving.load.bodies import Body, ReceivedBody
+from app.serving.load.bodies import Body
+from app.serving.load.received import ReceivedBody
 
 router = APIRouter(tags=["jobs"])
 

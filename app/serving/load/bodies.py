@@ -4,21 +4,13 @@ import asyncio
 import time
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
-from dataclasses import dataclass
 from typing import Annotated
 
 from fastapi import Depends, Request
 
 from app.schemas.errors import BodyTooLargeError, RequestError
 from app.serving.load.admission import OverloadedError
-
-
-@dataclass(frozen=True)
-class ReceivedBody:
-    """A request's body and when its last byte came, on `time.perf_counter`."""
-
-    content: bytes
-    received_at: float
+from app.serving.load.received import ReceivedBody
 
 
 class SlowBodyError(RequestError, status=408, name="slow-body"):

@@ -14,7 +14,7 @@ from app.requests.bounds import Bounds
 from app.requests.reading import read_request
 from app.schemas.limits import DEFAULT_POLICY
 from app.schemas.request import OptionsInput
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.planner import ALONE, Listener, PlanCheckError, Planner, PlanOptions, PlanResult
 from model.problem import Problem

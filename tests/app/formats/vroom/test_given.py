@@ -13,7 +13,7 @@ from app.formats.vroom.errors import VroomError
 from app.formats.vroom.places import find_places
 from app.formats.vroom.reading import read_request
 from app.formats.vroom.translate import translate
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from tests.app.formats.vroom.judge import tasks_of
 from tests.app.formats.vroom.reference import check
 from tests.app.formats.vroom.sampling import sample_request

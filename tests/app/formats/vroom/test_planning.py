@@ -15,7 +15,7 @@ from app.formats.vroom.answering import answer
 from app.formats.vroom.errors import VroomError
 from app.requests.conversion.preparing import StoppedError
 from app.schemas.limits import DEFAULT_POLICY
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.dialects.vroom.timing import COST_SCALE
 from model.planner import Planner, load_planner

@@ -15,7 +15,7 @@ from app.formats.vroom.translate import translate
 from app.requests.conversion.preparing import Preparing, StoppedError
 from app.requests.conversion.work import legs_seconds
 from app.schemas.errors import InvalidRequestError
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.dialects.vroom.convert import Converter
 from model.dialects.vroom.drives import Drives

@@ -12,7 +12,7 @@ from app.formats.vroom.answering import answer
 from app.formats.vroom.errors import TOO_LARGE, VroomError
 from app.formats.vroom.reading import MAX_ALL_WINDOWS, read_request
 from app.schemas.limits import DEFAULT_POLICY
-from app.serving.load.bodies import ReceivedBody
+from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.planner import Planner, PlanOptions, PlanResult, load_planner
 from model.problem import Problem
