@@ -7,7 +7,7 @@ import re
 from collections import deque
 from collections.abc import Callable, Iterator
 from contextlib import suppress
-from functools import partial
+from functools import cache, partial
 from itertools import product, starmap
 from pathlib import Path
 from time import thread_time
@@ -75,8 +75,13 @@ def text_of(size: int, start: str, piece: str, end: str) -> str:
     return start + piece * (size // len(piece)) + end
 
 
-def texts(size: int) -> Iterator[str]:
-    return starmap(partial(text_of, size), product(STARTS, PIECES, ENDS))
+@cache
+def texts_of(size: int, *parts: tuple[str, ...]) -> tuple[str, ...]:
+    return tuple(starmap(partial(text_of, size), product(*parts)))
+
+
+def texts(size: int) -> tuple[str, ...]:
+    return texts_of(size, STARTS, PIECES, ENDS)
 
 
 def seconds_of(work: Callable[[], object], times: int = 1) -> float:
@@ -91,14 +96,12 @@ def seconds_of(work: Callable[[], object], times: int = 1) -> float:
 def slow_texts(work: Callable[[str], object]) -> list[str]:
     """Return starts of texts whose time grows faster than their length."""
     slow = []
-    for parts in product(STARTS, PIECES, ENDS):
-        text = text_of(SIZE, *parts)
+    for text, parts in zip(texts(SIZE), product(STARTS, PIECES, ENDS), strict=True):
         if seconds_of(partial(work, text)) > QUICK:
-            longer = text_of(LONGER, *parts)
-            if seconds_of(partial(work, longer)) <= GROWTH * QUICK:
-                continue
-            short, long = seconds_of(partial(work, text), 3), seconds_of(partial(work, longer), 3)
-            if short > QUICK and long > GROWTH * short:
+            longer, short = text_of(LONGER, *parts), seconds_of(partial(work, text), 3)
+            # Most is proportional, which a first look shows.
+            if short > QUICK and all(seconds_of(partial(work, longer)) > GROWTH * short
+                                     for _ in range(3)):
                 slow.append(text[:60])
     return slow
 

@@ -6,13 +6,13 @@ A second reading of the decision process: it keeps the decisions of one vehicle,
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import permutations
 
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import Rest, charges, first_rest, sortie_energy
 from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
-from model.judge.lags import halts_of, starts_of
 from model.judge.launches import launch_duration
 from model.judge.rules import airborne_duration
 from model.judge.takeoff import charged_launch, held_takeoff, storm_met
@@ -23,7 +23,8 @@ from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
 from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
-    Flight, OpenTrip, back_at, drones_of, in_range, lasts, preferred, timed_trips,
+    MOST_TIMED, Flight, OpenTrip, back_at, drones_of, in_range, keeps_lags, lasts, preferred,
+    timed_trips,
 )
 from tests.model.tiny_company import companions
 from tests.model.tiny_hours import in_hours
@@ -237,6 +238,7 @@ def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | No
         loops.append(late[0])
 
 
+@lru_cache(MOST_TIMED)
 def after(problem: Problem, vehicle: Vehicle, kind: int, node: int) -> Vehicle | None:
     """Return the vehicle after one more action, None if the action cannot be done at all."""
     start = problem.vehicle_types[vehicle.kind].begins_at
@@ -267,6 +269,7 @@ def _launched(problem: Problem, vehicle: Vehicle, node: int) -> Vehicle | None:
     return replace(vehicle, trips=(*vehicle.trips[:-1], trip))
 
 
+@lru_cache(MOST_TIMED)
 def judge(problem: Problem, vehicle: Vehicle, start: int | None) -> tuple[Route, Evaluation]:
     """Time and check the route of a vehicle at home whose first trip begins at `start`."""
     route = _timed_route(problem, vehicle, start)
@@ -307,13 +310,6 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
     return True
 
 
-def keeps_lags(problem: Problem, route: Route) -> bool:
-    """Tell whether all on a route are served as long behind others as they should."""
-    starts = starts_of(halts_of(route.trips))
-    return all(lag.least <= start - starts[lag.node] <= lag.most for node, start in starts.items()
-               for lag in problem.lags.get(node, ()) if lag.node in starts)
-
-
 def _end(route: Route) -> int:
     return route.trips[-1].stops[-1].departure
 
@@ -328,6 +324,7 @@ def _aboard(problem: Problem, vehicle: Vehicle) -> list[int]:
             for node in each.nodes if not seen & {node, each.delivery}]
 
 
+@lru_cache(MOST_TIMED)
 def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) -> bool:
     """Tell whether the vehicle can deliver what is aboard, go home and the plan be legal."""
     if vehicle is None:

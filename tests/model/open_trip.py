@@ -5,15 +5,16 @@ from functools import lru_cache
 
 from model.judge.clock import opening
 from model.judge.energy import hover_energy, leg_energy, weights_aboard
+from model.judge.lags import halts_of, starts_of
 from model.judge.pairs import flown_back, flown_out
 from model.judge.timing import (
     Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
 )
 from model.problem import DroneType, Problem, VehicleType
-from model.solution import Trip
+from model.solution import Route, Trip
 
 MOST_TIMED = 1000
-"""Lists of trips whose times are kept: those that the next actions ask for again."""
+"""Lists of trips whose times are kept, and answers: those that the next actions ask for again."""
 
 
 @dataclass(frozen=True)
@@ -147,3 +148,10 @@ def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,
 
     able = [drone for drone in free if lifts(drone)]
     return sorted(able, key=lambda drone: not comes_back(drone))
+
+
+def keeps_lags(problem: Problem, route: Route) -> bool:
+    """Tell whether all on a route are served as long behind others as they should."""
+    starts = starts_of(halts_of(route.trips))
+    return all(lag.least <= start - starts[lag.node] <= lag.most for node, start in starts.items()
+               for lag in problem.lags.get(node, ()) if lag.node in starts)
