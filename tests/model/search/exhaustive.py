@@ -16,6 +16,7 @@ from operator import add, le
 
 from model.judge.check import check
 from model.judge.hubs import taken_at_hubs
+from model.judge.rules import farthest
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Fairness, Measure, Problem, VehicleType
 from model.problem.travel import Matrix
@@ -135,6 +136,8 @@ def _taken(problem: Problem, route: Route) -> Taken:
 def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[tuple[Taken, Whole], float]:
     """Return the costs of the cheapest routes that serve exactly these, by what they take."""
     found, vehicle_type = dict[tuple[Taken, Whole], float](), problem.vehicle_types[kind]
+    if not all(_may_serve(problem, kind, node) for node in nodes):
+        return found
     is_one = not problem.limits_hubs and not problem.fairness.is_stated
     alone = replace(problem, fairness=Fairness())
     bounded = [(_least_cost(problem, vehicle_type, trips), trips)
@@ -156,6 +159,12 @@ def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[tuple[Ta
     return found
 
 
+def _may_serve(problem: Problem, kind: int, node: int) -> bool:
+    """Tell whether skills and the table allow a vehicle type to serve a customer."""
+    return problem.customer_at(node).skills <= problem.vehicle_types[kind].skills and (
+        problem.may_serve is None or bool(problem.may_serve[kind, node - problem.num_depots]))
+
+
 def _cheapest_start(problem: Problem, decision: RouteDecision,
                     best: float) -> tuple[float, Route] | None:
     """Return a route that costs less than `best`, and what; None if there is none."""
@@ -169,8 +178,9 @@ def _cheapest_start(problem: Problem, decision: RouteDecision,
     driven = cost.fixed + cost.distance + cost.stops
     if broken <= {"WORKING_DURATION"} and driven + cost.lateness < best:
         late = _begun_late(problem, decision, soon)
-        evaluation = check(problem, Solution((late,)))
-        broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
+        if late is not soon:
+            evaluation = check(problem, Solution((late,)))
+            broken = {violation.code for violation in evaluation.violations} - {"MISSING"}
         if not broken and evaluation.cost.total < best:
             return evaluation.cost.total, late
     return None
@@ -273,7 +283,12 @@ def _trip_lists(problem: Problem, kind: VehicleType, nodes: Nodes,
 
 def _trips(problem: Problem, kind: VehicleType, nodes: Nodes,
            ends: tuple[int, int]) -> Iterator[TripDecision]:
-    """Yield all trips between two depots that serve exactly these customers by truck and drones."""
+    """Yield all trips between two depots that serve exactly these customers by truck and drones.
+
+    Those of which it is plain that they can't be are left out.
+    """
+    if _is_too_much(problem, nodes, kind.capacity):
+        return
     for size in range(len(nodes) + 1 if kind.drones else 1):
         for flown in combinations(nodes, size):
             driven = [node for node in nodes if node not in flown]
@@ -286,8 +301,25 @@ def _trips(problem: Problem, kind: VehicleType, nodes: Nodes,
                     stops = (ends[0], *halting, ends[1])
                     for queue in permutations(flown):
                         for sorties in _sorties(kind, queue, len(stops), 0):
-                            if _uses_all(problem, stops, sorties):
+                            if _uses_all(problem, stops, sorties) and all(
+                                    _may_fly(problem, kind, stops, sortie) for sortie in sorties):
                                 yield TripDecision(stops, sorties)
+
+
+def _is_too_much(problem: Problem, nodes: Nodes, most: Nodes) -> bool:
+    """Tell whether customers are brought more than can be aboard at once."""
+    demands = [problem.customer_at(node).demand for node in nodes]
+    return any(sum(brought) > limit
+               for brought, limit in zip(zip(*demands, strict=True), most, strict=False))
+
+
+def _may_fly(problem: Problem, kind: VehicleType, stops: Nodes, sortie: SortieDecision) -> bool:
+    """Tell whether a drone lifts what a sortie brings, and is never too far from its truck."""
+    drones = kind.drone_type(sortie.drone)
+    ends = stops[sortie.launch_stop], stops[sortie.recovery_stop]
+    return not _is_too_much(problem, sortie.nodes, drones.capacity) and (
+        drones.max_range is None or all(farthest(problem, drones, ends, node) <= drones.max_range
+                                        for node in sortie.nodes))
 
 
 def _with_halts(problem: Problem, kind: VehicleType, order: Nodes,
@@ -315,7 +347,10 @@ def _uses_all(problem: Problem, stops: Nodes, sorties: tuple[SortieDecision, ...
 
 def _sorties(kind: VehicleType, queue: Nodes, num_stops: int,
              earliest: int) -> Iterator[tuple[SortieDecision, ...]]:
-    """Yield all ways to fly to customers in turn, launched from stop `earliest` on."""
+    """Yield all ways to fly to customers in turn, launched from stop `earliest` on.
+
+    No drone is launched before it is back.
+    """
     if not queue:
         yield ()
         return
@@ -325,4 +360,6 @@ def _sorties(kind: VehicleType, queue: Nodes, num_stops: int,
             for others in _sorties(kind, queue[size:], num_stops, launch):
                 for recovery in range(launch, num_stops):
                     for drone in range(kind.num_drones):
-                        yield (SortieDecision(queue[:size], launch, recovery, drone), *others)
+                        if not any(other.drone == drone and other.launch_stop < recovery
+                                   for other in others):
+                            yield (SortieDecision(queue[:size], launch, recovery, drone), *others)

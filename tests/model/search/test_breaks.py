@@ -1,6 +1,5 @@
 """Breaks are placed as brute force does, and all plans with them keep the rules."""
 
-import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from itertools import combinations, permutations, product
@@ -17,6 +16,7 @@ from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
+from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day, with_breaks
 from tests.model.tiny_company import with_order, with_order_across
@@ -59,7 +59,7 @@ def placements(problem: Problem, legs: int) -> Iterator[tuple[BreakDecision, ...
 def cheapest(problem: Problem) -> float:
     """Return the cost of the cheapest plan by trying all, begun at every minute."""
     best = 2 * problem.unassigned_cost
-    for count in (1, 2):
+    for count in (2, 1):
         for nodes in permutations((1, 2), count):
             driven = sum(problem.travel[0].distance.item(*leg)
                          for leg in zip((0, *nodes), (*nodes, 0), strict=True)) / 1e6
@@ -71,7 +71,10 @@ def cheapest(problem: Problem) -> float:
                     route = schedule(problem, RouteDecision(0, 0, (trip,)))
                     left = tuple(node for node in (1, 2) if node not in nodes)
                     judged = check(problem, Solution((route,), left))
-                    best = min(best, judged.cost.total if judged.is_feasible else math.inf)
+                    if judged.is_feasible:
+                        best = min(best, judged.cost.total)
+                    elif NEVER_BY_BEGINNING_LATER & {each.code for each in judged.violations}:
+                        break
     return best
 
 
