@@ -621,6 +621,7 @@ typedef struct tandem_move {
     int64_t type;
     int64_t halt;    /* the launch site */
     int64_t landing; /* that of recovery, if there are two; of a pair, the stop */
+    int64_t late;    /* not 0: a pair is flown to after others from and to the same stops */
     int32_t end[8];  /* of several pickups, in order: the stop times 8, and the pickup's number */
 } tandem_move;
 

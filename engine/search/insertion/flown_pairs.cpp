@@ -2,16 +2,10 @@
 
 #include <algorithm>
 
-#include "rules/drone_types.h"
-#include "rules/flight.h"
-#include "rules/launch_place.h"
 #include "rules/load.h"
 #include "rules/pair.h"
-#include "rules/shift.h"
 #include "search/insertion/cheapest.h"
-#include "search/insertion/offers.h"
 #include "search/insertion/trip_scan.h"
-#include "search/route/drone_data.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
@@ -87,20 +81,10 @@ private:
 
     // Lists where drones may serve an end; false if nowhere. In place.
     bool fly(Int end, EndPlaces& places) const {
-        if (!data.can(route.type, 1, end) || !may_launch(type, route, fleet.sortie[slot], trip)) {
-            return false;
-        }
-        for_each_row(end, end, [&](Int row) { fly_by(row, end, places); });
+        for_each_single_flight(end, [&](Int row, const Flown& flown) {
+            places.add({flown.cost, row, flown.launch, flown.recovery});
+        });
         return !places.items().empty();
-    }
-
-    void fly_by(Int row, Int end, EndPlaces& places) const {
-        const Windows place = data.place.by_air(data.type[row])[end];
-        const auto note = [&](const Flown& flown) {
-            const Flight flight{data.type[row], place, flown.out, flown.home};
-            if (flight.can_serve()) places.add({flown.cost, row, flown.launch, flown.recovery});
-        };
-        for_each_flight(row, end, end, 0, note);
     }
 
     // Lists sorties that serve both ends. In place.
@@ -116,58 +100,6 @@ private:
         });
     }
 
-    // Calls `visit` with each row of drones that may serve two customers and has a battery.
-    template <class Visit>
-    void for_each_row(Int first, Int last, const Visit& visit) const {
-        for (Int row = first_drone_row(data.type, route.type); row >= 0;
-             row = next_drone_row(data.type, row)) {
-            if (data.can(row, 1, first) && data.can(row, 1, last) &&
-                has_battery(data.type, route, fleet.sortie[slot], trip, row)) {
-                visit(row);
-            }
-        }
-    }
-
-    // From which stop to which a drone flies, how long its first and last leg take, and what it
-    // costs.
-    struct Flown {
-        Int launch, recovery, out, home;
-        double cost;
-    };
-
-    // Calls `visit` with each flight of a row that serves one customer first and one last,
-    // `between` whom it is so far, from stops where it may be launched to where it may be
-    // recovered.
-    template <class Visit>
-    void for_each_flight(Int row, Int first, Int last, Int between, const Visit& visit) const {
-        const VehicleType& drone = data.type[row];
-        const Rate& rate = data.rate[row];
-        const LegRow inward = legs_to(data.back, drone.drone_travel, first);
-        const LegRow onward = legs_from(data.leg, drone.home_travel, last);
-        const bool crosses = data.strategy.crossings && !waits_for_drones(type);
-        for (Int launch = trip.first; launch <= trip.last; ++launch) {
-            const Leg out = leg_from(inward, stops[launch].node);
-            const Int far_out = out.distance + between;
-            if (is_dear(flown_cost(rate, far_out)) || !may_meet(drone, stops[launch].node, first)) {
-                continue;
-            }
-            const Int latest = crosses ? std::min(trip.last, launch + max_span) : launch;
-            for (Int recovery = data.strategy.loops ? launch : launch + 1; recovery <= latest;
-                 ++recovery) {
-                const Leg home = leg_to(onward, stops[recovery].node);
-                const double cost = flown_cost(rate, far_out + home.distance);
-                if (!is_dear(cost) && may_meet(drone, stops[recovery].node, last)) {
-                    visit({launch, recovery, out.duration, home.duration, cost});
-                }
-            }
-        }
-    }
-
-    // Whether drones of a type that serve a customer may be launched or recovered at a node.
-    bool may_meet(const VehicleType& drone, Int here, Int customer) const {
-        return is_launch_place(data.no_launch, here) && in_range(data, drone, here, customer);
-    }
-
     // Lists a shipment at two places if the truck holds it between, and a drone flies one. In
     // place.
     void join(const EndPlace& pickup, const EndPlace& delivery) {
@@ -181,6 +113,14 @@ private:
                         [](bool fits) { return fits; })) {
             pairs_.add({cost, pickup, delivery});
         }
+    }
+
+    // Whether others are flown to from and to the same stops.
+    bool flies_beside(const EndPlace& place) const {
+        const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
+        return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+            return sortie.launch == place.first && sortie.recovery == place.last;
+        });
     }
 
     Int drone_for(const EndPlace& place) const {
@@ -205,6 +145,9 @@ private:
         move.landing = brings ? delivery.last : pickup.last;
         move.drone = fetches ? fetching : bringing;
         move.sortie = bringing;
+        best.try_move(price_move(data, fleet, move, node), move);
+        if (!brings || !flies_beside(delivery)) return;
+        move.late = 1;
         best.try_move(price_move(data, fleet, move, node), move);
     }
 

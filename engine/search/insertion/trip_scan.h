@@ -1,9 +1,17 @@
 // A trip on which a shipment is tried, and what each way to try it asks.
 #pragma once
 
+#include <algorithm>
+
+#include "rules/drone_types.h"
+#include "rules/flight.h"
+#include "rules/launch_place.h"
 #include "rules/rates.h"
+#include "rules/shift.h"
 #include "search/insertion/best.h"
-#include "search/route/rarer.h"
+#include "search/insertion/offers.h"
+#include "search/route/drone_data.h"
+#include "search/route/vehicles.h"
 
 namespace tandem {
 
@@ -39,6 +47,73 @@ struct TripScan {
         move.last = last;
         move.type = route.type;
         return move;
+    }
+
+    // Calls `visit` with each row of drones that may serve two customers and has a battery.
+    template <class Visit>
+    void for_each_row(Int first, Int last, const Visit& visit) const {
+        for (Int row = first_drone_row(data.type, route.type); row >= 0;
+             row = next_drone_row(data.type, row)) {
+            if (data.can(row, 1, first) && data.can(row, 1, last) &&
+                has_battery(data.type, route, fleet.sortie[slot], trip, row)) {
+                visit(row);
+            }
+        }
+    }
+
+    // From which stop to which a drone flies, how long its first and last leg take, and what it
+    // costs.
+    struct Flown {
+        Int launch, recovery, out, home;
+        double cost;
+    };
+
+    // Calls `visit` with each flight of a row that serves one customer first and one last,
+    // `between` whom it is so far, from stops where it may be launched to where it may be
+    // recovered.
+    template <class Visit>
+    void for_each_flight(Int row, Int first, Int last, Int between, const Visit& visit) const {
+        const VehicleType& drone = data.type[row];
+        const Rate& rate = data.rate[row];
+        const LegRow inward = legs_to(data.back, drone.drone_travel, first);
+        const LegRow onward = legs_from(data.leg, drone.home_travel, last);
+        const bool crosses = data.strategy.crossings && !waits_for_drones(type);
+        for (Int launch = trip.first; launch <= trip.last; ++launch) {
+            const Leg out = leg_from(inward, stops[launch].node);
+            const Int far_out = out.distance + between;
+            if (is_dear(flown_cost(rate, far_out)) || !may_meet(drone, stops[launch].node, first)) {
+                continue;
+            }
+            const Int latest = crosses ? std::min(trip.last, launch + max_span) : launch;
+            for (Int recovery = data.strategy.loops ? launch : launch + 1; recovery <= latest;
+                 ++recovery) {
+                const Leg home = leg_to(onward, stops[recovery].node);
+                const double cost = flown_cost(rate, far_out + home.distance);
+                if (!is_dear(cost) && may_meet(drone, stops[recovery].node, last)) {
+                    visit({launch, recovery, out.duration, home.duration, cost});
+                }
+            }
+        }
+    }
+
+    // Calls `visit` with a row of drones and each flight of theirs to an end alone.
+    template <class Visit>
+    void for_each_single_flight(Int end, const Visit& visit) const {
+        if (!data.can(route.type, 1, end) || !may_launch(type, route, fleet.sortie[slot], trip)) {
+            return;
+        }
+        for_each_row(end, end, [&](Int row) {
+            const VehicleType& drone = data.type[row];
+            const Windows place = data.place.by_air(drone)[end];
+            for_each_flight(row, end, end, 0, [&](const Flown& flown) {
+                if (Flight{drone, place, flown.out, flown.home}.can_serve()) visit(row, flown);
+            });
+        });
+    }
+
+    // Whether drones of a type that serve a customer may be launched or recovered at a node.
+    bool may_meet(const VehicleType& drone, Int here, Int customer) const {
+        return is_launch_place(data.no_launch, here) && in_range(data, drone, here, customer);
     }
 
     const ProblemData& data;

@@ -7,6 +7,7 @@
 #include "randomness.h"
 #include "search/anneal.h"
 #include "search/moves/best_part.h"
+#include "search/moves/other_end.h"
 #include "search/moves/recreate.h"
 #include "search/moves/resplit.h"
 #include "search/moves/retype.h"
@@ -27,6 +28,8 @@ namespace {
 // annealed by small moves, too, it is fewer.
 constexpr Int resplits = 30, resplits_beside = 10;
 
+constexpr Int moved_ends = 1;  // of shipments that drones may serve, tried elsewhere each turn
+
 constexpr double best_part_share = 0.0002;  // how often one is planned at best, instead
 
 // Routes in rows of stops, with all that `Fleet` knows of them.
@@ -38,7 +41,8 @@ public:
           resplit_(data, searcher),
           best_part_(data, searcher),
           small_moves_(data, searcher),
-          plan_cost_(plan_cost(data, searcher)) {}
+          plan_cost_(plan_cost(data, searcher)),
+          flies_shipments_(may_fly_shipments(data)) {}
 
     void ruin(Int first) {
         resplit_.forget();
@@ -68,7 +72,8 @@ public:
 
     Int parts() const {
         if (data_.strategy.small_moves) return 2 + resplits_now();
-        return data_.strategy.resplit ? 1 + resplits : 1;
+        if (data_.strategy.resplit) return 1 + resplits;
+        return flies_shipments_ ? 1 + moved_ends : 1;
     }
 
     // Swaps tails of routes first, then plans trips anew, and anneals some by small moves last.
@@ -131,8 +136,9 @@ private:
         }
     }
 
-    // Plans a part of a trip with one drone anew.
+    // Serves an end of a shipment otherwise, or plans a part of a trip with one drone anew.
     bool plan_anew(double rise) {
+        if (flies_shipments_) return move_end(data_, searcher_, rise);
         if (has_halts(data_) && uniform(searcher_.rng) < best_part_share) {
             resplit_.forget();
             return best_part_.attempt();
@@ -190,6 +196,7 @@ private:
     BestPart best_part_;
     SmallMoves small_moves_;
     double plan_cost_;  // of the routes as they are, but for this turn
+    const bool flies_shipments_;
 };
 
 }  // namespace

@@ -107,6 +107,10 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
     const Int partner = is_paired(pair, node) ? pair[node].partner : nowhere;
     const Visit start{depot, start_stop}, end{depot, end_stop}, served{node, customer_stop};
     const Int behind = move.first + 1;
+    const auto bring = [&](Int launch, Int drone) {
+        const auto add = move.late != 0 ? add_sortie : add_first_sortie;
+        add(route, sorties, launch, move.landing, drone, partner);
+    };
     switch (move.kind) {
         case at_stop:
             insert_stops(sequence, behind, {served});
@@ -149,7 +153,7 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
             insert_stops(sequence, behind, {served});
             break;
         case by_truck_and_drone:
-            add_first_sortie(route, sorties, move.last, move.landing, move.drone, partner);
+            bring(move.last, move.drone);
             insert_stops(sequence, behind, {served});
             break;
         case by_drone_and_truck:
@@ -158,7 +162,7 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
             break;
         case by_drones:
             add_sortie(route, sorties, move.first, move.last, move.drone, node);
-            add_first_sortie(route, sorties, move.halt, move.landing, move.sortie, partner);
+            bring(move.halt, move.sortie);
             break;
         case on_one_flight:
             add_sortie(route, sorties, move.first, move.last, move.drone, node);

@@ -1,13 +1,16 @@
 """Shipments that drones fetch or deliver, searched for and tried one by one."""
 
 import numpy as np
+import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
-from tests.model.search.test_optimum import long_sorties, missed_seeds, one_drone
+from tests.model.search.test_optimum import (
+    TURNS, long_sorties, missed_seeds, one_drone, searched_cost,
+)
 from tests.model.tiny import with_energy
 from tests.model.tiny_shipments import with_flown_shipments
 
@@ -18,6 +21,14 @@ def drawn_problem(rng: np.random.Generator) -> Problem:
 
 def test_search_finds_the_cheapest_way_to_fly_shipments() -> None:
     assert missed_seeds(drawn_problem, range(2)) == []
+
+
+@pytest.mark.parametrize(("seed", "cheapest"), [(31, 61.8), (166, 50.5), (286, 29.8)])
+def test_search_finds_ways_in_which_shipments_depend_on_each_other(
+        seed: int, cheapest: float) -> None:
+    """Compare with what brute force found: a drone brings one from where another is delivered."""
+    problem = drawn_problem(np.random.default_rng(seed))
+    assert any(searched_cost(problem, turns) <= cheapest + 1e-6 for turns in TURNS)
 
 
 def test_search_flies_both_ends_on_one_sortie() -> None:
