@@ -39,10 +39,24 @@ def test_shipments_are_seen_and_told_of(page: Page) -> None:
     about = panel.locator("section", has_text="parcel/delivery").first
     expect(about).to_contain_text("van-1")
     expect(about.get_by_role("button", name="Lock")).to_have_count(0)
+    # A click on an end asks of the whole.
     about.get_by_role("button", name="Why here?").click()
-    expect(about).to_contain_text("Instead")
+    table = about.get_by_role("table", name="Instead, for parcel")
+    expect(table.get_by_role("row", name="Not at all")).to_contain_text("+")
+    expect(table.get_by_role("row", name="Elsewhere with van-1")).to_contain_text("; delivery ")
+    about.get_by_role("button", name="Best places").click()
+    expect(page.locator(".hand-bar")).to_contain_text("parcel")
+    expect(page.locator(".places li").first).to_contain_text("pickup after")
+    page.get_by_role("button", name="Take van-1").first.click()
+    expect(page.locator("#hand-outcome")).to_contain_text("parcel to van-1")
+    expect(page.locator("#hand-outcome")).not_to_contain_text("Breaks")
+    [route] = state(page, "state.plans.1.plan.routes")
+    kinds = [stop["kind"] for trip in route["trips"] for stop in trip["stops"]]
+    assert sorted(kinds) == ["customer", "delivery", "depot", "depot", "pickup"]
     open_tab(page, "unassigned")
-    expect(panel.locator("article", has_text="safe")).to_be_visible()
+    card = panel.locator("article", has_text="safe")
+    card.get_by_role("button", name="What would it cost?").click()
+    expect(card.get_by_role("table", name="Instead, for safe")).to_contain_text("not allowed")
     assert findings(page, ".panel") == []
 
 

@@ -88,11 +88,26 @@ test('vehicles come and go with those whom they serve', () => {
 test('a route that was found stands in place of the vehicle\'s, and nobody is served twice', () => {
   const route = { vehicle: 'van-2', type: 'van', trips: [
     { stops: [stop('hub', 0), stop('A', 1), stop('D', 2), stop('hub', 3)], sorties: [] }] };
-  const taken = withRoute(PLAN, 'A', route);
+  const taken = withRoute(PLAN, ['A'], route);
   assert.deepEqual(ids(taken), ['van-1: hub B C hub', 'van-2: hub A D hub']);
   assert.equal(taken.routes[1], route);
-  const added = withRoute(PLAN, 'G', { ...route, vehicle: 'van-3' });
+  const added = withRoute(PLAN, ['G'], { ...route, vehicle: 'van-3' });
   assert.deepEqual([ids(added).length, added.unassigned], [3, []]);
+});
+
+test('a shipment goes elsewhere with all its ends, and who is left out stays so', () => {
+  const end = (kind, part) => ({ kind, id: 's', ...(part && { part }), arrival: 1 });
+  const before = { vehicle: 'van-1', type: 'van', trips: [{ stops: [
+    stop('hub', 0), end('pickup', 'farm'), end('pickup', 'mill'), end('delivery'), stop('hub', 3),
+  ], sorties: [] }] };
+  const left = { kind: 'shipment', id: 'o', reasons: [] };
+  const route = { ...before, vehicle: 'van-2' };
+  const names = ['s/pickup/farm', 's/pickup/mill', 's/delivery'];
+  const taken = withRoute({ routes: [before], unassigned: [left] }, names, route);
+  assert.deepEqual(taken, { routes: [route], unassigned: [{ kind: 'shipment', id: 'o' }] });
+  const out = { ...left, id: 's', parts: ['farm', 'mill'] };
+  assert.deepEqual(withRoute({ routes: [], unassigned: [out] }, names, route),
+    { routes: [route], unassigned: [] });
 });
 
 test('places are found by order, by time and by vehicle', () => {

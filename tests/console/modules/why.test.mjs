@@ -38,6 +38,33 @@ test('an alternative is told with who comes, where and for how much', () => {
   assert.equal(new Set(rows.map(({ key }) => key)).size, rows.length);
 });
 
+test('all ends of a shipment are told with where and when they come', () => {
+  const end = (kind, after, rest) => ({
+    kind, id: 's1', by: 'truck', position: position(after, rest), arrival: 29100,
+  });
+  const visits = [{ id: 's1/delivery', time_windows: [{ latest: 100 }, { earliest: 28800 }] }];
+  const ends = [{ ...end('pickup', 'A'), part: 'farm' }, end('delivery', 'B')];
+  const rows = alternativeRows([
+    item('vehicle', { ends }),
+    item('window', { ends, window: 1, window_at: 's1/delivery' }),
+    item('by', { by: 'drone', ends: [ends[0], end('delivery', 'B', { recovered_at: 'C' })] }),
+    item('vehicle', {
+      ends: [end('pickup', 'hub'), end('delivery', 's1/pickup')],
+      position: position('hub', { own_trip: true }),
+    }),
+  ], {}, visits);
+  assert.deepEqual(rows.map(({ where }) => where), [
+    'pickup farm after A, 8:05; delivery after B, 8:05',
+    'pickup farm after A, 8:05; delivery after B, 8:05',
+    'pickup farm after A, 8:05; delivery from B, back at C, 8:05',
+    'on a trip of its own: pickup 8:05; delivery 8:05',
+  ]);
+  assert.equal(rows[1].what, 's1/delivery: Only from 8:00, by truck-1');
+  const limit = { rule: 'time_window.latest', slack: 0, unit: 'minute', saves_per_unit: 1 };
+  assert.equal(bindingInWords({ ...limit, at: 's1/delivery' }, 's1'),
+    'The end of its window of s1/delivery: one minute later would save 1.00.');
+});
+
 test('what forbids an alternative is told with times', () => {
   const reasons = [{ code: 'TIME_WINDOW', message: 'customer A is reached at 36000 s' }];
   const [row] = alternativeRows([item('vehicle', { feasible: false, reasons })], {});

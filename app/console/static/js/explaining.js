@@ -7,9 +7,12 @@ import { store } from './store.js';
 const CUSTOMER_SECONDS = 1;
 const DRONES_SECONDS = 3;
 
-/** Ask about a customer of an entry of `plans`. */
-export const askWhy = (entry, customer) =>
-  ask(entry, customer, { customer, options: { time_limit: CUSTOMER_SECONDS } });
+/** Ask about a customer of an entry of `plans`, or about a `shipmentOf` it, the whole of it. */
+export const askWhy = (entry, customer, whole = undefined) =>
+  ask(entry, whole?.names[0] ?? customer, {
+    ...(whole ? { shipment: whole.id } : { customer }),
+    options: { time_limit: CUSTOMER_SECONDS },
+  });
 
 /**
  * Ask what the drones of an entry of `plans` save.

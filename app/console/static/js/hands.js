@@ -8,6 +8,7 @@ import { judgedPlan, withCustomerAt, withRoute } from './core/moving.js';
 import { takesAnotherTrip, withAnotherTrip } from './core/orders.js';
 import { unlike } from './core/naming.js';
 import { penaltyOf, trueCost } from './core/terms.js';
+import { shipmentOf } from './core/visits.js';
 import { stop } from './planning.js';
 import { store } from './store.js';
 import { t } from './texts.js';
@@ -36,7 +37,8 @@ export const takeFit = (fit, place) =>
   change((entry) => {
     if (entry.plan !== fit.entry.plan) return null;
     const { id } = fit.customer;
-    const isNew = entry.request.customers.every((customer) => customer.id !== id);
+    const isNew = !fit.whole
+      && entry.request.customers.every((customer) => customer.id !== id);
     const base = isFurther(fit, place)
       ? withAnotherTrip(fit.base, entry.plan, place)
       : fit.base;
@@ -44,7 +46,7 @@ export const takeFit = (fit, place) =>
     return {
       request,
       added: isNew ? fit.customer : null,
-      decided: withRoute(entry.plan, id, place.route),
+      decided: withRoute(entry.plan, fit.whole?.names ?? [id], place.route),
       words: t('hand.to', { id, vehicle: place.vehicle }),
     };
   });
@@ -201,14 +203,18 @@ export async function askFit(customer, order = null) {
   const entry = shownPlan(store.get());
   if (!entry) return false;
   const known = entry.request.customers.some(({ id }) => id === customer.id);
+  const whole = known ? undefined : shipmentOf(entry.request, customer.id);
   const { base, asked } = order ?? { base: entry.request, asked: entry.request };
-  const fit = { customer, entry, base, isOrder: order !== null, told: null };
+  const fit = {
+    customer: whole ? { id: whole.id } : customer, whole, entry, base, isOrder: order !== null,
+    told: null,
+  };
   store.set({ fit });
   try {
     const told = await api.postFit({
       problem: { ...asked, options: { ...asked.options, geometry: true } },
       plan: entry.plan,
-      ...(known ? { customer: customer.id } : { new_customer: customer }),
+      ...subjectOf(customer, known, whole),
       count: PLACES,
       one_per_vehicle: fit.isOrder,
       options: { time_limit: FIT_SECONDS },
@@ -220,6 +226,11 @@ export async function askFit(customer, order = null) {
     showFailure(error);
     return false;
   }
+}
+
+function subjectOf(customer, known, whole) {
+  if (whole) return { shipment: whole.id };
+  return known ? { customer: customer.id } : { new_customer: customer };
 }
 
 /** Ask for the best places of a new customer at a point of the map. */

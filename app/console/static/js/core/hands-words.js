@@ -1,5 +1,6 @@
 /** Changes by hand, and best places, in words. */
 
+import { endsInWords } from './end-words.js';
 import { clock } from './format.js';
 import { saidOf } from './said.js';
 import { t } from '../texts.js';
@@ -15,8 +16,11 @@ export function moveInWords(index, id, place) {
   return t('hand.after', { id, vehicle: place.vehicle, after });
 }
 
-/** Return who serves a customer at a place that the service found, and where in its work. */
-export function placeInWords({ vehicle, position, service_start: start }) {
+/** Return who serves a customer or shipment at a place that was found, and where in its work. */
+export function placeInWords(place) {
+  const { vehicle, position, service_start: start } = place;
+  const ends = endsInWords(place);
+  if (ends) return [vehicle, ends];
   const at = clock(start);
   if (position.recovered_at) {
     const own = position.own_trip ? `${t('place.ownTrip')}, ` : '';

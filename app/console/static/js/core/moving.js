@@ -6,6 +6,8 @@
  * a stop that goes does so at the one before.
  */
 
+import { isVisit, leftOutOf, visitName } from './visits.js';
+
 /** Return where a vehicle of a type begins its first trip and ends its last, as stops of a plan. */
 function endsOf(request, type) {
   const home = { kind: 'depot', id: type.depot ?? request.depots[0].id };
@@ -18,7 +20,7 @@ function endsOf(request, type) {
 /** Return how many places a trip has for another stop: their indices are from 1 to this. */
 export function lastPlace(trip) {
   const { stops } = trip;
-  return stops[stops.length - 1].kind === 'customer' ? stops.length : stops.length - 1;
+  return isVisit(stops[stops.length - 1]) ? stops.length : stops.length - 1;
 }
 
 /**
@@ -36,34 +38,42 @@ export function withCustomerAt(request, plan, id, place) {
     ? bare(route, (trip, index) => (index === place.trip ? withStop(trip, place.stop, id) : trip))
     : route));
   if (place && !used) added.push(routeOf(request, place, id));
-  return changed(plan, id, added.flatMap((route) => leftOf(route, id)), !place);
+  return changed(plan, [id], added.flatMap((route) => leftOf(route, [id])), !place);
 }
 
-/** Return the plan with another route in place of a vehicle's, or beside the others. */
-export function withRoute(plan, id, route) {
+/**
+ * Return the plan with another route in place of a vehicle's, or beside the others.
+ *
+ * @param names whom it serves now: a customer, or all ends of a shipment
+ */
+export function withRoute(plan, names, route) {
   const former = plan.routes.find(({ vehicle }) => vehicle === route.vehicle);
   const others = plan.routes
     .filter((other) => other !== former)
-    .flatMap((other) => leftOf(other, id));
+    .flatMap((other) => leftOf(other, names));
   const at = former ? plan.routes.indexOf(former) : others.length;
   others.splice(Math.min(at, others.length), 0, route);
-  return changed(plan, id, others);
+  return changed(plan, names, others);
 }
 
-/** Return what is left of a route where a customer was, nothing if nobody else is on it. */
-function leftOf(route, id) {
-  if (!serves(route, id)) return [route];
-  const left = bare(route, (trip) => withoutOld(trip, id));
+/** Return what is left of a route where some were, nothing if nobody else is on it. */
+function leftOf(route, names) {
+  if (!names.some((name) => serves(route, name))) return [route];
+  const left = bare(route, (trip) => names.reduce(withoutOld, trip));
   const trips = left.trips.filter(isWorth);
   return trips.length ? [{ ...left, trips }] : [];
 }
 
-/** Return the plan with other routes, in which a customer is served, or left out. */
-function changed(plan, id, routes, isLeftOut = false) {
-  const others = plan.unassigned.filter((other) => other.id !== id);
+/** Return the plan with other routes, in which some are served, or one customer is left out. */
+function changed(plan, names, routes, isLeftOut = false) {
+  const others = plan.unassigned.filter(
+    (other) => !leftOutOf({ unassigned: [other] }).some(({ id }) => names.includes(id)));
   return {
     routes: routes.map(withoutMarks),
-    unassigned: [...others.map((other) => ({ id: other.id })), ...(isLeftOut ? [{ id }] : [])],
+    unassigned: [
+      ...others.map(({ reasons: _, ...other }) => other),
+      ...(isLeftOut ? names.map((id) => ({ id })) : []),
+    ],
   };
 }
 
@@ -77,12 +87,12 @@ function serves(route, id) {
   return route.trips.some(
     ({ stops, sorties = [] }) =>
       stops.some((stop) => isOld(stop, id)) ||
-      sorties.some(({ customers }) => customers.some((visit) => visit.id === id)),
+      sorties.some(({ customers }) => customers.some((visit) => visitName(visit) === id)),
   );
 }
 
 function isOld(stop, id) {
-  return stop.kind === 'customer' && stop.id === id && !stop.isNew;
+  return isVisit(stop) && visitName(stop) === id && !stop.isNew;
 }
 
 /** Return a route's decisions, its trips being changed; each keeps when its loading was done. */
@@ -91,9 +101,11 @@ function bare({ vehicle, type, trips }, change) {
     vehicle,
     type,
     trips: trips.map((trip, index) => change({
-      stops: trip.stops.map(({ kind, id, arrival, isNew }, position) => ({
+      stops: trip.stops.map(({ kind, id, part, alternative, arrival, isNew }, position) => ({
         kind,
         id,
+        ...(part && { part }),
+        ...(alternative && { alternative }),
         ...(position === 0 && arrival !== undefined && { arrival }),
         ...(isNew && { isNew }),
       })),
@@ -101,7 +113,12 @@ function bare({ vehicle, type, trips }, change) {
         drone: sortie.drone,
         launch_stop: sortie.launch_stop,
         recovery_stop: sortie.recovery_stop,
-        customers: sortie.customers.map((visit) => ({ id: visit.id })),
+        customers: sortie.customers.map(({ kind, id, part, alternative }) => ({
+          ...(kind && { kind }),
+          id,
+          ...(part && { part }),
+          ...(alternative && { alternative }),
+        })),
       })),
     }, index)),
   };
@@ -130,14 +147,14 @@ function withoutOld({ stops, sorties }, id) {
         ...sortie,
         launch_stop: shifted(sortie.launch_stop),
         recovery_stop: shifted(sortie.recovery_stop),
-        customers: sortie.customers.filter((visit) => visit.id !== id),
+        customers: sortie.customers.filter((visit) => visitName(visit) !== id),
       }))
       .filter(({ customers }) => customers.length),
   };
 }
 
 function isWorth({ stops, sorties }) {
-  return sorties.length > 0 || stops.some(({ kind }) => kind === 'customer');
+  return sorties.length > 0 || stops.some(isVisit);
 }
 
 function withoutMarks(route) {
@@ -203,7 +220,8 @@ export function vehiclesFor(request, index) {
 /** Return the plan of an entry with what was decided and how it was judged. */
 export function judgedPlan(plan, decided, verdict) {
   const reasons = new Map(plan.unassigned.map((each) => [each.id, each.reasons]));
-  const unassigned = decided.unassigned.map(({ id }) => ({ id, reasons: reasons.get(id) ?? [] }));
+  const unassigned = decided.unassigned.map(
+    (each) => ({ ...each, reasons: reasons.get(each.id) ?? [] }));
   return {
     ...plan,
     status: unassigned.length ? 'partial' : 'complete',

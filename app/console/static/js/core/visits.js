@@ -51,6 +51,12 @@ function visitsTo(shipment) {
   }));
 }
 
+/** Return the shipment one of whose ends bears a name: `{id, names}`, of all ends; else undefined. */
+export function shipmentOf({ shipments = [] }, name) {
+  const whole = shipments.find((each) => endsOf(each).some((end) => end.name === name));
+  return whole && { id: whole.id, names: endsOf(whole).map((end) => end.name) };
+}
+
 function namesOf({ id, parts = [] }) {
   const pickups = parts.length ? parts : [null];
   return [...pickups.map((part) => visitName({ kind: 'pickup', id, part })), `${id}/delivery`];

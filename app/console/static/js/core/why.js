@@ -2,6 +2,7 @@
 
 import { droneCount } from './drones.js';
 import { clock, money, number, signed, timeWindow } from './format.js';
+import { endsInWords } from './end-words.js';
 import { saidOf } from './said.js';
 import { costTerms } from './terms.js';
 import { windowsOf } from './windows.js';
@@ -51,12 +52,16 @@ const OF_DRONES = new Set([
   'SERVED_BY',
 ]);
 
-/** Return the rows of a table: `{key, what, where, cost, terms, feasible, reasons}`. */
-export function alternativeRows(alternatives, customer) {
+/**
+ * Return the rows of a table: `{key, what, where, cost, terms, feasible, reasons}`.
+ *
+ * @param visits among whom are the ends of a shipment that is told of
+ */
+export function alternativeRows(alternatives, customer, visits = []) {
   return alternatives.map((item, position) => ({
     key: `${item.kind}/${item.vehicle}/${item.window}/${position}`,
     kind: item.kind,
-    what: whatInWords(item, customer),
+    what: whatInWords(item, visits.find(({ id }) => id === item.window_at) ?? customer),
     where: whereInWords(item),
     cost: signed(item.cost.total, money),
     terms: costTerms(item.cost)
@@ -83,7 +88,8 @@ function whatInWords(item, customer) {
   const who = whoseOf(item);
   if (kind === 'place') return t('why.elsewhere', { who });
   if (kind === 'window') {
-    return t('why.only', { window: timeWindow(windowsOf(customer)[window]), who });
+    const only = t('why.only', { window: timeWindow(windowsOf(customer)[window]), who });
+    return item.window_at ? `${item.window_at}: ${only}` : only;
   }
   return kind === 'by' && by === 'truck' ? t('why.byTruck', { who }) : t('why.by', { who });
 }
@@ -91,6 +97,8 @@ function whatInWords(item, customer) {
 function whereInWords(item) {
   const { position, service_start: start } = item;
   if (!position) return '';
+  const ends = endsInWords(item);
+  if (ends) return ends;
   const at = clock(start);
   if (isOnSortie(item)) {
     return t('place.flight', { from: position.after, back: position.recovered_at, at });
@@ -136,8 +144,12 @@ function isOfDrones({ fleet }, id, code) {
   return fleet.some((type) => type.id === id && (type.flies || OF_DRONES.has(code)));
 }
 
-/** Return a sentence for a limit that binds, or a rule without a number. */
-export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves }) {
+/**
+ * Return a sentence for a limit that binds, or a rule without a number.
+ *
+ * @param id of whom it is told; a limit of one of its ends names that
+ */
+export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves }, id = at) {
   const [, part] = /^(?:drones|breaks)\[(.+)\](?:\.|$)/.exec(rule) ?? [];
   const field = rule
     .replace(/^time_windows\[-?\d+\]/, 'time_window')
@@ -145,7 +157,8 @@ export function bindingInWords({ rule, at, slack, unit, saves_per_unit: saves })
     .replace(/\[\d+\]$/, '');
   const told = t(`rule.${field.replaceAll('.', '_')}`, { defaultValue: rule });
   const name = part ? t('why.of', { what: told, whose: part }) : told;
-  const subject = ITS_OWN.includes(field) || !at ? name : t('why.of', { what: name, whose: at });
+  const isIts = ITS_OWN.includes(field) && at === id;
+  const subject = isIts || !at ? name : t('why.of', { what: name, whose: at });
   const sum = money(saves);
   if (unit === 'rule') return t('why.without', { subject, sum });
   const more = t(`why.unit.${MORE[field] ?? 'more'}`, { unit: unitOf(unit, 1) });

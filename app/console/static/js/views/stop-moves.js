@@ -3,6 +3,7 @@
 import { indexOf, shownPlan } from '../actions.js';
 import { moveInWords } from '../core/hands-words.js';
 import { placeAt, placeBeside, vehiclesFor } from '../core/moving.js';
+import { leftOutOf, shipmentOf } from '../core/visits.js';
 import { askFit, moveCustomerTo, setLocked } from '../hands.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
@@ -19,8 +20,13 @@ export function StopMoves({ id }) {
   const locks = useStore((state) => state.locks);
   const index = indexOf(entry);
   const halt = index?.halts.get(`c:${id}`);
-  const isKnown = index && (halt || entry.plan.unassigned.some((other) => other.id === id));
+  const isKnown = index && (halt || leftOutOf(entry.plan).some((other) => other.id === id));
   // A shipment's ends belong together, and aren't moved one by one.
+  const whole = isKnown && shipmentOf(entry.request, id);
+  if (whole) {
+    return html`<div class="buttons" role="group" aria-label=${t('stop.move', { id: whole.id })}>
+      <button type="button" onClick=${() => askFit({ id })}>${t('stop.best')}</button></div>`;
+  }
   const customer = isKnown && customerOf(entry, id);
   if (!customer) return null;
   const isLocked = locks.includes(id);

@@ -6,6 +6,7 @@ import { remedyInWords } from '../core/remedy-words.js';
 import { groupUnassigned, otherReason } from '../core/remedies.js';
 import { applyRemedy } from '../core/remedy-changes.js';
 import { saidOf } from '../core/said.js';
+import { leftOutOf } from '../core/visits.js';
 import { html, useEffect, useMemo } from '../libraries.js';
 import { plan } from '../planning.js';
 import { priceGroup, priceLargest, priceOf } from '../pricing.js';
@@ -116,6 +117,7 @@ function Unassigned({ customer, index, request }) {
   const selection = useStore((state) => state.selection);
   const hovered = useStore((state) => state.hover);
   const key = `c:${customer.id}`;
+  const [{ id: name }] = leftOutOf({ unassigned: [customer] });
   return html`<article class="card" ...${linked(index, key, selection, hovered)}>
     <header><${SelectButton} of=${key}><strong>${customer.id}</strong></${SelectButton}></header>
     <div class="inside">${customer.reasons.map(
@@ -124,7 +126,7 @@ function Unassigned({ customer, index, request }) {
       ${[reason, otherReason(reason)].filter((each) => each?.remedy).map((each) => html`<${Remedy}
         key=${each.remedy} customer=${customer} reason=${each} request=${request} />`)}
     </div>`,
-    )}<${StopMoves} id=${customer.id} /><${WhyHere} id=${customer.id} /></div></article>`;
+    )}<${StopMoves} id=${name} /><${WhyHere} id=${name} /></div></article>`;
 }
 
 /** Return a remedy as a sentence without its full stop. */

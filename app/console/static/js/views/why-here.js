@@ -3,30 +3,35 @@
 import { shownPlan } from '../actions.js';
 import { money } from '../core/format.js';
 import { alternativeRows, bindingInWords, FIRST_SHOWN, noDroneInWords } from '../core/why.js';
-import { visitsOf } from '../core/visits.js';
+import { leftOutOf, shipmentOf, visitsOf } from '../core/visits.js';
 import { askWhy, toldOf } from '../explaining.js';
 import { html } from '../libraries.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
 
-/** The button of a customer of the plan that is looked at, and what came of it. */
+/**
+ * The button of a customer of the plan that is looked at, and what came of it.
+ *
+ * Whoever asks of one end of a shipment asks of the whole.
+ */
 export function WhyHere({ id }) {
   const entry = useStore(shownPlan);
-  const answer = toldOf(useStore((state) => state.why), entry, id);
+  const whole = entry && shipmentOf(entry.request, id);
+  const answer = toldOf(useStore((state) => state.why), entry, whole?.names[0] ?? id);
   const customer = entry && visitsOf(entry.request).find((each) => each.id === id);
   if (!customer) return null;
-  const isOut = entry.plan.unassigned.some((each) => each.id === id);
+  const isOut = leftOutOf(entry.plan).some((each) => each.id === id);
   const isAsking = answer?.state === 'asking';
   return html`<div class="section"><div class="buttons"><button type="button" disabled=${isAsking}
-      onClick=${() => askWhy(entry, id)}>${isOut ? t('why.ask.price') : t('why.ask.here')}</button>
+      onClick=${() => askWhy(entry, id, whole)}>${isOut ? t('why.ask.price') : t('why.ask.here')}</button>
       <span role="status">${isAsking ? t('why.ask.asking') : ''}</span></div>
     ${answer?.told && html`<${Told} told=${answer.told} customer=${customer}
-      request=${entry.request} />`}</div>`;
+      id=${whole?.id ?? id} request=${entry.request} />`}</div>`;
 }
 
-function Told({ told, customer, request }) {
+function Told({ told, customer, id, request }) {
   const noDrone = noDroneInWords(told, request, customer);
-  const rows = alternativeRows(told.alternatives, customer);
+  const rows = alternativeRows(told.alternatives, customer, visitsOf(request));
   const vehicles = rows.filter(({ kind }) => kind === 'vehicle');
   const more = vehicles.slice(FIRST_SHOWN);
   const first = rows.filter((row) => !more.includes(row));
@@ -35,17 +40,18 @@ function Told({ told, customer, request }) {
       sum: money(told.here.saving.total),
     })}</p>`}
     ${rows.length > 0
-      ? html`<${Alternatives} rows=${first} id=${customer.id} />`
+      ? html`<${Alternatives} rows=${first} id=${id} />`
       : html`<p>${t('why.ask.nothing')}</p>`}
     ${more.length > 0 && html`<details><summary>${t('why.ask.more', {
       count: more.length,
     })}</summary>
-      <${Alternatives} rows=${more} id=${t('why.ask.moreOf', { id: customer.id })} /></details>`}
+      <${Alternatives} rows=${more} id=${t('why.ask.moreOf', { id })} /></details>`}
     ${noDrone.length > 0 && html`<h4>${t('why.noDrone.title')}</h4><ul>${noDrone.map(
       (sentence) => html`<li key=${sentence}>${sentence}</li>`,
     )}</ul>`}
     ${told.binding.length > 0 && html`<h4>${t('why.ask.binds')}</h4><ul>${told.binding.map(
-      (limit) => html`<li key=${limit.rule + limit.at}>${bindingInWords(limit)}</li>`,
+      (limit) => html`<li key=${limit.rule + limit.at}>${
+        bindingInWords(limit, told.shipment ?? limit.at)}</li>`,
     )}</ul>`}
     <p class="help">${t('why.ask.others')}${
       told.complete ? '' : ` ${t('why.ask.noTime')}`}</p>`;
