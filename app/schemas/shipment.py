@@ -144,7 +144,7 @@ class ShipmentInput(Input):
             own = {**dict(end), "id": name, "demand": amount}
             own.pop("amount", None)
             yield CustomerInput.model_construct(
-                None, **own, pickup=None, skills=self.skills, max_time_aboard=None,
+                None, **own, pickup=None, skills=self.skills, max_time_aboard=None, alternatives=[],
                 goods=self.goods, release_time=0.0, vehicles=self.vehicles,
                 vehicle_costs={} if number else self.vehicle_costs,
                 unassigned_cost=0.0 if number else self.unassigned_cost)

@@ -1,7 +1,8 @@
 """Has wild problems planned and every plan checked: `python -m benchmarks.fuzz.problems`.
 
 Each problem is sent to `POST /plan`. Whatever is planned goes to `POST /check`, which must find no
-broken rule and the same cost. Then the day goes on: the plan, whole or damaged, is checked against
+broken rule and the same cost. A shipment is asked for as a whole, and put where it fits. Then the
+day goes on: the plan, whole or damaged, is checked against
 a changed request and planned on from; what had happened by then must stay. Fails if a reply is
 anything but 200 or a documented 422.
 """
@@ -50,6 +51,7 @@ class Study:
     checked: int = 0
     replanned: int = 0
     left_out: int = 0  # plans with customers left out
+    moved: int = 0  # plans whose shipment has places
     longest: float = 0.0  # seconds
 
     def try_problem(self, seed: int) -> None:
@@ -72,6 +74,8 @@ class Study:
             If a reply should not be.
         """
         plan = self.planned(request)
+        if plan is not None:
+            self.move_shipment(request, plan)
         if plan is None or rng.random() > GOES_ON:
             return
         later = changed(rng, request, plan)
@@ -83,6 +87,8 @@ class Study:
         request = later | {"replan": terms}
         replanned = self.planned(request)
         self.replanned += replanned is not None
+        if replanned is not None:
+            self.move_shipment(request, replanned)
         if is_whole and replanned is not None and terms["freeze_before"] is not None:
             hold_to_the_past(request, plan, replanned)
 
@@ -107,6 +113,37 @@ class Study:
         self.checked += 1
         self.left_out += bool(plan["unassigned"])
         return plan
+
+    def move_shipment(self, request: Data, plan: Data) -> None:
+        """Have a plan's first shipment explained, and put where it fits best. In place.
+
+        Raises
+        ------
+        Fault
+            If `POST /check` says something else of what fits, or of what it costs.
+        """
+        for shipment in request.get("shipments", ())[:1]:
+            question = {"problem": request, "plan": plan, "shipment": shipment["id"],
+                        "options": {"time_limit": 0.1}}
+            told, fits = self.ask("/explain", question), self.ask("/fit", question)
+            if told is None or fits is None or told["here"] != fits["here"]:
+                raise Fault(f"the shipment of a sound plan isn't told of: {told}, {fits}")
+            here = fits["here"]
+            for place in fits["places"]:
+                if here is None or here["vehicle"] != place["vehicle"]:
+                    continue
+                routes = [route for route in plan["routes"] if route["vehicle"] != place["vehicle"]]
+                verdict = self.ask("/check", {"problem": request, "plan": plan | {
+                    "routes": [*routes, place["route"]]}})
+                if verdict is None or verdict["feasible"] < place["feasible"]:
+                    raise Fault(f"what fits is refused by POST /check: {place} {verdict}")
+                for term in {*plan["cost"]} - {"total", "unassigned"}:
+                    less, more = here["saving"][term], place["cost"][term]
+                    if not math.isclose(verdict["cost"][term] - plan["cost"][term], more - less,
+                                        abs_tol=1e-3 + ROUNDING * abs(less), rel_tol=ROUNDING):
+                        raise Fault(f"what fits costs {more} more by {term}, not {less}, but by "
+                                    f"POST /check it is {verdict['cost'][term]}")
+            self.moved += bool(fits["places"])
 
     def ask(self, path: str, body: Data) -> Data | None:
         """Return the reply to a request; None if it is refused as documented. In place."""

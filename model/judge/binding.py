@@ -276,12 +276,12 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
     if kind.max_working_duration is not None:
         slack = (None if measured is None
                  else _in_minutes(kind.max_working_duration - measured.working_duration))
-        longer = kind.max_working_duration + MS_PER_MINUTE
+        longer = min(kind.max_working_duration + MS_PER_MINUTE, MAX_QUANTITY)
         yield ("max_working_duration", "minute", slack, replace(kind, max_working_duration=longer))
     if kind.max_travel_duration is not None:
         slack = None if found is None else _in_minutes(kind.max_travel_duration - travel_duration(
             bench.plan.solution.routes[found.route].trips))
-        longer = kind.max_travel_duration + MS_PER_MINUTE
+        longer = min(kind.max_travel_duration + MS_PER_MINUTE, MAX_QUANTITY)
         yield ("max_travel_duration", "minute", slack, replace(kind, max_travel_duration=longer))
     yield from duty_limits(kind, measured, trip)
     yield from rest_limits(
@@ -289,8 +289,8 @@ def _truck_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_C
     yield from flight_limits(kind, trip)
     if kind.max_trip_distance is not None:
         slack = None if trip is None else (kind.max_trip_distance - trip.distance) / MM_PER_KM
-        yield ("max_trip_distance", "km", slack,
-               replace(kind, max_trip_distance=kind.max_trip_distance + MM_PER_KM))
+        further = min(kind.max_trip_distance + MM_PER_KM, MAX_QUANTITY)
+        yield "max_trip_distance", "km", slack, replace(kind, max_trip_distance=further)
 
 
 def _drone_limits(bench: Bench, kind: VehicleType, is_here: bool) -> Iterator[_Changed]:
@@ -382,5 +382,5 @@ def _capacity_field(name: str, kind: VehicleType, dimension: int) -> str:
 
 
 def _one_more(capacity: tuple[int, ...], dimension: int, unit: int) -> tuple[int, ...]:
-    return tuple([most + (unit if index == dimension else 0)
+    return tuple([min(most + unit, MAX_QUANTITY) if index == dimension else most
                   for index, most in enumerate(capacity)])

@@ -62,7 +62,7 @@ def rest_limits(problem: Problem, kind: VehicleType, route: Route | None) -> Ite
         for dimension, most in enumerate(each.max_load or ()):
             unit = 10**problem.amount_decimals[dimension]
             limit = [*(each.max_load or ())]
-            limit[dimension] = most + unit
+            limit[dimension] = min(most + unit, MAX_QUANTITY)
             yield (f"{name}.max_load" + (f"[{dimension}]" if len(limit) > 1 else ""), "unit",
                    None if taken is None else (most - taken[1][dimension]) / unit,
                    with_break(replace(each, max_load=tuple(limit))))

@@ -10,8 +10,8 @@ from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision
 from model.problem import (
-    MICROJOULES_PER_WH, Break, DrivingRules, Energy, Fairness, IncompatibleGoods, Overtime,
-    Shipment,
+    MAX_QUANTITY, MICROJOULES_PER_WH, Break, DrivingRules, Energy, Fairness, IncompatibleGoods,
+    Overtime, Shipment,
 )
 from model.solution import Solution, Trip
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
@@ -231,3 +231,11 @@ def test_fewer_vehicles_than_are_to_be_used_save_one(tiny_problem, customers, tr
         fairness=Fairness(min_vehicles=2, too_few_cost=100.0))
     solution = plan(problem, route(A, B, C), RouteDecision(0, 1, (TripDecision((0, D, 0)),)))
     assert binding(problem, solution, D)["fairness.min_vehicles"] == (0.0, pytest.approx(7.0))
+
+
+def test_limits_that_can_not_be_more_bind_nobody(tiny_problem, customers, truck, drones):
+    most = replace(truck, capacity=(MAX_QUANTITY,), max_working_duration=MAX_QUANTITY,
+                   max_trip_distance=MAX_QUANTITY, max_travel_duration=MAX_QUANTITY,
+                   drones=replace(drones, capacity=(MAX_QUANTITY,)))
+    problem = tiny_problem(*customers, truck=most)
+    assert binding(problem, plan(problem, route(A, B, C, D)), B) == {}

@@ -29,6 +29,7 @@ def test_wrong_parameters_are_refused(jobs: httpx.Client) -> None:
     job = submit(jobs, request_of(0.2))
     ended(jobs, job)
     for parameters, path in (({"customer": "nobody"}, "query.customer"),
+                             ({"shipment": "none"}, "query.shipment"),
                              ({"time_limit": 0}, "query.time_limit"),
                              ({"time_limit": 80_000}, "query.time_limit"),
                              ({"drones": "maybe"}, "query.drones")):
