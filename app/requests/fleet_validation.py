@@ -95,10 +95,6 @@ def break_errors(draft: Draft) -> Errors:
 def driving_errors(draft: Draft) -> Errors:
     """Say which driving rules lack a number, or can't be kept beside what else is stated."""
     for path, kind in draft.vehicle_types():
-        if kind.max_travel_duration is not None and kind.speed_profile:
-            yield error_at("TRAVEL_DURATION_WITH", (*path, "speed_profile"),
-                           "Legs whose length changes with the time of day can't be bounded yet: "
-                           "leave speed_profile out, or max_travel_duration.")
         rules = kind.driving_rules
         if rules is None:
             continue

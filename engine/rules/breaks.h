@@ -211,6 +211,7 @@ public:
             const Int driven = std::min(left_, start - time_);
             stood = time_ + driven;
             left_ -= driven;
+            driven_ += driven;
         }
         if (start > pause.latest) return false;
         note(stood, start);
@@ -224,10 +225,15 @@ public:
 
     // Drive on to the end of the leg.
     Int arrive() {
+        const Int left = time_;
         if (!arrived_) time_ = left_ < 0 ? travel_(time_) : time_ + left_;
         arrived_ = true;
+        driven_ += time_ - left;
         return time_;
     }
+
+    // For how long it has been on the leg.
+    Int driven() const { return driven_; }
 
 private:
     const VehicleType& type_;
@@ -235,6 +241,7 @@ private:
     const Travel& travel_;
     Int time_;
     Int left_ = -1;  // of the leg, if that isn't all of it
+    Int driven_ = 0;
     bool arrived_ = false;
 };
 
@@ -247,6 +254,18 @@ std::optional<Int> arrival_after(const VehicleType& type, Rests rests, Int begin
         if (!leg.rest(rests.number(index), rests.place(index))) return std::nullopt;
     }
     return leg.arrive();
+}
+
+// How long a leg with breaks is that is begun at `leave`, which can be taken.
+template <class Travel>
+Int driven_on_leg(const VehicleType& type, Rests rests, Int begin, Int leave,
+                  const Travel& travel) {
+    BrokenLeg leg(type, begin, leave, travel);
+    for (Int index = 0; index < rests.count(); ++index) {
+        leg.rest(rests.number(index), rests.place(index));
+    }
+    leg.arrive();
+    return leg.driven();
 }
 
 // The latest departure of a leg with breaks that ends by `arrival`, as far as breaks delay it.

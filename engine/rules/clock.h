@@ -13,6 +13,9 @@ namespace tandem {
 // Whether the speed is the same all day, so that legs last as long as tables say.
 inline bool is_steady(const VehicleType& type) { return type.speed_changes == no_profile; }
 
+// How often its speed changes.
+inline Int num_changes(const VehicleType& type) { return std::max(Int{0}, type.speed_changes); }
+
 // How many of the changes of a speed come no later than `time`.
 inline Int changes_until(View<const Int, 1> times, Int changes, Int time) {
     return std::upper_bound(times.data(), times.data() + changes, time) - times.data();

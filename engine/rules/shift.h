@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "rules/clock.h"
 #include "rules/rates.h"
 #include "vectors.h"
 
@@ -89,6 +90,11 @@ inline Int longest_trip(const VehicleType& type) { return type.max_trip_distance
 
 // Whether the time of a vehicle on legs is limited.
 inline bool limits_travel(const VehicleType& type) { return type.max_travel_duration < unlimited; }
+
+// Whether that is limited, and hangs on when legs are driven.
+inline bool limits_timed_travel(const VehicleType& type) {
+    return limits_travel(type) && !is_steady(type);
+}
 
 // Whether a vehicle may be on legs so long, on all its trips together.
 inline bool may_travel(const VehicleType& type, Int travel) {

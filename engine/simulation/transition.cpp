@@ -299,7 +299,9 @@ bool drive(OpenVehicle& open, Int node) {
         if (place.too_late(ready)) return false;
     }
     // The start known so far kept what was behind it, not breaks that come later than a start does.
-    if (follow_departure(setting.type, rests)) vehicle.start_best = log.trip[0].start;
+    if (follow_departure(setting.type, rests) || limits_timed_travel(setting.type)) {
+        vehicle.start_best = log.trip[0].start;
+    }
     const Int there = is_customer ? arrival : let_in(setting.type, setting.node, node, arrival);
     const Int start = is_customer ? place.start_of_service(ready) : there;
     const Int service_end = is_customer ? place.end_of_service(ready) : there;

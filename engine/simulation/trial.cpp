@@ -250,7 +250,7 @@ bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Way way, const Or
     }
     return drive(open, setting.type.ends_at) && may_end(setting.type, vehicle.free) &&
            none_due(setting.type, vehicle.rested, log.trip[0].start, vehicle.free) &&
-           has_rested(setting, log) && works_within(open);
+           has_rested(setting, log) && has_travelled_within(setting, log) && works_within(open);
 }
 
 // Do an action on a scratch row, after the end of the trip before if that is at a node.

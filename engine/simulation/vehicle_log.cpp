@@ -102,6 +102,20 @@ Charge charge_before(const Setting& setting, const VehicleLog& log, Int trip) {
     return charge;
 }
 
+// How long the truck is on legs of the first trips.
+Int travelled_on(const Setting& setting, const VehicleLog& log, Int trips) {
+    Int travel = 0;
+    for (Int trip = 0; trip < trips; ++trip) {
+        const auto [first, behind] = stops_of(log, trip);
+        for (Int index = first + 1; index < behind; ++index) {
+            const LoggedStop& before = log.stop[index - 1];
+            travel += driven_between(setting, Rests(before.rests), log.trip[0].start, before.node,
+                                     log.stop[index].node, before.leave);
+        }
+    }
+    return travel;
+}
+
 // Times trips anew, as `retime` says if it writes, else as `costs_nothing` does.
 template <bool writes>
 class Replay {
@@ -127,6 +141,8 @@ public:
         op_ = log_.trip[first_trip].first_op;
         leave_ = start;
         begin_ = first_trip == 0 ? start : log_.trip[0].start;
+        const bool counts = limits_timed_travel(setting_.type);
+        travel_ = counts ? travelled_on(setting_, log_, first_trip) : 0;
         for (Int trip = first_trip; trip < log_.count.trips; ++trip) {
             if (trip > first_trip) {
                 start = std::max(log_.trip[trip].release, leave_ + setting_.type.reload_duration);
@@ -134,7 +150,8 @@ public:
             if (!run_trip(trip, start)) return false;
             if (bounds_trips(setting_.type) && !lasts(trip, start)) return false;
         }
-        return lasting_ && (writes || leave_ <= log_.stop[log_.count.stops - 1].leave) &&
+        return lasting_ && (!counts || may_travel(setting_.type, travel_)) &&
+               (writes || leave_ <= log_.stop[log_.count.stops - 1].leave) &&
                (setting_.lag.empty() || starts().keep_lags(setting_));
     }
 
@@ -185,6 +202,10 @@ private:
                 const LoggedStop& before = log_.stop[index - 1];
                 arrival = come(setting_, Rests(before.rests), begin_, before.node, node, leave_);
                 if (arrival < 0) return false;
+                if (limits_timed_travel(setting_.type)) {
+                    travel_ += driven_between(setting_, Rests(before.rests), begin_, before.node,
+                                              node, leave_);
+                }
             }
             if (!run_stop(index, arrival)) return false;
         }
@@ -364,7 +385,8 @@ private:
     const VehicleLog& log_;
     Int op_ = 0;
     Int leave_ = 0;
-    Int begin_ = 0;  // of the route
+    Int begin_ = 0;   // of the route
+    Int travel_ = 0;  // on legs, where that hangs on when they are driven
     bool lasting_ = true;
     // Of the trip: its first stop, the launches so far, the first instant at which any has left.
     Int first_ = 0;
@@ -480,6 +502,11 @@ std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, I
         }
     }
     return driver;
+}
+
+bool has_travelled_within(const Setting& setting, const VehicleLog& log) {
+    return !limits_timed_travel(setting.type) ||
+           may_travel(setting.type, travelled_on(setting, log, log.count.trips));
 }
 
 bool has_rested(const Setting& setting, const VehicleLog& log) {

@@ -65,9 +65,10 @@ inline Int travel_arrival(const Setting& setting, Int origin, Int to, Int leave)
            setup_beside(setting.type, setting.setup, origin, to);
 }
 
-// How long the truck is on a leg, without setup, where speeds don't change.
+// How long the truck is on a leg, without setup, at full speed.
 inline Int travel_of(const Setting& setting, Int origin, Int to) {
-    return setting.drive(origin, to) - setup_after(setting.setup, origin, to);
+    const Int setup = is_steady(setting.type) ? setup_after(setting.setup, origin, to) : 0;
+    return setting.drive(origin, to) - setup;
 }
 
 // Whether a vehicle that has been on legs for so long may go home from a node.
@@ -100,6 +101,16 @@ inline Int come(const Setting& setting, Rests rests, Int begin, Int origin, Int 
         arrival_after(setting.type, rests, begin, leave, travel_without_setup(setting, origin, to));
     return arrival ? *arrival + setup_after(setting.setup, origin, to) : -1;
 }
+
+// For how long the truck is on a leg with breaks that is begun at `leave`.
+inline Int driven_between(const Setting& setting, Rests rests, Int begin, Int origin, Int to,
+                          Int leave) {
+    return driven_on_leg(setting.type, rests, begin, leave,
+                         travel_without_setup(setting, origin, to));
+}
+
+// Whether the truck isn't on legs for too long by the log, if that hangs on when they are driven.
+bool has_travelled_within(const Setting& setting, const VehicleLog& log);
 
 // What is counted of the driver once the last stop is reached; `driven` takes how long it has been
 // at the wheel on the way. Nothing if it lacks a rest.

@@ -199,7 +199,7 @@ class VehicleType:
         """Raise `ValueError` unless a driver may rest by rules beside what else is stated."""
         alone = not (self.flies or self.speed_profile)
         require(alone or self.driving is None, f"vehicle type {self.id} driving", self.driving)
-        require(self.max_travel_duration is None or not (self.flies or self.speed_profile),
+        require(self.max_travel_duration is None or not self.flies,
                 f"vehicle type {self.id} max_travel_duration", self.max_travel_duration)
 
     @property

@@ -27,7 +27,7 @@ from tests.model.open_trip import (
     timed_trips,
 )
 from tests.model.tiny_company import companions
-from tests.model.tiny_hours import in_hours
+from tests.model.tiny_hours import keeps_day
 
 MINUTE = 60_000
 
@@ -294,7 +294,7 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
             return False
         return starts[1] <= max(starts[0], customer.latest)
 
-    if _end(late) > _end(soon) or not (keeps_lags(problem, late) and in_hours(problem, late)):
+    if _end(late) > _end(soon) or not (keeps_lags(problem, late) and keeps_day(problem, late)):
         return False
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.customer_stops, other.customer_stops)):

@@ -231,8 +231,7 @@ def with_duty(rng: np.random.Generator, problem: Problem) -> Problem:
             kind, overtime=overtime if rng.random() < 0.7 else None,
             cost_per_stop=float(rng.integers(0, 5)), max_stops=_maybe(rng, 0.5, 0, 3, 1),
             max_sorties=_maybe(rng, 0.5, 0, 3, 1),
-            max_travel_duration=(None if kind.flies or kind.speed_profile
-                                 else _maybe(rng, 0.5, 4, 40)))
+            max_travel_duration=None if kind.flies else _maybe(rng, 0.5, 4, 40))
 
     return replace(problem, vehicle_types=tuple(map(tired, problem.vehicle_types)))
 

@@ -4,6 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from model.judge.driving import travel_duration
 from model.problem import Problem, within_hours
 from model.solution import Route
 from tests.model.tiny import (
@@ -35,7 +36,10 @@ def with_hours_apart(rng: np.random.Generator, problem: Problem) -> Problem:
     return with_hours(rng, problem)
 
 
-def in_hours(problem: Problem, route: Route) -> bool:
-    """Tell whether a route's trips leave their depots before those close."""
-    return all(trip.stops[0].departure <= problem.depots[trip.stops[0].node].latest
-               for trip in route.trips)
+def keeps_day(problem: Problem, route: Route) -> bool:
+    """Tell whether a route's trips leave depots before those close, and travel as long as allowed.
+    """
+    most = problem.vehicle_types[route.vehicle_type].max_travel_duration
+    return (most is None or travel_duration(route.trips) <= most) and all(
+        trip.stops[0].departure <= problem.depots[trip.stops[0].node].latest
+        for trip in route.trips)

@@ -101,7 +101,7 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
         keep_starts(data, route, stops);
         return drive_forward(data, route, stops, sorties);
     }
-    if (has_breaks(data.type[route.type])) {
+    if (has_breaks(data.type[route.type]) || limits_timed_travel(data.type[route.type])) {
         bool settled = false;
         return price_as_is(data, fleet, slot, settled) &&
                (settled || settle(data, route, stops, trips, sorties));

@@ -237,6 +237,22 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     return price_loaded(data, fleet, slot, settled);
 }
 
+// As `price_loaded`, later in the day if the vehicle would travel too long by slow legs.
+bool price_faster(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+    if (price_loaded(data, fleet, slot, settled)) return true;
+    const Route& route = fleet.route[slot];
+    const VehicleType& type = data.type[route.type];
+    Stop& start = fleet.stop(slot, 0);
+    const Int release = start.release;
+    for (const Int change : data.profile_time[route.type].first(num_changes(type))) {
+        if (change <= std::max(release, type.shift_earliest)) continue;
+        start.release = change;
+        if (price_loaded(data, fleet, slot, settled)) return true;
+    }
+    start.release = release;
+    return false;
+}
+
 // As `refresh`, with trips that end where they do.
 bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     bool settled = false;
@@ -320,8 +336,10 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips, sorties)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
-    return has_breaks(data.type[route.type]) ? price_later(data, fleet, slot, settled)
-                                             : price_loaded(data, fleet, slot, settled);
+    const VehicleType& type = data.type[route.type];
+    if (has_breaks(type)) return price_later(data, fleet, slot, settled);
+    return limits_timed_travel(type) ? price_faster(data, fleet, slot, settled)
+                                     : price_loaded(data, fleet, slot, settled);
 }
 
 void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips) {

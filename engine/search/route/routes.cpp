@@ -55,11 +55,22 @@ double vehicle_cost_on(const ProblemData& data, const Route& route, View<const S
     return cost;
 }
 
+// Return how long the truck is on its legs, whose times are known.
+Int timed_travel(const Truck& truck, View<const Stop, 1> stops) {
+    Int travel = 0;
+    for (Int p = 0; p + 1 < stops.size(); ++p) {
+        if (stops[p].kind == end_stop) continue;
+        travel += driven_on_leg(truck.type, Rests(stops[p].rests), truck.begin, stops[p].leave,
+                                truck.legs_end(stops[p], stops[p + 1].node));
+    }
+    return travel;
+}
+
 }  // namespace
 
 Int travel_between(const ProblemData& data, const VehicleType& type, Int from, Int to) {
-    return leg(legs_of(data.leg, type.travel), from, to).duration -
-           setup_after(data.setup, from, to);
+    const Int setup = is_steady(type) ? setup_after(data.setup, from, to) : 0;
+    return leg(legs_of(data.leg, type.travel), from, to).duration - setup;
 }
 
 Int travel_on(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
@@ -205,7 +216,9 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     route.end = stops[length - 1].leave;
     route.cum = stops[length - 1].cum;
     route.awaited = sums.awaited;
-    return true;
+    if (!limits_timed_travel(truck.type)) return true;
+    route.travel = timed_travel(truck, stops);
+    return may_travel(truck.type, route.travel);
 }
 
 void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops) {

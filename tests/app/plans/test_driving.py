@@ -108,6 +108,22 @@ def test_the_longest_travel_duration_leaves_out_waiting_service_and_rests(
         ("TRAVEL_DURATION", "fits if van could travel 87.9 minutes longer")}
 
 
+def test_how_long_legs_are_hangs_on_when_they_are_driven(service: httpx.Client,
+                                                         smallest: Request) -> None:
+    # Ten minutes there and back, twenty in the first hour, when the parcel has to be there.
+    smallest["customers"] = [{"id": "A", "location": [3, 4], "demand": [1],
+                              "time_window": {"latest": 3000}}]
+    smallest["fleet"][0] |= {"speed_kmh": 60, "max_travel_duration": 1000, "speed_profile": [
+        {"from": 0, "speed_kmh": 30}, {"from": 3600, "speed_kmh": 60}]}
+    left, = planned(service, smallest)["unassigned"]
+    assert {(reason["code"], reason["remedy"]) for reason in left["reasons"]} == {
+        ("TRAVEL_DURATION", "fits if truck could travel 3.4 minutes longer")}
+    smallest["customers"][0]["time_window"]["latest"] = 9000
+    plan = planned(service, smallest)
+    assert plan["status"] == "complete"
+    assert plan["routes"][0]["trips"][0]["stops"][0]["departure"] >= 3000
+
+
 def test_a_day_that_is_too_long_is_told(service: httpx.Client, far: Request) -> None:
     far["fleet"][0]["driving_rules"] = {"preset": "eu-561", "driven_before": 10_000}
     far["customers"][1]["location"] = [9, 500]
@@ -137,9 +153,7 @@ def test_us_rules_bound_the_working_day(service: httpx.Client, far: Request) -> 
      "$.fleet[0].driving_rules.split"),
     ({"breaks": [{"id": "rest", "duration": 9}]}, "DUPLICATE_ID", "$.fleet[0].breaks[0].id"),
     ({"speed_profile": [{"from": 0, "speed_kmh": 50}]}, "DRIVING_RULES_WITH",
-     "$.fleet[0].speed_profile"),
-    ({"driving_rules": None, "max_travel_duration": 9, "speed_profile": [
-        {"from": 0, "factor": 0.5}]}, "TRAVEL_DURATION_WITH", "$.fleet[0].speed_profile")])
+     "$.fleet[0].speed_profile")])
 def test_what_cannot_be_kept_is_told(service: httpx.Client, far: Request, changes: Request,
                                      code: str, path: str) -> None:
     far["fleet"][0] |= changes

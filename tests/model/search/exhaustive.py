@@ -176,7 +176,7 @@ def _cheapest_start(problem: Problem, decision: RouteDecision,
     cost = evaluation.cost
     # A later start saves nothing but time and waiting.
     driven = cost.fixed + cost.distance + cost.stops
-    if broken <= {"WORKING_DURATION"} and driven + cost.lateness < best:
+    if broken <= {"WORKING_DURATION", "TRAVEL_DURATION"} and driven + cost.lateness < best:
         late = _begun_late(problem, decision, soon)
         if late is not soon:
             evaluation = check(problem, Solution((late,)))

@@ -1644,7 +1644,6 @@ export default {
     TOO_FEW_VEHICLES: 'Es sollen mehr Fahrzeuge fahren, als es gibt.',
     RELATION_WITH: 'Das geht nicht mit einer Reihenfolge, oder sagt ohne eine nichts.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',
-    TRAVEL_DURATION_WITH: 'Das lässt sich neben einer längsten Fahrzeit noch nicht planen.',
     DRIVING_RULES_WITH: 'Das lässt sich neben Lenkzeitregeln noch nicht planen.',
     MISSING_BREAK_DURATION: 'Wie lang eine Pause ist, steht nicht da.',
     LOCATION_OFF_GLOBE:
