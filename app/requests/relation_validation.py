@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from itertools import combinations
 
-from app.requests.conversion.places import revisits
 from app.requests.draft import Draft, Errors, Path, error_at
 from app.schemas.relation import RelationInput
 from model.problem import MOST_IN_ORDER, MOST_RELATIONS
@@ -61,7 +60,7 @@ def _shipment_errors(draft: Draft, relation: RelationInput, path: Path) -> Error
 
 
 def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
-    """Say what isn't told of an order, or can't be planned with one yet."""
+    """Say what isn't told of an order, or contradicts itself."""
     if relation.kind != "before":
         for name in ("min_lag", "max_lag", "same_vehicle"):
             if getattr(relation, name) != RelationInput.model_fields[name].default:
@@ -77,13 +76,6 @@ def _lag_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:
                        f"At most {MOST_IN_ORDER} customers are served in an order: name fewer.")
     if not relation.same_vehicle:
         yield from _across_errors(draft, relation, path)
-    kinds = [kind for _, kind in draft.vehicle_types()]
-    stops_for_drones = bool(draft.launch_sites) or any(map(revisits, kinds))
-    if stops_for_drones and any(kind.driving_rules for kind in kinds):
-        yield error_at("RELATION_WITH", (*path, "kind"),
-                       "Drivers who rest by driving_rules can't keep an order beside stops for "
-                       "drones alone yet: leave before out, or driving_rules, or launch_sites and "
-                       "revisits.")
 
 
 def _across_errors(draft: Draft, relation: RelationInput, path: Path) -> Errors:

@@ -7,6 +7,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "search/route/breaks.h"
+#include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"
@@ -115,8 +116,9 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
     const Int soonest = counted_begin(type, begin_of(type, stops));
     const Int latest = last_begin(data, route, stops, sorties);
     route.driving = driving;
-    // With drones, who may come in another order then, a route may have to begin before.
-    const Int begin = route.sorties > 0 ? soonest : latest;
+    // With drones, who may come in another order then, a route may have to begin before; so with
+    // orders, by which all waits that comes behind others.
+    const Int begin = route.sorties > 0 || lags_count(data) ? soonest : latest;
     if (needs_no_rest(type, driving, route.end - begin)) return true;
     const bool may_wait = stops[0].hold == none && latest > soonest;
     if (may_wait && needs_no_rest(type, driving, route.end - latest) &&

@@ -8,16 +8,19 @@ import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
-from model.problem import MM_PER_KM, Problem
+from model.problem import (
+    MM_PER_KM, Customer, Depot, DrivingRules, Problem, Relation, Travel, VehicleType,
+)
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.simulation.test_simulator import Change
-from tests.model.tiny import draw_tiny
+from tests.model.tiny import MINUTE, draw_tiny
 from tests.model.tiny_breaks import with_breaks
 from tests.model.tiny_company import with_order, with_order_across
 from tests.model.tiny_driving import with_driving
+from tests.model.tiny_launches import with_launch_sites, with_some_revisits
 from tests.model.tiny_streets import draw_streets, draw_town
 
 pytestmark = pytest.mark.slow
@@ -107,7 +110,26 @@ def test_trucks_with_drones_wait_for_each_other_as_they_were_priced(seed: int) -
     assert any(trip.sorties for route in found.solution.routes for trip in route.trips)
 
 
-@pytest.mark.parametrize("resting", [with_driving, with_breaks])
+def with_sites_and_driving(rng: np.random.Generator, problem: Problem) -> Problem:
+    change = (with_launch_sites, with_some_revisits)[int(rng.integers(2))]
+    return with_driving(rng, change(rng, problem))
+
+
+def test_a_driver_rests_while_it_waits_for_an_order() -> None:
+    legs = np.array([[0, 0, 4], [0, 0, 4], [4, 4, 0]], np.int64)
+    rules = DrivingRules(8 * MINUTE, 5 * MINUTE, max_work=20 * MINUTE)
+    problem = Problem(
+        (Depot("hub"),), (Customer("a", (1,), service_duration=2 * MINUTE, earliest=28 * MINUTE),
+                          Customer("b", (1,), service_duration=MINUTE)),
+        (VehicleType("van", 1, (2,), 0, cost_per_hour=20.0, driving=rules),),
+        (Travel(legs * MINUTE, legs * MM_PER_KM),), np.zeros((3, 2)), 1000.0,
+        relations=(Relation("before", (1, 2), min_lag=18 * MINUTE),))
+    plan = improve(problem, pack([problem]), Solution((), (1, 2)), SearchConfig(turns=60)).solution
+    assert check(problem, plan).violations == ()
+    assert plan.unassigned == ()
+
+
+@pytest.mark.parametrize("resting", [with_driving, with_breaks, with_sites_and_driving])
 @pytest.mark.parametrize("change", [with_order, with_order_across])
 def test_rollouts_and_search_keep_orders_beside_rests(resting: Change, change: Change) -> None:
     rests = 0
