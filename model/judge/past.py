@@ -183,8 +183,9 @@ def _before(breaks: Sequence[TakenBreak], stops: Sequence[KnownStop]) -> tuple[T
 
 
 def _opens(problem: Problem, stop: Stop) -> bool:
-    """Tell whether a truck may have to wait at a stop: for a customer, or at a launch site."""
-    return stop.node >= problem.num_depots or stop.is_launch_site
+    """Tell whether a truck may have to wait at a stop: for a customer, or until a place opens."""
+    return (stop.node >= problem.num_depots or stop.is_launch_site
+            or (stop.node >= 0 and problem.depots[stop.node].earliest > 0))
 
 
 def _bound_for(problem: Problem, stop: Stop, now: int) -> KnownStop:

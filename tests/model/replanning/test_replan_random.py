@@ -27,6 +27,7 @@ from tests.model.tiny_breaks import with_breaks
 from tests.model.tiny_choices import with_choices
 from tests.model.tiny_company import with_order, with_order_across, with_relations
 from tests.model.tiny_driving import with_driving
+from tests.model.tiny_hours import with_hours_apart
 from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
 )
@@ -282,7 +283,8 @@ def test_tiny_plans_from_hubs_that_have_little_go_on(planner: Planner, seed: int
     replan_and_check(planner, from_few_hubs(rng, draw_tiny(rng)), rng)
 
 
-@pytest.mark.parametrize("change", [with_open_ends, with_reloads, with_open_reloads])
+@pytest.mark.parametrize("change", [
+    with_open_ends, with_reloads, with_open_reloads, with_hours_apart])
 @pytest.mark.parametrize("seed", range(10))
 def test_tiny_plans_go_on_from_place_to_place(
         planner: Planner, seed: int,
