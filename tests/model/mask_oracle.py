@@ -14,22 +14,24 @@ from model.judge.clock import opening
 from model.judge.energy import Rest, charges, first_rest, sortie_energy
 from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
 from model.judge.launches import launch_duration
-from model.judge.rules import airborne_duration
-from model.judge.takeoff import charged_launch, held_takeoff, storm_met
+from model.judge.takeoff import charged_launch, held_takeoff
 from model.judge.timing import Operation
 from model.problem import UNREACHABLE, Problem, VehicleType
 from model.simulation.actions import DRIVE, LAUNCH, NUM_KINDS, OPEN, RETURN
-from model.solution import Route, Solution, Sortie, Stop, Trip, Visit
+from model.solution import Route, Solution, Stop, Trip, Visit
 from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
-    MOST_TIMED, Flight, OpenTrip, back_at, drones_of, in_range, keeps_lags, lasts, preferred,
-    timed_trips,
+    MOST_TIMED, Flight, OpenTrip, back_at, cannot_be_flown, drained, drones_of, in_storm,
+    keeps_lags, lasts, preferred, timed_trips,
 )
 from tests.model.tiny_company import companions
 from tests.model.tiny_hours import keeps_day
 
 MINUTE = 60_000
+
+WHOEVER_ELSE = {"SERVED_BY", "SKILLS", "VEHICLE"}
+"""Rules that a stop or visit breaks whoever else is served, and when."""
 
 
 @dataclass(frozen=True)
@@ -93,30 +95,6 @@ def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
             return None
         excess = left
     return vehicle
-
-
-def _drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
-    """Tell whether a sortie takes more than its battery has."""
-    drones = kind.drone_type(trip.sorties[index].drone)
-    return drones.energy is not None and sortie_energy(
-        problem, drones, drones.energy, trip, trip.sorties[index]) > charges(
-        problem, kind, trip)[index]
-
-
-def _in_storm(kind: VehicleType, launched: Sortie, recovered: Sortie) -> bool:
-    """Tell whether it storms from the take-off of a sortie to the recovery of another."""
-    drones = kind.drone_type(launched.drone)
-    return storm_met(drones, launched.launch_time, recovered.recovery_start) is not None
-
-
-def _cannot_be_flown(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
-    """Tell whether a sortie lasts too long, into a storm, or begins too far from its customer."""
-    sortie = trip.sorties[index]
-    drones = kind.drone_type(sortie.drone)
-    return (drones.endurance < airborne_duration(problem, drones, trip, sortie)
-            or _drained(problem, kind, trip, index) or _in_storm(kind, sortie, sortie)
-            or not in_range(problem, drones, trip.stops[sortie.launch_stop].node,
-                            sortie.visits[0].node))
 
 
 def _rest(problem: Problem, kind: VehicleType, trip: Trip, drone: int, stop: int) -> Rest | None:
@@ -229,7 +207,7 @@ def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | No
             settled = _recovered(trip, to, loops, order, operations)
             timed = _timed(problem, vehicle, settled)
         late = [index for index in order if arrivals[index] >= UNREACHABLE
-                or _cannot_be_flown(problem, vehicle_type, timed, index)]
+                or cannot_be_flown(problem, vehicle_type, timed, index)]
         if not late:
             return _held(problem, replace(vehicle, trips=(*vehicle.trips[:-1], settled)), timed)
         if set(late) & set(loops):
@@ -299,12 +277,12 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
     for trip, other in zip(soon.trips, late.trips, strict=True):
         if not all(map(may_be, trip.customer_stops, other.customer_stops)):
             return False
-        if any(_drained(problem, kind, other, index) for index in range(len(other.sorties))):
+        if any(drained(problem, kind, other, index) for index in range(len(other.sorties))):
             return False
         for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
             longer = (flown.recovery_start - flown.launch_time
                       > sortie.recovery_start - sortie.launch_time)
-            if longer or _in_storm(kind, sortie, flown) or not all(
+            if longer or in_storm(kind, sortie, flown) or not all(
                     map(may_be, sortie.visits, flown.visits)):
                 return False
     return True
@@ -338,13 +316,26 @@ def can_end(problem: Problem, vehicle: Vehicle | None, any_start: bool = False) 
     return False
 
 
-def _can_go_home(problem: Problem, vehicle: Vehicle, any_start: bool) -> bool:
+@lru_cache(MOST_TIMED)
+def _may_serve(problem: Problem, type_index: int, kind: int, node: int) -> bool:
+    """Tell whether the checker lets a vehicle type serve a customer so, whatever else it does."""
+    alone = _gone_home(problem, after(problem, Vehicle(type_index, 0), kind, node))
+    return alone is None or not WHOEVER_ELSE & {
+        violation.code for violation in judge(problem, alone, None)[1].violations}
+
+
+def _gone_home(problem: Problem, vehicle: Vehicle | None) -> Vehicle | None:
+    if vehicle is None or vehicle.is_idle:
+        return vehicle
+    home = _settle(problem, vehicle, problem.vehicle_types[vehicle.kind].ends_at)
+    return home and replace(home, is_idle=True)
+
+
+def _can_go_home(problem: Problem, busy: Vehicle, any_start: bool) -> bool:
     """Tell whether the vehicle can go straight home and the plan be legal."""
-    if not vehicle.is_idle:
-        home = _settle(problem, vehicle, problem.vehicle_types[vehicle.kind].ends_at)
-        if home is None:
-            return False
-        vehicle = replace(home, is_idle=True)
+    vehicle = _gone_home(problem, busy)
+    if vehicle is None:
+        return False
     soon, judged = judge(problem, vehicle, None)
     broken = {violation.code for violation in judged.violations}
     if not broken:
@@ -371,7 +362,8 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
     if vehicle is not None:
         vehicle_type = problem.vehicle_types[vehicle.kind]
         home = vehicle_type.ends_at
-        actions = [(kind, node) for node in customers for kind in (DRIVE, LAUNCH)]
+        actions = [(kind, node) for node in customers for kind in (DRIVE, LAUNCH)
+                   if _may_serve(problem, vehicle.kind, kind, node)]
         for kind, node in [*actions, (RETURN, home)]:
             if can_end(problem, after(problem, vehicle, kind, node), any_start):
                 yield node * NUM_KINDS + kind
@@ -394,4 +386,5 @@ def legal_codes(problem: Problem, vehicle: Vehicle | None, served: set[int], use
 
 def _is_useful(problem: Problem, idle: Vehicle, customers: list[int], any_start: bool) -> bool:
     return any(can_end(problem, after(problem, idle, kind, node), any_start)
-               for kind in (DRIVE, LAUNCH) for node in customers)
+               for kind in (DRIVE, LAUNCH) for node in customers
+               if _may_serve(problem, idle.kind, kind, node))

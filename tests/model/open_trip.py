@@ -4,14 +4,16 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from model.judge.clock import opening
-from model.judge.energy import hover_energy, leg_energy, weights_aboard
+from model.judge.energy import charges, hover_energy, leg_energy, sortie_energy, weights_aboard
 from model.judge.lags import halts_of, starts_of
 from model.judge.pairs import flown_back, flown_out
+from model.judge.rules import airborne_duration
+from model.judge.takeoff import storm_met
 from model.judge.timing import (
     Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
 )
 from model.problem import DroneType, Problem, VehicleType
-from model.solution import Route, Trip
+from model.solution import Route, Sortie, Trip
 
 MOST_TIMED = 1000
 """Lists of trips whose times are kept, and answers: those that the next actions ask for again."""
@@ -155,3 +157,27 @@ def keeps_lags(problem: Problem, route: Route) -> bool:
     starts = starts_of(halts_of(route.trips))
     return all(lag.least <= start - starts[lag.node] <= lag.most for node, start in starts.items()
                for lag in problem.lags.get(node, ()) if lag.node in starts)
+
+
+def drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
+    """Tell whether a sortie takes more than its battery has."""
+    drones = kind.drone_type(trip.sorties[index].drone)
+    return drones.energy is not None and sortie_energy(
+        problem, drones, drones.energy, trip, trip.sorties[index]) > charges(
+        problem, kind, trip)[index]
+
+
+def in_storm(kind: VehicleType, launched: Sortie, recovered: Sortie) -> bool:
+    """Tell whether it storms from the take-off of a sortie to the recovery of another."""
+    drones = kind.drone_type(launched.drone)
+    return storm_met(drones, launched.launch_time, recovered.recovery_start) is not None
+
+
+def cannot_be_flown(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
+    """Tell whether a sortie lasts too long, into a storm, or begins too far from its customer."""
+    sortie = trip.sorties[index]
+    drones = kind.drone_type(sortie.drone)
+    return (drones.endurance < airborne_duration(problem, drones, trip, sortie)
+            or drained(problem, kind, trip, index) or in_storm(kind, sortie, sortie)
+            or not in_range(problem, drones, trip.stops[sortie.launch_stop].node,
+                            sortie.visits[0].node))
