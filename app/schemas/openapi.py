@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from typing import Any, cast
 
@@ -93,7 +94,8 @@ def json_body(model: type[BaseModel], examples: Mapping[str, str] = {}) -> dict[
 class _JsonBody(Mapping[str, Any]):
     """What `json_body` returns, made anew whenever it is looked at.
 
-    The schemas of all endpoints take a second to make, and most processes need none.
+    The schemas of all endpoints take a second to make, and most processes need none. Those that do
+    make each once.
     """
 
     def __init__(self, model: type[BaseModel], examples: Mapping[str, str]) -> None:
@@ -103,8 +105,8 @@ class _JsonBody(Mapping[str, Any]):
     def __getitem__(self, key: str) -> Any:
         if key != BODY:
             raise KeyError(key)
-        schema = self._model.model_json_schema(ref_template=SCHEMA_REF)
-        content: dict[str, Any] = {"schema": schema | {"title": self._model.__name__}}
+        content: dict[str, Any] = {
+            "schema": _schema_of(self._model) | {"title": self._model.__name__}}
         if self._examples:
             content["examples"] = {
                 name: {"summary": summary,
@@ -118,6 +120,12 @@ class _JsonBody(Mapping[str, Any]):
 
     def __len__(self) -> int:
         return 1
+
+
+@cache
+def _schema_of(model: type[BaseModel]) -> dict[str, Any]:
+    """Return the schema of a body, which several endpoints may take. Not to be changed."""
+    return model.model_json_schema(ref_template=SCHEMA_REF)
 
 
 def problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]]:
