@@ -22,7 +22,7 @@ from model.solution import (
 
 SPARE_SLOTS = 8
 STOPS_OPENED = 4
-"""Stops that one insertion adds at most, and one more."""
+"""Stops that one insertion adds at most, and one more; of shipments with several pickups more."""
 
 
 def make_searcher(problem: Problem, data: ProblemData, solution: Solution,
@@ -89,8 +89,9 @@ def _sizes(problem: Problem, data: ProblemData, solution: Solution) -> tuple[int
     trips = min(int(types["max_trips"].max()), max(1, most)) + 1
     flown = most if data.visits.any() else 0
     halts = 2 * flown if len(data.halts) else 0  # where each is launched, and recovered
+    opened = max([STOPS_OPENED, *[len(each.nodes) + 1 for each in problem.shipments]])
     return (max(1, min(count, number, wanted), len(solution.routes)),
-            most + halts + 2 * trips + STOPS_OPENED, trips, flown + 1)
+            most + halts + 2 * trips + opened, trips, flown + 1)
 
 
 def _most_carried(delivered: IntArray, picked: IntArray, capacity: IntArray) -> int:

@@ -10,7 +10,10 @@ import pytest
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.engine.instance import pack
-from model.problem import MM_PER_KM, UNLIMITED, Customer, Depot, Problem, Travel, VehicleType
+from model.problem import (
+    MM_PER_KM, MOST_PICKUPS, UNLIMITED, Customer, Depot, Part, Problem, Shipment, Travel,
+    VehicleType,
+)
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
@@ -138,3 +141,19 @@ def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
         expected = least_cost(problem, data, rest, node)
         found = min(inserted_cost(problem, data, rest, seed) for seed in range(SEEDS))
         assert found == pytest.approx(expected)
+
+
+def test_a_route_has_room_for_a_shipment_of_many_pickups() -> None:
+    place = np.arange(MOST_PICKUPS + 2)
+    legs = np.abs(place[:, None] - place)
+    ends = tuple(Customer(str(each), (0,), 0, served_by="truck") for each in place[1:])
+    parts = tuple(Part(int(node), (0,)) for node in place[2:-1])
+    paired = Problem(
+        (Depot("hub"),), ends, (VehicleType("truck", 1, (1,), 0, max_stops=1),),
+        (Travel(legs * MINUTE, legs * MM_PER_KM),), np.stack([place, place], 1).astype(np.float64),
+        unassigned_cost=1000.0,
+        shipments=(Shipment("s", 1, len(ends), (0,), more=parts),))
+    searcher = make_searcher(paired, make_data(paired, pack([paired])), Solution((), ()),
+                             np.random.SeedSequence(0))
+    # Where it is tried on a trip of its own, all ends lie between its start and its end.
+    assert searcher.now.stop.shape[1] >= len(ends) + 2
