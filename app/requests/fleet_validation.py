@@ -63,11 +63,10 @@ def _hours_of_type(kind: VehicleTypeInput, path: Path, known: Mapping[str, Hours
         yield error_at("DEPOT_CLOSED", (*path, "shift"),
                        f"The depot {home!r} isn't open during the shift: change the depot's "
                        "time_window or the shift.")
-    elif kind.flies and any(known[place].earliest > opens or _closing(known[place]) < closes
-                            for place in {home, *kind.reload_depots}):
+    elif kind.flies and any(known[place].earliest > opens for place in kind.reload_depots):
         yield error_at("HOURS_DIFFER", path,
-                       "A depot that it lands at opens after its day begins, or closes before that "
-                       "ends: narrow its shift, or state one time_window at all its depots.")
+                       "A depot that it lands at opens after its day begins, and nobody waits in "
+                       "the air for that: let its shift begin later, or the depot open sooner.")
 
 
 def _closing(hours: HoursInput) -> float:

@@ -3,6 +3,8 @@
 // Types whose shift keeps all of that anyway look at no hours.
 #pragma once
 
+#include "rules/flight.h"
+#include "rules/flown_trip.h"
 #include "rules/window.h"
 
 namespace tandem {
@@ -15,9 +17,15 @@ inline Int let_in(const VehicleType& type, NodeTable places, Int depot, Int arri
     return keeps_hours(type) ? places[depot].start_of_service(arrival) : arrival;
 }
 
-// The last departure from a depot, and the last return to it.
+// The last return to a depot.
 inline Int closes_at(const VehicleType& type, NodeTable places, Int depot) {
     return keeps_hours(type) ? places[depot].latest_allowed() : far;
+}
+
+// The last departure from a depot, the take-off of who flies by itself.
+inline Int leaves_by(const VehicleType& type, NodeTable places, Int depot) {
+    const Int closes = closes_at(type, places, depot);
+    return flies(type) ? closes - launch_duration(type, 0) : closes;
 }
 
 }  // namespace tandem

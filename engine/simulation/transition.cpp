@@ -185,7 +185,7 @@ void note_starts(const OpenVehicle& open, View<Int, 1> starts) {
 bool left_in_hours(const Setting& setting, const VehicleLog& log) {
     const LoggedStop& here = log.stop[log.count.stops - 1];
     return here.node >= setting.num_depots ||
-           here.leave <= closes_at(setting.type, setting.node, here.node);
+           here.leave <= leaves_by(setting.type, setting.node, here.node);
 }
 
 // End the trip at a depot.

@@ -240,7 +240,10 @@ private:
             if (!run_operation(log_.op[op_], stop.node)) return false;
         }
         leave_ = std::max(leave_, free_);
-        if (is_depot && leave_ > closes_at(setting_.type, setting_.node, stop.node)) return false;
+        if (is_depot && leave_ > (comes_back ? closes_at : leaves_by)(setting_.type, setting_.node,
+                                                                      stop.node)) {
+            return false;
+        }
         departure_ = std::min(departure_, leave_);
         if constexpr (writes) {
             stop.arrival = arrival;

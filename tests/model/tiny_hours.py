@@ -7,6 +7,7 @@ import numpy as np
 from model.judge.driving import travel_duration
 from model.problem import Problem, within_hours
 from model.solution import Route
+from tests.model.fliers import with_fliers
 from tests.model.tiny import (
     MINUTE, with_duty, with_gaps, with_open_ends, with_open_reloads, with_pickups, with_places,
     with_reloads,
@@ -34,6 +35,17 @@ def with_hours_apart(rng: np.random.Generator, problem: Problem) -> Problem:
     for more in (with_gaps, with_duty, with_pickups):
         problem = more(rng, problem) if rng.random() < 0.4 else problem
     return with_hours(rng, problem)
+
+
+def with_closing_hubs(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem whose depots close, from which some vehicles fly by themselves."""
+    problem = with_fliers(rng, with_reloads(rng, problem))
+    depots = tuple([replace(depot, latest=int(rng.integers(15, 45)) * MINUTE)
+                    for depot in problem.depots])
+    if any(kind.earliest > depots[kind.ends_at].latest for kind in problem.vehicle_types):
+        return problem
+    return replace(problem, depots=depots, vehicle_types=tuple(
+        [within_hours(depots, kind) for kind in problem.vehicle_types]))
 
 
 def keeps_day(problem: Problem, route: Route) -> bool:

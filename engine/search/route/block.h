@@ -121,7 +121,8 @@ struct Truck {
             stop.hi = last_end(type);
         }
         if (keeps_hours(type) && !has_window(stop)) {
-            const Int closes = closes_at(type, places, stop.node);
+            const Int closes = stop.kind == end_stop ? closes_at(type, places, stop.node)
+                                                     : leaves_by(type, places, stop.node);
             stop.dep = closes - d;
             stop.hi = c > closes ? none : std::min(stop.hi, stop.dep);
         }

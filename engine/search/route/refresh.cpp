@@ -72,7 +72,7 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> s
         }
         if (plain) {
             arrival = has_window(stop) ? places[stop.node].latest_free_arrival(stop.arrival, leave)
-                                       : std::min(leave, closes_at(type, places, stop.node));
+                                       : std::min(leave, leaves_by(type, places, stop.node));
         }
         leave = arrival;
         if (p == first) break;

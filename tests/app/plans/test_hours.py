@@ -63,8 +63,8 @@ def test_who_would_leave_after_the_depot_closes_is_told(client: httpx.Client,
         "fits if hub closed 1 minute later"}
 
 
-def test_vehicles_that_fly_have_depots_open_all_day(client: httpx.Client,
-                                                    smallest: Request) -> None:
-    smallest["depots"].append({"id": "yard", "location": [9, 9], "time_window": {"latest": 600}})
+def test_vehicles_that_fly_have_depots_open_from_the_first(client: httpx.Client,
+                                                           smallest: Request) -> None:
+    smallest["depots"].append({"id": "yard", "location": [9, 9], "time_window": {"earliest": 600}})
     smallest["fleet"][0] |= {"flies": True, "max_trips": 2, "reload_depots": ["yard"]}
     assert [code for code, _ in errors_of(client, smallest)] == ["HOURS_DIFFER"]

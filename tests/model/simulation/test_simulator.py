@@ -29,7 +29,7 @@ from tests.model.tiny import (
 )
 from tests.model.tiny_choices import with_choices
 from tests.model.tiny_company import companions, with_order, with_relations
-from tests.model.tiny_hours import with_hours, with_hours_apart
+from tests.model.tiny_hours import with_closing_hubs, with_hours, with_hours_apart
 from tests.model.tiny_launches import with_few_launch_places, with_launch_sites
 from tests.model.tiny_prices import with_vehicle_costs
 from tests.model.tiny_shipments import with_shipments
@@ -188,7 +188,8 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
     few_at_hubs_among_all, with_storms,
     storms_among_all, fliers_in_range, fliers_in_storms, with_launch_sites, few_airborne_in_no_time,
-    with_vehicle_costs, with_relations, with_order, with_hours_apart])
+    with_vehicle_costs, with_relations, with_order, with_hours_apart,
+    with_closing_hubs])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):

@@ -1640,7 +1640,7 @@ export default {
       'Geben Sie die erlaubten Fahrzeuge an oder die verbotenen, nicht beides.',
     SHIFT_ENDS_BEFORE_START: 'Die Schicht endet, bevor sie beginnt.',
     DEPOT_CLOSED: 'Das Depot ist die ganze Schicht geschlossen.',
-    HOURS_DIFFER: 'Depots, auf denen ein Typ landet, öffnen oder schließen zu verschiedenen Zeiten.',
+    HOURS_DIFFER: 'Ein Depot, auf dem dieser Typ landet, öffnet erst nach Beginn seines Tages.',
     TOO_FEW_VEHICLES: 'Es sollen mehr Fahrzeuge fahren, als es gibt.',
     RELATION_WITH: 'Das geht nicht mit einer Reihenfolge, oder sagt ohne eine nichts.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',

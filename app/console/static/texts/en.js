@@ -1615,7 +1615,7 @@ export default {
     TWO_LISTS_OF_VEHICLES: 'State the vehicles allowed or those forbidden, not both.',
     SHIFT_ENDS_BEFORE_START: 'The shift ends before it begins.',
     DEPOT_CLOSED: 'The depot is closed all shift.',
-    HOURS_DIFFER: 'Depots where one type lands open or close at different times.',
+    HOURS_DIFFER: 'A depot where this type lands opens after its day begins.',
     TOO_FEW_VEHICLES: 'More vehicles are to be used than there are.',
     RELATION_WITH: 'This can’t be combined with an order of customers, or says nothing without one.',
     UNKNOWN_BREAK: 'No driver has this break.',
