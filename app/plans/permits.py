@@ -1,5 +1,6 @@
 """What of a customer's `vehicles` forbids a type, as remedies name it: all that would change."""
 
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
@@ -7,6 +8,8 @@ from app.plans.replies import Data
 from app.requests.conversion.groups import Place, Roster
 from app.schemas.customer import VehiclesInput
 from app.schemas.request import PlanRequest
+
+_BARRED = re.compile("^fits if .+? may serve it")
 
 
 @dataclass(frozen=True)
@@ -38,7 +41,9 @@ class Permits:
         for reason in reasons:
             if reason["code"] == "VEHICLE" and reason["remedy"] is not None:
                 names = " and ".join(self._barring(vehicles, reason["vehicle_type"]))
-                reason["remedy"] = f"fits if {names} may serve it"
+                # What else has to change stands behind.
+                _, behind = _BARRED.split(reason["remedy"], maxsplit=1)
+                reason["remedy"] = f"fits if {names} may serve it{behind}"
 
     def _barring(self, vehicles: VehiclesInput, kind: str) -> list[str]:
         """Return the fewest names to be allowed, or forbidden no more, for one of a type."""

@@ -13,10 +13,12 @@ from itertools import chain
 from math import ceil
 
 from model.judge.check import check
+from model.judge.combined_remedies import Diagnose, combined_remedy, customer_broken
 from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.diagnosis import Diagnosis
 from model.judge.hubs import lacks_battery, lacks_charger
+from model.judge.lag_remedies import lag_remedy
 from model.judge.metrics import unassigned_cost
 from model.judge.rest_remedies import rest_remedy
 from model.judge.shipment_diagnoses import shipment_broken
@@ -124,7 +126,7 @@ def _shipment_left_out(problem: Problem, solution: Solution, index: int,
     """Say why no vehicle of a type brings a shipment, by a trip for it alone."""
     attempt = try_shipment(problem, index, shipment)
     if attempt.evaluation.violations:
-        return _with_remedy(index, shipment_broken(attempt), attempt)
+        return _with_remedy(index, shipment_broken(attempt), attempt, shipment_broken)
     for node in shipment.nodes:
         related = _in_company(problem, solution, index, node)
         if related is not None:
@@ -234,7 +236,8 @@ def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> 
         name = problem.vehicle_types[vehicle.type].vehicle_name(vehicle.number)
         why = f"It is to be served together with {names}, which {name} serves"
         room = ", and has no room for it" if vehicle.type == index else ""
-        return Reason(index, "RELATION", f"{why}{room}.")
+        return Reason(index, "RELATION", f"{why}{room}.",
+                      lag_remedy(problem, solution, index, node) if room else None)
     waiting = _out_of_order(problem, solution, index, node)
     if waiting is not None:
         return waiting
@@ -267,7 +270,8 @@ def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -
             not attempt.codes for attempt in attempts(bound, index, node)))):
         return None
     return Reason(index, "RELATION", f"{problem.vehicle_types[index].id} can't serve it in its "
-                  f"order with {names}, as the plan serves these.")
+                  f"order with {names}, as the plan serves these.",
+                  lag_remedy(problem, solution, index, node))
 
 
 def _num_used(solution: Solution, index: int) -> int:
@@ -294,17 +298,23 @@ def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason
     window = missed_window(attempt)
     if window is not None:
         return Reason(index, window.code, window.message, window.remedy)
-    reason = _with_remedy(index, DIAGNOSES[code](attempt), attempt)
+    reason = _with_remedy(index, DIAGNOSES[code](attempt), attempt, customer_broken)
     if (reason.remedy is None and attempt.customer.served_by == "drone"
             and not attempt.vehicle_type.flies):
         return replace(reason, remedy=_remedy_by_other(problem, index, node, "truck"))
     return reason
 
 
-def _with_remedy(index: int, diagnosis: Diagnosis, attempt: Attempt) -> Reason:
-    """Return a reason with what was tried and suffices, of the rule and of breaks and rests."""
+def _with_remedy(index: int, diagnosis: Diagnosis, attempt: Attempt,
+                 diagnose: Diagnose) -> Reason:
+    """Return a reason with what was tried and suffices, of the rule and of breaks and rests.
+
+    Where neither does alone, of several rules together.
+    """
     holds = diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations
     remedies = [diagnosis.remedy if holds else None, rest_remedy(attempt)]
+    if not any(remedies):
+        remedies = [combined_remedy(attempt, diagnose)]
     first, second, *_ = [*filter(None, remedies), None, None]
     return Reason(index, diagnosis.code, diagnosis.message, first, second)
 

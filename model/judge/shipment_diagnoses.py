@@ -8,13 +8,12 @@ from model.judge.diagnoses import DIAGNOSES
 from model.judge.diagnosis import (
     Diagnosis, if_stated, in_minutes, up_to_tenth, with_type,
 )
+from model.judge.lags import halts_of, starts_of
 from model.judge.pairs import times_between
 from model.judge.rules import amounts, decimal
 from model.judge.trial import Attempt
-from model.problem import MAX_QUANTITY, UNLIMITED, Customer
+from model.problem import MAX_QUANTITY, UNLIMITED
 from model.problem.shipment import MOST_DETOUR
-
-ENDS = "pickup", "delivery"
 
 THOUSANDTHS = 3
 
@@ -22,12 +21,10 @@ THOUSANDTHS = 3
 def shipment_broken(attempt: Attempt) -> Diagnosis:
     """Return the rule that is hardest to change of those that a shipment's trip breaks.
 
-    Nothing is offered for windows of one fetched in parts, nor for their own detours.
+    Nothing is offered for the detours of one fetched in parts, each its own.
     """
     (shipment,) = attempt.problem.shipments
-    unknown = {"TIME_WINDOW"} if shipment.more else set[str]()
-    if shipment.more and shipment.max_detour is not None:
-        unknown.add("TIME_BETWEEN")
+    unknown = {"TIME_BETWEEN"} if shipment.more and shipment.max_detour is not None else ()
     for violation in attempt.evaluation.violations:
         if violation.code not in CODES or violation.code in unknown:
             return Diagnosis(violation.code,
@@ -51,7 +48,7 @@ def _windows(attempt: Attempt) -> Diagnosis:
     customers, told, remedies = list(attempt.problem.customers), [], []
     most = 0
     for index, late in _late_ends(attempt):
-        end, customer = ENDS[index], customers[index]
+        end, customer = _end_name(attempt, index), customers[index]
         later = up_to_tenth(late, MS_PER_MINUTE)
         most = max(most, customer.latest + later)
         customers[index] = replace(customer, latest=min(customer.latest + later, UNLIMITED))
@@ -64,11 +61,23 @@ def _windows(attempt: Attempt) -> Diagnosis:
         replace(attempt.problem, customers=tuple(customers)))
 
 
+def _end_name(attempt: Attempt, index: int) -> str:
+    """Return which end a customer is, of several pickups with its name among them."""
+    (shipment,), customers = attempt.problem.shipments, attempt.problem.customers
+    if index == len(customers) - 1:
+        return "delivery"
+    part = customers[index].id.removeprefix(f"{shipment.id}/pickup/")
+    return f"pickup {part}" if shipment.more else "pickup"
+
+
 def _late_ends(attempt: Attempt) -> Iterator[tuple[int, int]]:
-    for index, stop in enumerate(attempt.solution.routes[0].trips[0].stops[1:3]):
-        customer: Customer = attempt.problem.customers[index]
-        if customer.late_cost_per_hour is None and stop.service_start > customer.latest:
-            yield index, stop.service_start - customer.latest
+    """Yield which customers are served too late, and by how much."""
+    problem = attempt.problem
+    starts = starts_of(halts_of(attempt.solution.routes[0].trips))
+    for index, customer in enumerate(problem.customers):
+        late = starts[problem.num_depots + index] - customer.latest
+        if customer.late_cost_per_hour is None and late > 0:
+            yield index, late
 
 
 def _time_between(attempt: Attempt) -> Diagnosis:

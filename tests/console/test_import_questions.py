@@ -85,12 +85,17 @@ def test_everyone_can_answer(open_page: Callable[..., Page], service: str,
 
 
 def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
+    page.get_by_role("button", name="Draw", exact=True).click()
+    page.get_by_role("button", name="No-fly area").click()
     page.get_by_label("Open an example").select_option(
         label="Spreadsheet: a working day with all its rules")
     shown = dialog(page)
     question = shown.get_by_role("group", name="Plan")
     expect(question.get_by_role("button", name="Rules of the whole plan")).to_have_attribute(
         "aria-pressed", "true")
+    # Of two types: what they have in common, and as many as there are in all.
+    expect(shown.locator("#import-vehicles")).to_have_attribute("placeholder", "3")
+    expect(shown.locator("#import-capacity")).to_have_attribute("placeholder", "")
     lag = shown.get_by_label("Meaning of Least lag (min)")
     expect(lag.locator("option:checked")).to_have_text("Least time between the two of an order")
     with page.expect_download() as download:
@@ -99,3 +104,4 @@ def test_the_example_of_a_working_day_is_read_and_planned(page: Page) -> None:
     use(page)
     planned(page, "11 of 11 served")
     assert state(page, "state.request.fairness.min_vehicles") == 2
+    assert state(page, "state.tool") is None

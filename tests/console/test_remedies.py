@@ -16,7 +16,7 @@ APPLY = """async (request) => {
   const first = await plan(request);
   const [customer] = first.unassigned;
   const reason = customer.reasons.find(({ remedy }) => remedy);
-  const second = await plan(applyRemedy(request, customer.id, reason));
+  const second = await plan(applyRemedy(request, customer.id, reason, customer.kind));
   return [reason.remedy, second.unassigned];
 }"""
 
@@ -32,6 +32,11 @@ def problem(customers: list[dict[str, Any]], **vehicle: Any) -> dict[str, Any]:
             # Few turns, and time to say why even on a machine that stalls.
             "options": {"time_limit": 60, "search_iterations": 50}}
 
+
+LAGGING = problem([{"time_window": {"latest": 1200}},
+                   {"time_window": {"earliest": 9000, "latest": 9600}}], count=2) | {
+    "relations": [{"kind": "before", "customers": ["C0", "C1"], "max_lag": 1800}]}
+"""The second is left out: his window opens too long after the first one's."""
 
 PROBLEMS = {
     "one more vehicle": problem([{"demand": [20]}, {"demand": [20]}]),
@@ -58,6 +63,17 @@ PROBLEMS = {
     "pick up at any time": problem([{"demand": [0], "pickup": [5]}], pickups="last"),
     "a truck may serve": problem([{"served_by": "drone"}]),
     "a drone may serve": problem([{"served_by": "truck"}], flies=True),
+    "longer and if its window": problem([{"time_window": {"latest": 300}}],
+                                        max_trip_distance=9000, shift={"latest": 800}),
+    "may serve it and if its window": problem([{
+        "time_window": {"latest": 300}, "vehicles": {"forbidden": ["van-1"]}}]),
+    "max_lag of its orders": LAGGING,
+    "max_lag of its orders were": LAGGING | {"relations": [
+        LAGGING["relations"][0] | {"same_vehicle": False}]},
+    "pickup farm closed": problem([]) | {"shipments": [{
+        "id": "S", "delivery": {"location": [7, 0]}, "pickups": [
+            {"id": "farm", "location": [3, 0], "amount": [1], "time_window": {"latest": 60}},
+            {"id": "mill", "location": [6, 0], "amount": [1], "time_window": {"latest": 120}}]}]},
 }
 
 

@@ -5,7 +5,9 @@ import { presetOf } from '../../../app/console/static/js/core/presets.js';
 import {
   needlessIn, relate, renamed,
 } from '../../../app/console/static/js/core/relations.js';
-import { kindOf, wordLines, wordsOf } from '../../../app/console/static/js/core/schema.js';
+import {
+  helpOf, kindOf, resolve, wordLines, wordsOf,
+} from '../../../app/console/static/js/core/schema.js';
 import { parseNumber } from '../../../app/console/static/js/core/format.js';
 
 const REQUEST = {
@@ -59,4 +61,16 @@ test('numbers by name are lines, too', () => {
 test('two lengths are one field', () => {
   const length = { anyOf: [{ type: 'number' }, { type: 'string', title: 'Duration' }] };
   assert.equal(kindOf({ type: 'array', items: length }), 'durations');
+});
+
+test('what is said of a field is found by the name of its schema, or of one like it', () => {
+  const drones = { anyOf: [{ $ref: '#/DronesInput' }, { type: 'null' }], title: 'Drones' };
+  const { schema } = resolve({ DronesInput: { type: 'object', title: 'DronesInput' } }, drones);
+  assert.equal(schema.title, 'DronesInput');
+  const api = { description: 'As the API says.' };
+  const ofCustomers = helpOf('CustomerInput', 'setup_duration', api);
+  assert.notEqual(ofCustomers, api.description);
+  assert.equal(helpOf('ShipmentPickupInput', 'setup_duration', api), ofCustomers);
+  assert.notEqual(helpOf('ShipmentPickupInput', 'amount', api), api.description);
+  assert.equal(helpOf('Unknown', 'amount', api), api.description);
 });

@@ -104,6 +104,7 @@ export function openRequest(
     locks: [],
     doubts: {},
     fit: null,
+    tool: null,
     order: NOTHING_TYPED,
     sweepAxes: null,
     run: { state: 'idle', points: [], message: '' },

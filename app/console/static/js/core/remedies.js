@@ -1,14 +1,23 @@
 /** Unassigned customers by what would help. */
 
 import { applyRemedy, numberOf } from './remedy-changes.js';
+import { partsOf } from './remedy-parts.js';
 
 /** Remedies that change the vehicles of a type by so much: the largest suffices for all. */
 const BY_SO_MUCH =
   /(longer|later|more|more overtime|one more vehicle|another trip|were above [\d.,]+)$/;
 
-/** Return a remedy without its numbers and names, which tells its kind from others. */
+/**
+ * Return a remedy without its numbers and names, which tells its kind from others; of several limits
+ * with them: the largest of one may be no other's.
+ */
 function kindOf({ remedy }) {
+  if (remedy && isOfSeveral(remedy)) return remedy;
   return remedy ? remedy.replace(/[\d.,]*\d/g, '#') : '';
+}
+
+function isOfSeveral(remedy) {
+  return partsOf(remedy).length > 1;
 }
 
 function sizeOf({ remedy }) {
@@ -83,7 +92,8 @@ function grouped(request, key, members) {
   const first = applyRemedy(request, most.customer.id, most.reason, most.customer.kind);
   const isForEach = first !== null && ['customers', 'shipments', 'relations'].some(
     (all) => first[all] !== request[all]);
-  const suffices = !isForEach && BY_SO_MUCH.test(most.reason.remedy);
+  const { remedy } = most.reason;
+  const suffices = !isForEach && (BY_SO_MUCH.test(remedy) || isOfSeveral(remedy));
   const changed =
     first === null || suffices
       ? first

@@ -1,11 +1,11 @@
 /** Remedies of unassigned customers as changes of the problem. */
 
 import { getIn, removeIn, setIn } from './paths.js';
+import { endWindows, partsOf } from './remedy-parts.js';
 import { endsOf } from './visits.js';
 import { closingLater, windowsOf } from './windows.js';
 
 const NUMBER = '([\\d.,]+)';
-const WINDOW_OF = `the (?:last )?window of its (pickup|delivery) closed ${NUMBER} minutes? later`;
 const SECONDS_PER_MINUTE = 60;
 const METRES_PER_KM = 1000;
 
@@ -158,17 +158,14 @@ const CHANGES = [
     (request, { customer }, position, name, more) =>
       closeLater(request, placeAt(request, customer, name), numberOf(position) - 1, more),
   ],
+  [/^fits if (the (?:last )?window of its .+ later)$/, closeEndsLater],
   [
-    new RegExp(`^fits if ${WINDOW_OF}(?: and ${WINDOW_OF})?$`),
-    (request, { customer }, ...ends) => {
-      let changed = request;
-      for (const [end, more] of [ends.slice(0, 2), ends.slice(2)]) {
-        if (!end) continue;
-        const last = windowsOf(getIn(request, [...customer, end])).length - 1;
-        changed = closeLater(changed, [...customer, end], last, more);
-      }
-      return changed;
-    },
+    new RegExp(`^fits if max_lag of its orders were at least ${NUMBER} minutes?$`),
+    lengthenLags,
+  ],
+  [
+    /^fits with one more vehicle of .+$/,
+    (request, { type }) => add(request, [...type, 'count'], 1),
   ],
   [
     new RegExp(`^fits if max_time_between were at least ${NUMBER} minutes?`
@@ -255,6 +252,31 @@ function allowType(request, { type, customer }) {
   return others.length
     ? setIn(request, [...customer, 'vehicles', 'forbidden'], others)
     : removeIn(request, [...customer, 'vehicles']);
+}
+
+/** Let windows of a shipment close later, at each end that a remedy names. */
+function closeEndsLater(request, { customer }, told) {
+  return (endWindows(`fits if ${told}`) ?? []).reduce((changed, { end, name, minutes }) => {
+    const number = name
+      ? getIn(request, [...customer, 'pickups']).findIndex(({ id }) => id === name) : -1;
+    const keys = [...customer, ...(number < 0 ? [end] : ['pickups', number])];
+    const last = windowsOf(getIn(request, keys)).length - 1;
+    return closeLater(changed, keys, last, minutes.split(' ')[0]);
+  }, request);
+}
+
+/** Let so much time lie between a customer, or a shipment, and whoever is next in his orders. */
+function lengthenLags(request, { id, customer: [all] }, minutes) {
+  const names = all === 'customers' ? [id] : endsOf(
+    request.shipments.find((shipment) => shipment.id === id)).map(({ name }) => name);
+  const least = numberOf(minutes) * SECONDS_PER_MINUTE;
+  const isIts = ({ max_lag: lag, customers }) =>
+    typeof lag === 'number' && lag < least && customers.some((name) => names.includes(name));
+  return {
+    ...request,
+    relations: request.relations.map((relation) =>
+      (isIts(relation) ? { ...relation, max_lag: least } : relation)),
+  };
 }
 
 /** Let relations bind a customer, or a shipment, no longer; of one alone nothing is left. */
@@ -349,9 +371,14 @@ export function applyRemedy(request, id, reason, kind = 'customer') {
     customer: [all, (request[all] ?? []).findIndex((customer) => customer.id === id)],
   };
   if (!reason.remedy || places.type[1] < 0 || places.customer[1] < 0) return null;
+  return partsOf(reason.remedy).reduce(
+    (changed, remedy) => changed && applyOne(changed, places, { ...reason, remedy }), request);
+}
+
+function applyOne(request, places, { remedy, code: cause }) {
   for (const [pattern, change, code] of CHANGES) {
-    const match = pattern.exec(reason.remedy);
-    if (match && (!code || code === reason.code)) return change(request, places, ...match.slice(1));
+    const match = pattern.exec(remedy);
+    if (match && (!code || code === cause)) return change(request, places, ...match.slice(1));
   }
   return null;
 }

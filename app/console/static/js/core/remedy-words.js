@@ -2,6 +2,7 @@
 
 import { language, t } from '../texts.js';
 import { timesInWords } from './format.js';
+import { endWindows, partsOf } from './remedy-parts.js';
 
 const NUMBER = '(?<number>[\\d.,]+)';
 const TIME = '(?<time>[\\d.,]+ minutes?)';
@@ -30,12 +31,17 @@ const SAID = [
   ['lastWindow', `fits if its last window closed ${TIME} later`],
   ['itsWindow', `fits if its window closed ${TIME} later`],
   ['window', `fits if its window ${NUMBER} closed ${TIME} later`],
+  ['windowOf', `fits if its window ${NUMBER} at ${NAME} closed ${TIME} later`],
   ['aboard', `fits if it could be aboard ${TIME} longer`],
   ['shift', `fits if ${NAME}'s shift ended ${TIME} later`],
   ['windowAt', `fits if its (?:last )?window at ${NAME} closed ${TIME} later`],
-  ['pickupWindow', `fits if the (?:last )?window of its pickup closed ${TIME} later`],
-  ['deliveryWindow', `fits if the (?:last )?window of its delivery closed ${TIME} later`],
   ['between', `fits if max_time_between were at least ${TIME}`],
+  ['betweenAndDetour',
+    `fits if max_time_between were at least ${TIME} and max_detour were at least ${NUMBER}`],
+  ['lag', `fits if max_lag of its orders were at least ${TIME}`],
+  ['vehicleOf', `fits with one more vehicle of ${NAME}`],
+  ['travels', `fits if ${NAME} could travel ${TIME} longer`],
+  ['drivesDay', `fits if ${NAME}'s drivers could drive ${TIME} a day`],
   ['detour', `fits if max_detour were at least ${NUMBER}`],
   ['breakLoad', `fits if break ${NAME} allowed (?<number>.+) aboard`],
   ['breakLater', `fits if break ${NAME} could begin ${TIME} later`],
@@ -54,10 +60,30 @@ const SAID = [
   ['works', `fits if ${NAME} could work ${TIME} longer`],
 ].map(([name, pattern]) => ({ name, pattern: new RegExp(`^${pattern}$`) }));
 
+/** What begins each remedy, which stands once where several belong together. */
+const BEGIN = /^(?:fits|passt),? /;
+
 /** Return a remedy in the page's language; in the service's if it is none that is known. */
 export function remedyInWords(remedy) {
   const english = timesInWords(remedy);
   if (language() === 'en') return english;
+  const windows = endWindows(remedy);
+  if (windows) {
+    return t('remedy.endWindows', { windows: windows.map(windowInWords).join(t('remedy.and')) });
+  }
+  const parts = partsOf(remedy);
+  if (parts.length === 1) return oneInWords(remedy, english);
+  const [first, ...others] = parts.map((part) => remedyInWords(part));
+  return [first, ...others.map((part) => part.replace(BEGIN, ''))].join(t('remedy.and'));
+}
+
+function windowInWords({ end, name, minutes }) {
+  const time = timesInWords(minutes.replaceAll(',', ''));
+  if (end === 'delivery') return t('remedy.deliveryWindow', { time });
+  return name ? t('remedy.pickupWindowOf', { name, time }) : t('remedy.pickupWindow', { time });
+}
+
+function oneInWords(remedy, english) {
   for (const { name, pattern } of SAID) {
     const found = pattern.exec(remedy)?.groups ?? (pattern.test(remedy) ? {} : null);
     if (found) {

@@ -31,7 +31,12 @@ export function resolve(schemas, schema) {
   if (!all) return { schema, nullable: false };
   const kinds = all.filter(({ type }) => type !== 'null');
   const found = resolve(schemas, kinds[0]);
-  return { schema: { ...found.schema, ...own }, nullable: kinds.length < all.length };
+  // Texts are found by what the schema is called, not the field that may hold it.
+  const title = found.schema.title ?? own.title;
+  return {
+    schema: { ...found.schema, ...own, ...(title && { title }) },
+    nullable: kinds.length < all.length,
+  };
 }
 
 /** Return the kind of input that a schema asks for. */
@@ -105,8 +110,17 @@ function plainLabel(name) {
  * @param schema of the field
  */
 export function helpOf(owner, name, schema) {
-  return schema.help ?? t(`help.${owner}.${name}`, { defaultValue: apiHelpOf(schema) });
+  const own = schema.help ?? t(`help.${owner}.${name}`, { defaultValue: '' });
+  if (own || !(owner in LIKE)) return own || apiHelpOf(schema);
+  return helpOf(LIKE[owner], name, schema);
 }
+
+/** Schemas whose fields mean what those of the same name in another do. */
+const LIKE = {
+  ShipmentPickupInput: 'ShipmentEndInput',
+  ShipmentEndInput: 'CustomerInput',
+  ShipmentInput: 'CustomerInput',
+};
 
 /** Return the API's own description, in plain text. */
 export function apiHelpOf(schema) {

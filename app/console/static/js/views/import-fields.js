@@ -31,19 +31,22 @@ function TextField({ field: { name, example, empty = '' }, reply, value, isWrong
     ${isWrong && html`<span class="error">${t('import.writeAs', { example })}</span>`}</label>`;
 }
 
-/** Return what is taken where nothing is stated. */
+/** Return what is taken where nothing is stated, of several types what they have in common. */
 function assumed({ request }, name) {
   if (!request) return null;
-  const [kind] = request.fleet;
+  const alike = (value) => {
+    const [first, ...others] = request.fleet.map(value);
+    return others.every((other) => other === first) ? first : undefined;
+  };
   const geographic = request.coordinate_system === 'geographic';
   const depot = request.depots[0].location;
   return {
     depot: Array.isArray(depot) ? (geographic ? [...depot].reverse() : depot).join(', ') : null,
-    vehicles: String(kind.count),
-    capacity: kind.capacity.join(' '),
-    max_trips: text(kind.max_trips),
-    per_hour: text(kind.costs?.per_hour),
-    per_km: text(kind.costs?.per_km),
+    vehicles: String(request.fleet.reduce((sum, { count }) => sum + count, 0)),
+    capacity: text(alike(({ capacity }) => capacity.join(' '))),
+    max_trips: text(alike((kind) => kind.max_trips)),
+    per_hour: text(alike(({ costs }) => costs?.per_hour)),
+    per_km: text(alike(({ costs }) => costs?.per_km)),
     currency: request.currency,
   }[name];
 }
