@@ -171,13 +171,15 @@ inline bool follow_departure(const VehicleType& type, Rests rests) {
     return false;
 }
 
+// Whether a break counts in the working duration.
+inline bool is_paid(const VehicleType& type, Int number) { return type.break_unpaid[number] == 0; }
+
 // How long the breaks between two stops are that don't count in the working duration.
 inline Int unpaid_of(const VehicleType& type, Rests rests) {
     Int unpaid = 0;
     for (Int index = 0; index < rests.count(); ++index) {
         const Int number = rests.number(index);
-        if (is_stated(number) && type.break_unpaid[number] == 1)
-            unpaid += type.break_duration[number];
+        if (is_stated(number) && !is_paid(type, number)) unpaid += type.break_duration[number];
     }
     return unpaid;
 }

@@ -85,6 +85,21 @@ inline void pause(const VehicleType& type, Driver& driver, Int length, Int end) 
     if ((first > 0 || second > 0) && length >= first) driver.half_rested = 1;
 }
 
+// How long a rest is at least, in one or in two parts.
+inline Int least_rest(const VehicleType& type) {
+    const Int first = rest_duration(type, first_part), second = rest_duration(type, second_part);
+    const Int whole = rest_duration(type, whole_rest);
+    return first > 0 || second > 0 ? std::min(whole, first + second) : whole;
+}
+
+// By how much less a driver rests, at most, who pauses for so long anyway.
+inline Int most_saved_by(const VehicleType& type, Int length) {
+    const Int first = rest_duration(type, first_part), second = rest_duration(type, second_part);
+    const Int each = least_rest(type);
+    if (length >= each || each < first + second) return std::min(length, each);
+    return std::max(length >= first ? first : 0, length >= second ? second : 0);
+}
+
 // How long a driver rests at least who has so much `driving` before him, of all that `lasts` so
 // long.
 inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, Int driving,
@@ -96,9 +111,7 @@ inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, In
     if (limits_work(type))
         times = std::max(times, (now - driver.since + lasting - 1) / type.max_work);
     if (times <= 0) return 0;
-    const Int first = rest_duration(type, first_part), second = rest_duration(type, second_part);
-    const Int whole = rest_duration(type, whole_rest);
-    const Int each = first > 0 || second > 0 ? std::min(whole, first + second) : whole;
+    const Int each = least_rest(type), second = rest_duration(type, second_part);
     return (driver.half_rested == 1 ? std::min(each, second) : each) + (times - 1) * each;
 }
 
@@ -110,6 +123,7 @@ public:
 
     Int time() const { return time_; }
     Int stood() const { return stood_; }
+    Int left() const { return left_; }
     const Driver& driver() const { return driver_; }
 
     // Whether the rest of the leg can't be driven at a stretch.

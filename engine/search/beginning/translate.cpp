@@ -103,7 +103,7 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     }
     if (has_breaks(data.type[route.type]) || limits_timed_travel(data.type[route.type])) {
         bool settled = false;
-        return price_as_is(data, fleet, slot, settled) &&
+        return price_as_is(data, fleet, slot, no_bar, settled) &&
                (settled || settle(data, route, stops, trips, sorties));
     }
     load_trips(data, route, stops, trips, sorties);

@@ -386,7 +386,8 @@ bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, I
                                  : flown.serve(fleet, slot, way - driven.number());
 }
 
-double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node) {
+double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
+                  double bar) {
     const Int slot = move.slot, to = fleet.route.size() - 1;
     const Int k = fleet.route[slot].type, kind = move.kind;
     const Int depot = data.type[k].depot;
@@ -395,7 +396,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
         (is_apart(data, k) && kind >= new_trip) || whole) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, sequence_in(fleet, to), move, node, data.pair);
-        if (!refresh_cost(data, fleet, to)) return infeasible;
+        if (!refresh_cost(data, fleet, to, bar + fleet.cost[slot])) return infeasible;
         return fleet.cost[to] - fleet.cost[slot];
     }
     const Int there =
@@ -491,6 +492,6 @@ extern "C" int tandem_price_move(const tandem_problem_data* data, const tandem_f
                                  const tandem_move* move, int64_t node, double* cost) {
     return tandem::guarded([&] {
         tandem::Fleet routes = tandem::fleet_of(*fleet);
-        *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node);
+        *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node, tandem::infeasible);
     });
 }

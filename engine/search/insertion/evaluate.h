@@ -17,8 +17,10 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
 bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                         View<std::uint64_t, 1> rng);
 
-// Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be.
-double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node);
+// Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be, or is
+// known to cost no less than `bar` before the route is timed.
+double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
+                  double bar);
 
 // Tells whether `price_stop` can price a customer behind stop `p`.
 //

@@ -145,10 +145,10 @@ private:
         move.landing = brings ? delivery.last : pickup.last;
         move.drone = fetches ? fetching : bringing;
         move.sortie = bringing;
-        best.try_move(price_move(data, fleet, move, node), move);
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
         if (!brings || !flies_beside(delivery)) return;
         move.late = 1;
-        best.try_move(price_move(data, fleet, move, node), move);
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 
     const Int delivery_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "randomness.h"
+#include "rules/breaks.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
@@ -18,6 +19,7 @@
 #include "search/route/edit.h"
 #include "search/route/ends.h"
 #include "search/route/goods.h"
+#include "search/route/least_cost.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
@@ -63,6 +65,12 @@ struct LeastCost {
     }
 };
 
+// Returns how long a route could work longer at no cost.
+Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    return has_breaks(data.type[route.type]) ? route.working - least_working(data, route, stops)
+                                             : idle_time(route);
+}
+
 Stretch stretch_of(const Move& move) {
     const Int first = 2 * move.first, last = 2 * move.last;
     if (move.kind == by_halts) return {first + 1, last + 1};
@@ -71,11 +79,12 @@ Stretch stretch_of(const Move& move) {
     return {first, last};
 }
 
-// Returns what an insertion costs, at least `least`; `infeasible` if it can't be.
+// Returns what an insertion costs, at least `least`; `infeasible` if it can't be, or perhaps if
+// that is not below `best`.
 //
 // In place: a sortie's drone.
 double price_offer(const ProblemData& data, const Searcher& searcher, Move& move, Int node,
-                   double least) {
+                   double least, double best) {
     const Fleet& now = searcher.now;
     const Int kind = move.kind, slot = move.slot, p = move.first;
     if (kind == by_sortie || uses_halt(move)) {
@@ -90,7 +99,7 @@ double price_offer(const ProblemData& data, const Searcher& searcher, Move& move
                is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
         return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
     }
-    return price_move(data, now, move, node);
+    return price_move(data, now, move, node, best);
 }
 
 }  // namespace
@@ -136,7 +145,7 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
     const View<const Stop, 1> stops = now.stop[slot];
     const Newcomer newcomer = newcomer_for(data, data.type[k], node);
     const Room room = room_on(data, now, slot, k, node);
-    const LeastCost least{data, newcomer, k, idle_time(now.route[slot]),
+    const LeastCost least{data, newcomer, k, spare_time(data, now.route[slot], stops),
                           most_saved(data, now, slot, node)};
     const Int most = longest_trip(data.type[k]) - now.trip(slot, stops[first].trip).distance;
     for (Int p = first; p <= last; ++p) {
@@ -315,7 +324,8 @@ void take_cheapest(const Insertion& insertion) {
     while (left > 0 && !data.deadline.passed()) {
         const Int first = cheapest.first();
         if (least[first] >= best.cost) break;
-        const double cost = price_offer(data, searcher, offer[first], node, least[first]);
+        const double cost =
+            price_offer(data, searcher, offer[first], node, least[first], best.cost);
         best.try_move(cost, offer[first]);
         cheapest.take_out(first);
         offer[first] = offer[--left];

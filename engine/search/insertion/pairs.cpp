@@ -88,7 +88,7 @@ public:
                 last = spot;
                 if (is_dear(spot.least)) continue;
                 const Move move = move_of(both_ends, spot.p, spot.q);
-                const double cost = price_move(data, fleet, move, node);
+                const double cost = price_move(data, fleet, move, node, infeasible);
                 possible = possible || cost < infeasible;
                 best.try_move(cost, move);
             }
@@ -337,11 +337,11 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
             move.drone = fetching;
             if (fetching >= 0 && may_bring_within(data, move.type, fetching, partner)) {
                 move.sortie = on_same_flight;
-                best.try_move(price_move(data, fleet, move, node), move);
+                best.try_move(price_move(data, fleet, move, node, best.cost), move);
             }
             for_each_server(data, move.type, partner, [&](Int bringing) {
                 move.sortie = bringing;
-                best.try_move(price_move(data, fleet, move, node), move);
+                best.try_move(price_move(data, fleet, move, node, best.cost), move);
             });
         });
     }

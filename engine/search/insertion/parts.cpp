@@ -177,7 +177,7 @@ private:
         if (is_walked_ && delivery_.place.too_late(way.leave + out.duration)) return;
         Move move = move_of(all_ends, end_[0] / most_pickups, way.behind);
         std::copy(end_.begin(), end_.end(), move.end);
-        best.try_move(price_move(data, fleet, move, node), move);
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 
     const bool is_walked_;
@@ -212,7 +212,7 @@ void try_parts_trip(const Insertion& insertion, Int slot, Int behind) {
         for (const Int number : in_order(numbers, order)) {
             move.end[rank++] = picked_behind(behind + 1, number);
         }
-        best.try_move(price_move(data, fleet, move, node), move);
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 }
 

@@ -138,7 +138,7 @@ private:
                 free_drone(data, fleet, slot, {2 * place.first, 2 * place.last}, place.row);
             if (move.drone < 0) return;
         }
-        best.try_move(price_move(data, fleet, move, node), move);
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 
     const bool comes_first_;

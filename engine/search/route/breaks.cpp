@@ -46,13 +46,9 @@ public:
         : truck_(data, route.type),
           type_(truck_.type),
           stops_(stops.first(route.length)),
-          sorties_(sorties.first(route.sorties)) {
+          sorties_(sorties.first(route.sorties)),
+          due_(type_, begin_of(type_, stops)) {
         truck_.begin = begin_of(type_, stops);
-        for (Int number = 0; number < num_breaks(type_); ++number) {
-            if (!over_before(type_, number, truck_.begin)) {
-                due_[static_cast<std::size_t>(count_++)] = number;
-            }
-        }
     }
 
     bool run() {
@@ -79,9 +75,6 @@ public:
     }
 
 private:
-    // Return the number of a break that is due at the beginning.
-    Int due(Int number) const { return due_[static_cast<std::size_t>(number)]; }
-
     Label& at(Int number) { return labels_[static_cast<std::size_t>(number)]; }
 
     // Return the last stop of the block that begins at stop `p`, and pass its sorties.
@@ -103,7 +96,7 @@ private:
             return;
         }
         std::array<Label, most_labels> left;
-        for (Int number = 0; number <= count_; ++number) {
+        for (Int number = 0; number <= due_.count(); ++number) {
             if (at(number).time < far) fly(first, last, number, left);
         }
         labels_ = left;
@@ -129,13 +122,13 @@ private:
         leave_block(first, last, label);
         take_sooner(left[static_cast<std::size_t>(number)], label);
         Int from = first;
-        for (; number < count_; ++number) {
+        for (; number < due_.count(); ++number) {
             Label best;
             for (Int q = from; q < last; ++q) {
-                if (is_among(stops_[q].heavy, due(number))) continue;
+                if (is_among(stops_[q].heavy, due_[number])) continue;
                 for (const RestPlace place : {RestPlace::arrival, other_place(number)}) {
                     const Int before = stops_[q].rests;
-                    stops_[q].rests = Rests(before).with(due(number), place).packed();
+                    stops_[q].rests = Rests(before).with(due_[number], place).packed();
                     Label next = label.with(number, q, place, come.time);
                     next.waited = come.waited;
                     leave_block(first, last, next);
@@ -148,7 +141,7 @@ private:
             from = label.stop[static_cast<std::size_t>(number)];
             stops_[from].rests =
                 Rests(stops_[from].rests)
-                    .with(due(number), label.place[static_cast<std::size_t>(number)])
+                    .with(due_[number], label.place[static_cast<std::size_t>(number)])
                     .packed();
             take_sooner(left[static_cast<std::size_t>(number + 1)], label);
         }
@@ -174,22 +167,22 @@ private:
 
     // Where a break is taken that isn't taken where the truck arrives.
     RestPlace other_place(Int number) const {
-        return may_rest_on_way(type_, due(number)) ? RestPlace::way : RestPlace::departure;
+        return may_rest_on_way(type_, due_[number]) ? RestPlace::way : RestPlace::departure;
     }
 
     // Let the labels at stop `p` be those where the next is reached.
     void drive(Int p) {
         const Int setup = setup_after(truck_.data.setup, stops_[p].node, stops_[p + 1].node);
         const auto travel = truck_.legs_end(stops_[p], stops_[p + 1].node);
-        for (Int number = 0; number < count_; ++number) {
+        for (Int number = 0; number < due_.count(); ++number) {
             rest(at(number), number, p, RestPlace::departure);
         }
         std::array<Label, most_labels> there;
-        for (Int number = 0; number <= count_; ++number) {
+        for (Int number = 0; number <= due_.count(); ++number) {
             if (at(number).time < far) ride(at(number), number, p, travel, there);
         }
         labels_ = there;
-        for (Int number = 0; number < count_; ++number) {
+        for (Int number = 0; number < due_.count(); ++number) {
             rest(at(number), number, p, RestPlace::arrival);
         }
         for (Label& label : labels_) {
@@ -199,9 +192,9 @@ private:
 
     // Take a break where the truck is.
     void rest(const Label& label, Int number, Int p, RestPlace place) {
-        const Break pause = break_of(type_, due(number), truck_.begin);
+        const Break pause = break_of(type_, due_[number], truck_.begin);
         if (label.time < far && pause.may_begin(label.time) &&
-            !is_among(stops_[p].heavy, due(number))) {
+            !is_among(stops_[p].heavy, due_[number])) {
             take_sooner(at(number + 1), label.with(number, p, place, pause.end(label.time)));
         }
     }
@@ -216,8 +209,9 @@ private:
             BrokenLeg rest_of_leg = leg;
             label.time = rest_of_leg.arrive();
             take_sooner(there[static_cast<std::size_t>(number)], label);
-            if (number == count_ || !may_rest_on_way(type_, due(number)) ||
-                is_among(stops_[p].heavy, due(number)) || !leg.rest(due(number), RestPlace::way)) {
+            if (number == due_.count() || !may_rest_on_way(type_, due_[number]) ||
+                is_among(stops_[p].heavy, due_[number]) ||
+                !leg.rest(due_[number], RestPlace::way)) {
                 return;
             }
             label = label.with(number, p, RestPlace::way, leg.time());
@@ -234,10 +228,11 @@ private:
     bool write() {
         const Label* best = nullptr;
         Int taken = 0;
-        for (Int number = 0; number <= count_; ++number) {
+        for (Int number = 0; number <= due_.count(); ++number) {
             const Label& label = at(number);
             if (label.time < far && (best == nullptr || is_better(label, *best)) &&
-                (number == count_ || none_due(type_, due(number), truck_.begin, label.time))) {
+                (number == due_.count() ||
+                 none_due(type_, due_[number], truck_.begin, label.time))) {
                 best = &label;
                 taken = number;
             }
@@ -247,7 +242,7 @@ private:
         for (Int number = 0; number < taken; ++number) {
             const auto index = static_cast<std::size_t>(number);
             Stop& stop = stops_[best->stop[index]];
-            stop.rests = Rests(stop.rests).with(due(number), best->place[index]).packed();
+            stop.rests = Rests(stop.rests).with(due_[number], best->place[index]).packed();
         }
         return true;
     }
@@ -256,8 +251,7 @@ private:
     const VehicleType& type_;
     View<Stop, 1> stops_;
     View<Sortie, 1> sorties_;
-    Int count_ = 0;  // of the breaks that the beginning doesn't come too late for
-    std::array<Int, most_breaks> due_{};
+    DueBreaks due_;
     std::array<Label, most_labels> labels_;
     Waits waits_{truck_, stops_, sorties_};
     Int sortie_ = 0;  // the first not passed, and the first behind the block

@@ -1,6 +1,10 @@
 // Where the breaks of a route are taken.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
 #include "rules/breaks.h"
 #include "search/route/layout.h"
 
@@ -10,6 +14,25 @@ namespace tandem {
 inline Int begin_of(const VehicleType& type, View<const Stop, 1> stops) {
     return std::max(type.shift_earliest, std::max(stops[0].release, stops[0].hold));
 }
+
+// The breaks that a route has which begins at an instant, unless it ends before them, in order.
+class DueBreaks {
+public:
+    DueBreaks(const VehicleType& type, Int begin) {
+        for (Int number = 0; number < num_breaks(type); ++number) {
+            if (!over_before(type, number, begin)) {
+                number_[static_cast<std::size_t>(count_++)] = number;
+            }
+        }
+    }
+
+    Int count() const { return count_; }
+    Int operator[](Int index) const { return number_[static_cast<std::size_t>(index)]; }
+
+private:
+    Int count_ = 0;
+    std::array<Int, most_breaks> number_;
+};
 
 // Return how long the breaks on a route are that don't count in the working duration.
 inline Int unpaid_on(const VehicleType& type, View<const Stop, 1> stops) {

@@ -17,6 +17,7 @@
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
 #include "search/route/lags.h"
+#include "search/route/least_cost.h"
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
@@ -211,8 +212,9 @@ bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
 
 // As `price_loaded`, where a driver who begins later may have had breaks before.
 //
-// That is tried where time counts, or nothing else goes.
-bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+// That is tried where time counts and the route may cost less, `least`, or nothing else goes.
+bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double least,
+                 bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const VehicleType& type = data.type[route.type];
@@ -225,7 +227,8 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
             chosen = begin;
             best = fleet.cost[slot];
         }
-        const bool is_enough = possible ? !data.evaluation[route.type].timed : chosen != none;
+        const bool is_enough =
+            chosen != none && (!possible || best <= least || !data.evaluation[route.type].timed);
         const Int later = later_begin(type, begin);
         if (is_enough || !may_end(type, later)) {
             if (chosen == none || (possible && chosen == begin)) return chosen != none;
@@ -256,7 +259,7 @@ bool price_faster(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
 // As `refresh`, with trips that end where they do.
 bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     bool settled = false;
-    if (!price_as_is(data, fleet, slot, settled)) return false;
+    if (!price_as_is(data, fleet, slot, no_bar, settled)) return false;
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     if (orders_cross(data)) plan_starts(route, stops);
@@ -326,7 +329,7 @@ void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
 
 }  // namespace
 
-bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
@@ -337,7 +340,11 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
     const VehicleType& type = data.type[route.type];
-    if (has_breaks(type)) return price_later(data, fleet, slot, settled);
+    if (may_rest(type)) {
+        const double least = least_cost(data, fleet, slot);
+        if (least >= bar) return false;
+        if (has_breaks(type)) return price_later(data, fleet, slot, least, settled);
+    }
     return limits_timed_travel(type) ? price_faster(data, fleet, slot, settled)
                                      : price_loaded(data, fleet, slot, settled);
 }
@@ -410,11 +417,11 @@ void put_back(const ProblemData& data, const Fleet& fleet, Int slot, Int from) {
     }
 }
 
-bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
+bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, double bar) {
     const Route& route = fleet.route[slot];
     if (is_apart(data, route.type)) return refresh(data, fleet, slot);
     bool settled = false;
-    return price_as_is(data, fleet, slot, settled);
+    return price_as_is(data, fleet, slot, bar, settled);
 }
 
 Int any_customer(const ProblemData& data, const Fleet& fleet, View<std::uint64_t, 1> rng) {

@@ -13,11 +13,15 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties);
 
+// What no route costs.
+constexpr double no_bar = 1e300;
+
 // Write times and cost of a route with trips that end where they do. In place; false if it breaks
 // a rule.
 //
-// Where that costs less, its trips are held back; `settled` tells.
-bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled);
+// Where that costs less, its trips are held back; `settled` tells. False, too, if it is known to
+// cost no less than `bar` before it is timed.
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled);
 
 // Write all that follows from the sequence of a route. In place; false if it breaks a rule.
 //
@@ -32,8 +36,8 @@ void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to);
 // Where others hang on when it serves whom, that is the same to the millisecond.
 void put_back(const ProblemData& data, const Fleet& fleet, Int slot, Int from);
 
-// As `refresh`, of a route whose cost is all that is asked.
-bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot);
+// As `refresh`, of a route whose cost is all that is asked, and that only if it is below `bar`.
+bool refresh_cost(const ProblemData& data, const Fleet& fleet, Int slot, double bar);
 
 // Return how much of the time that a route works is waiting, which a change may use up.
 //

@@ -33,6 +33,11 @@ struct RestLabel {
     std::int32_t last;    // among those taken, -1 if there is none
 };
 
+// Tell whether a driver may have a rest more on the leg.
+inline bool has_room(const RestLabel& label) {
+    return label.count < most_rests_on_route && label.on_leg < most_rests;
+}
+
 // Tell whether one is no worse than another, whatever comes. Of drones that are out, who left later
 // lasts longer, but is back later.
 inline bool is_no_worse(const RestLabel& one, const RestLabel& other) {
@@ -46,6 +51,10 @@ inline bool is_no_worse(const RestLabel& one, const RestLabel& other) {
 // Labels of which none is no worse than another.
 class RestLabels {
 public:
+    static constexpr std::size_t all = 48;
+
+    explicit RestLabels(std::size_t most) : most_(most) {}
+
     const RestLabel* begin() const { return label_.data(); }
     const RestLabel* end() const { return label_.data() + count_; }
     void clear() { count_ = 0; }
@@ -63,7 +72,7 @@ public:
             ++kept;
         }
         count_ = kept;
-        if (count_ < most) {
+        if (count_ < most_) {
             label_[count_++] = label;
             return true;
         }
@@ -76,9 +85,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t most = 48;
-
-    std::array<RestLabel, most> label_;
+    std::array<RestLabel, all> label_;
+    std::size_t most_;
     std::size_t count_ = 0;
 };
 
@@ -95,6 +103,25 @@ public:
     std::int32_t add(const TakenRest& rest) {
         taken_[static_cast<std::size_t>(count_)] = rest;
         return count_++;
+    }
+
+    // Let a driver have taken a rest more on the leg from stop `p`. In place.
+    void note(RestLabel& label, Int p, Int number, RestPlace place) {
+        label.last = add({static_cast<std::int32_t>(p), label.last,
+                          static_cast<std::int8_t>(number), static_cast<std::int8_t>(place)});
+        ++label.count;
+        ++label.on_leg;
+    }
+
+    // Call `take` for the rests up to one of them that are behind stop `first` or later, in order.
+    template <class Take>
+    void for_each_from(Int first, std::int32_t index, const Take& take) const {
+        std::array<std::int32_t, most_rests_on_route> found;
+        std::size_t count = 0;
+        for (; index >= 0 && (*this)[index].stop >= first; index = (*this)[index].before) {
+            found[count++] = index;
+        }
+        while (count > 0) take((*this)[found[--count]]);
     }
 
     // Forget those from a number on, which no label has.

@@ -1,0 +1,89 @@
+#include "search/route/rest_legs.h"
+
+namespace tandem {
+
+void RestLegs::drive(const RestLabel& label, const Way& way, RestLabels& there) {
+    way_ = way;
+    left_ = label.time;
+    there_ = &there;
+    ride(label, route_.leg_of(label, way), RestPlace::departure);
+}
+
+// Drive what is left of a leg, with rests where one has to, and perhaps one at its end, and with
+// breaks at this `place` of it and behind.
+void RestLegs::ride(const RestLabel& label, const RestedLeg& leg, RestPlace place) {
+    take_break(label, leg, place);
+    if (leg.is_too_long()) {
+        rest(label, leg, RestPlace::way);
+        return;
+    }
+    RestedLeg arriving = leg;
+    arriving.arrive();
+    come(label, arriving);
+    // Who may drive on to the end needs no rest.
+    if (may_need_rest(type_, arriving.driver(), way_.ahead.driving)) {
+        rest(label, leg, RestPlace::arrival);
+    }
+}
+
+// Take each rest that may come next, and go on.
+void RestLegs::rest(const RestLabel& label, const RestedLeg& leg, RestPlace place) {
+    if (!way_.may_rest) return;
+    for (const Int number : {whole_rest, first_part, second_part}) {
+        if (may_rest(type_, leg.driver(), number)) take(label, leg, number, place);
+    }
+}
+
+// Take the next break that is stated, and go on.
+void RestLegs::take_break(const RestLabel& label, const RestedLeg& leg, RestPlace place) {
+    if (label.next == route_.due.count()) return;
+    const Int number = route_.due[label.next];
+    if (is_among(route_.stops[way_.p].heavy, number)) return;
+    RestLabel next = label;
+    ++next.next;
+    if (place == RestPlace::departure) take(next, leg, number, place);
+    if (place != RestPlace::arrival && may_rest_on_way(type_, number)) {
+        take(next, leg, number, RestPlace::way);
+    }
+    take(next, leg, number, RestPlace::arrival);
+}
+
+// Take a break or a rest, and go on. Who has rested where a leg ends has driven nothing since, but
+// may have taken half a rest.
+void RestLegs::take(RestLabel next, const RestedLeg& leg, Int number, RestPlace place) {
+    if (!has_room(next) || taken_.is_full()) return;
+    RestedLeg rested = leg;
+    if (rested.take(number, place) == none || !may_be_best(next, rested)) return;
+    const std::int32_t before = taken_.count();
+    const Int kept = kept_;
+    taken_.note(next, way_.p, number, place);
+    if (place != RestPlace::arrival) {
+        ride(next, rested, place);
+    } else {
+        come(next, rested);
+        take_break(next, rested, place);
+        const bool may_again = number == first_part || is_stated(number);
+        if (may_again && may_need_rest(type_, rested.driver(), way_.ahead.driving)) {
+            rest(next, rested, place);
+        }
+    }
+    if (kept_ == kept) taken_.forget(before);
+}
+
+// Note that a leg is over, if that may be best.
+void RestLegs::come(RestLabel label, const RestedLeg& leg) {
+    if (!may_be_best(label, leg)) return;
+    route_.arrive(label, way_, leg, left_);
+    if (there_->add(label)) ++kept_;
+}
+
+// Tell whether a way may be better than the best known, somewhere on the leg.
+bool RestLegs::may_be_best(RestLabel label, const RestedLeg& leg) const {
+    route_.arrive(label, way_, leg, left_);
+    if (label.time + leg.left() > route_.stops[way_.p + 1].latest) return false;
+    if (!best_.is_known()) return true;
+    const Ahead ahead{way_.ahead.driving + leg.left(), way_.ahead.lasting + leg.left()};
+    return best_.may_be_better(route_.bound_of(label, label.time, ahead));
+}
+
+}  // namespace tandem

@@ -1,0 +1,110 @@
+// A route on which those rest whom rules ask to, and what of it hangs on no rest.
+#pragma once
+
+#include <array>
+#include <utility>
+
+#include "rules/driving.h"
+#include "search/route/block.h"
+#include "search/route/breaks.h"
+#include "search/route/rest_labels.h"
+#include "search/route/rest_placing.h"
+
+namespace tandem {
+
+// What of a route lies ahead: how long its legs are, and all of it, as far as nobody waits or
+// rests.
+struct Ahead {
+    Int driving;
+    Int lasting;
+};
+
+// A leg, driven while drones are out or not, and what lies behind it.
+struct Way {
+    Int p;  // the stop before it
+    Int duration;
+    Int setup;
+    Ahead ahead;
+    bool flying;
+    bool may_rest;
+};
+
+// How whoever reaches a stop without flights stays there.
+struct Stay {
+    Int waits;  // for how long
+    Int ends;
+};
+
+// What the end of a route costs, and when it is. Of two, that is better which is less.
+using Ending = std::pair<double, Int>;
+
+constexpr Ending no_ending{1e300, far};
+
+class RestRoute {
+public:
+    RestRoute(const ProblemData& data, const Route& route, View<Stop, 1> row,
+              View<Sortie, 1> flights, const LeastWork& least);
+
+    const Truck truck;
+    const VehicleType& type;
+    const View<Stop, 1> stops;
+    const View<Sortie, 1> sorties;
+    const DueBreaks due;
+
+    bool is_last(Int p) const { return p + 1 == stops.size(); }
+
+    // Return a driver who is about to begin.
+    RestLabel beginning() const;
+
+    // Return what all of the route is.
+    Ahead whole() const;
+
+    // Write until when each stop may be reached at all, as far as flights and orders don't count.
+    void note_latest() const;
+
+    // Return the leg from a stop, from which so much lies ahead.
+    Way way_from(Int p, const Ahead& ahead, bool flying) const;
+
+    // Return the leg for a driver who leaves so.
+    RestedLeg leg_of(const RestLabel& label, const Way& way) const {
+        return {type, truck.begin, label.driver, label.time, way.duration};
+    }
+
+    // Write a stop without flights that is reached at an instant. In place; false if too late.
+    bool reach_alone(Int p, Int time) const;
+
+    // Let a driver leave the block that begins with a stop, which is timed. In place; false if that
+    // is too much work.
+    bool leave_block(RestLabel& label, Int first) const;
+
+    // Let a driver be where a leg ends that was left at `left`. In place.
+    void arrive(RestLabel& label, const Way& way, const RestedLeg& leg, Int left) const;
+
+    // Let a driver pass the end of a trip. In place.
+    void reload(RestLabel& label, Int p) const;
+
+    Stay stay_at(Int p, Int time) const;
+
+    // Return what a way that has come to the end costs; `no_ending` if rules are broken.
+    Ending ending_of(const RestLabel& label) const;
+
+    // Return what a way costs at least that is somewhere at an instant.
+    Ending bound_of(const RestLabel& label, Int time, const Ahead& ahead) const;
+
+    // Let nobody rest between two stops. In place.
+    void rest_nowhere(Int first, Int last) const;
+
+    // Take a rest. In place.
+    void take(const TakenRest& taken) const;
+
+private:
+    Int driving_at(Int p) const;
+    Int lasting_at(Int p) const;
+    Int least_pause(const RestLabel& label, Int time, const Ahead& ahead) const;
+    Ending ending_of(Int end, Int working) const;
+    Int working_of(Int end, const RestLabel& label, Int cum) const;
+
+    const LeastWork least_;
+};
+
+}  // namespace tandem
