@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
+from model.judge.chargers import with_charging
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
 from model.engine.alarm import Alarm
@@ -17,7 +18,7 @@ from model.engine.instance import Instance, pack
 from model.engine.pausing import EndedError, Pause, never, pausing
 from model.policy.decode import DecodeConfig, Policy, decode, load_policy, prepare
 from model.policy.rolling import NOTHING
-from model.problem import Problem
+from model.problem import Problem, limits_chargers
 from model.search.improve import GRACE, Improved, SearchConfig, improve
 from model.search.improve import Progress as Progress
 from model.search.reserve import more_by_plan, usual_reserve
@@ -193,7 +194,8 @@ class Planner:
 
 def _shared(problem: Problem, options: PlanOptions) -> PlanOptions:
     """Return options by which threads needn't know what others' vehicles do where that counts."""
-    knows = problem.fairness.is_stated or bool(problem.lags_across)
+    knows = (problem.fairness.is_stated or bool(problem.lags_across)
+             or limits_chargers(problem))
     return replace(options, threads=1) if knows else options
 
 
@@ -247,6 +249,7 @@ class _Judged:
 
 
 def _judged(judge: Memory, solution: Solution) -> _Judged:
+    solution = with_charging(judge.problem, solution)
     evaluation = judge.check(solution)
     if evaluation.violations:
         raise PlanCheckError("; ".join(f"{violation.path}: {violation.message}"

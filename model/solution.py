@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, replace
-from typing import Literal
+from typing import Literal, NamedTuple
 
 BreakPlace = Literal["departure", "way", "arrival"]
 """Where a break between two stops is taken: at the first, on the way, or at the second."""
@@ -73,6 +73,13 @@ class TakenBreak:
     end: int
 
 
+class Charge(NamedTuple):
+    """From when until when a vehicle that flies is charged at a depot."""
+
+    start: int
+    end: int
+
+
 @dataclass(frozen=True, slots=True)
 class Trip:
     """Depot to depot on one loading."""
@@ -80,6 +87,7 @@ class Trip:
     stops: tuple[Stop, ...]
     sorties: tuple[Sortie, ...] = ()
     breaks: tuple[TakenBreak, ...] = ()  # in order
+    charges: tuple[Charge, ...] = ()  # before it, in order, where places to charge are shared
 
     @property
     def customer_stops(self) -> list[Stop]:
@@ -131,7 +139,7 @@ def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
     def trip(old: Trip) -> Trip:
         return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
                                stop.setup, stop.is_launch_site) for stop in old.stops),
-                    tuple(sortie(each) for each in old.sorties), old.breaks)
+                    tuple(sortie(each) for each in old.sorties), old.breaks, old.charges)
 
     def sortie(old: Sortie) -> Sortie:
         return replace(old, visits=tuple([

@@ -4,9 +4,10 @@ from collections.abc import Iterable, Sequence
 from itertools import accumulate
 from typing import Any
 
+from model.judge.chargers import levels
 from model.judge.energy import charges, sortie_energies
 from model.judge.flown_trips import trip_charges, trip_energies
-from model.problem import MICROJOULES_PER_WH, Energy, Problem
+from model.problem import MICROJOULES_PER_WH, Energy, Problem, shares_chargers
 from model.solution import Route, Trip
 
 Data = dict[str, Any]
@@ -41,7 +42,10 @@ def left_by_trips(problem: Problem, route: Route) -> list[list[Data]]:
     kind = problem.vehicle_types[route.vehicle_type]
     if kind.energy is None:
         return [[{}] * len(trip.stops) for trip in route.trips]
-    there = trip_charges(problem, kind, route.trips)
+    if shares_chargers(problem, kind):
+        there = levels(problem, kind, route.trips)
+    else:
+        there = trip_charges(problem, kind, route.trips)
     return [_left(kind.energy, before, [0, *trip_energies(problem, kind, kind.energy, trip)])
             for before, trip in zip(there, route.trips, strict=True)]
 

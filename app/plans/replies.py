@@ -12,7 +12,8 @@ from app.schemas.customer import place_name
 from app.schemas.driving import REST_ID
 from app.schemas.shipment import end_name
 from model.judge.check import Evaluation
-from model.judge.hubs import taken_at_hubs
+from model.judge.chargers import most_charged
+from model.judge.hubs import batteries_taken
 from model.judge.explain import Reason, explain
 from model.judge.fairness import vehicles_lacking
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
@@ -75,10 +76,10 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
 
 def hubs_reply(problem: Problem, solution: Solution) -> list[Data]:
     """Return what is left at depots that have only so much for who flies."""
-    taken = taken_at_hubs(problem, solution.routes)
+    taken = batteries_taken(problem, solution.routes)
     return [{"depot": depot.id,
-             "batteries_left": _left(depot.batteries, taken.batteries[node]),
-             "chargers_left": _left(depot.chargers, taken.chargers[node])}
+             "batteries_left": _left(depot.batteries, taken[node]),
+             "chargers_left": _left(depot.chargers, most_charged(problem, solution, node))}
             for node, depot in enumerate(problem.depots)
             if depot.batteries is not None or depot.chargers is not None]
 
@@ -135,6 +136,8 @@ def _trip(problem: Problem, kind: int, vehicle: str, trip: Trip, metrics: TripMe
                         trip.sorties, metrics.sorties, left_by_sorties(problem, kind, trip),
                         strict=True)],
         "energy_wh": energy_wh(_flights(metrics)),
+        **({"charging": [{"start": charge.start / 1000, "end": charge.end / 1000}
+                         for charge in trip.charges]} if trip.charges else {}),
     }
 
 

@@ -22,7 +22,9 @@ from app.schemas.request import DepotInput
 from app.schemas.times import read_body
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import REST, Problem, VehicleType
-from model.solution import BreakPlace, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
+from model.solution import (
+    BreakPlace, Charge, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit,
+)
 
 NO_MORE = -1
 """Node of a customer whom a plan serves and the problem no longer has."""
@@ -247,12 +249,14 @@ class _PlanReader:
         return self._find(path, "customer", customers, name, name, 0)
 
     def _trip(self, path: Path, trip: TripInput, vehicle: str, kind: KnownType) -> Trip:
+        charges = tuple(Charge(thousandths(each.start), thousandths(each.end))
+                        for each in trip.charging)
         stops = tuple(self._stop((*path, "stops", index), stop)
                       for index, stop in enumerate(trip.stops) if stop.kind != "break")
         sorties = tuple(self._sortie((*path, "sorties", index), sortie, vehicle, kind)
                         for index, sortie in enumerate(trip.sorties))
         if len(stops) == len(trip.stops):
-            return Trip(stops, sorties)
+            return Trip(stops, sorties, (), charges)
         places = _places(trip.stops)
         flown = tuple(replace(sortie, launch_stop=places.get(sortie.launch_stop, -1),
                               recovery_stop=places.get(sortie.recovery_stop, -1))

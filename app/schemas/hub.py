@@ -1,6 +1,8 @@
-"""What is left of what a depot has for vehicles that fly."""
+"""What depots have for vehicles that fly: what is left of it, and who is charged when."""
 
 from pydantic import BaseModel, ConfigDict, Field
+
+from app.schemas.times import InstantReply
 
 
 class HubReply(BaseModel):
@@ -10,4 +12,14 @@ class HubReply(BaseModel):
 
     depot: str = Field(description="Id of the depot.")
     batteries_left: int | None = Field(description="Charged batteries. Null: enough.")
-    chargers_left: int | None = Field(description="Places to charge. Null: enough.")
+    chargers_left: int | None = Field(
+        description="Places to charge that are never needed. Null: enough.")
+
+
+class ChargingReply(BaseModel):
+    """From when until when a vehicle that flies is charged."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    start: InstantReply = Field(description="It is plugged in.")
+    end: InstantReply = Field(description="It is unplugged.")

@@ -149,6 +149,13 @@ class SortieInput(_Plan):
     recovery_geometry: Line = None
 
 
+class ChargingInput(_Plan):
+    """From when until when a vehicle that flies is charged."""
+
+    start: Instant = Field(description="It is plugged in.")
+    end: Instant = Field(description="It is unplugged.")
+
+
 class TripInput(_Plan):
     """Depot to depot on one loading."""
 
@@ -162,6 +169,9 @@ class TripInput(_Plan):
     distance: Number = None
     duration: Number = None
     energy_wh: Number = None
+    charging: tuple[ChargingInput, ...] = Field(
+        (), description="When its vehicle is charged before it. What doesn't hold, or is left out, "
+        "is found anew.")
 
 
 class RouteInput(_Plan):

@@ -56,7 +56,7 @@ class DepotInput(Input):
         "Each trip that begins here takes one, unless its vehicle is charged. Null: enough.")
     chargers: Count | None = Field(
         None, description="Places to charge here, for vehicles that fly and have `charge_w`. Each "
-        "is one vehicle's all day; who has none makes one trip. Null: enough.")
+        "is for one vehicle at a time; others wait for it between trips. Null: enough.")
 
 
 class MatrixInput(Input):

@@ -9,7 +9,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.hindrances import StormReply, ZoneReply
-from app.schemas.hub import HubReply
+from app.schemas.hub import ChargingReply, HubReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import (
     ALTERNATIVE_TEXT, PART_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
@@ -149,6 +149,10 @@ class TripReply(_Reply):
     sorties: list[SortieReply] = Field(description="Drone flights of this trip.")
     energy_wh: float | None = Field(
         description="What its flights take in watt-hours. Null: not known, or there are none."
+    )
+    charging: list[ChargingReply] | None = Field(
+        None, description="When its vehicle is charged before it, in order. Left out where it "
+        "isn't, or its depot has places enough."
     )
 
 

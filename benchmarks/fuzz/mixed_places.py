@@ -156,6 +156,9 @@ def fly_from_hubs(rng: random.Random, request: Data) -> None:
         "costs": {"fixed": 1, "per_km": 0.2, "per_hour": 0},
         **({"turnaround": {"swap_duration": 60}} if rng.random() < 0.3 else {}),
         **({"energy": _battery(rng)} if rng.random() < 0.3 else {})})
+    if rng.random() < 0.3:
+        request["fleet"][-1] |= {"energy": _battery(rng), "turnaround": {"charge_w": 200}}
+        request["depots"][0]["chargers"] = rng.choice((0, 1, 1, 2))
 
 
 def _battery(rng: random.Random) -> Data:

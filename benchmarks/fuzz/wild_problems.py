@@ -34,7 +34,8 @@ def wild_request(rng: random.Random) -> Data:
     dimensions, name = rng.choice((1, 1, 2, 2, 3, 3, 8)), rng.choice(NAMES)
     system, unit, place = _geography(rng)
     depots: list[Data] = [{"id": f"D{number}", "location": place(),
-                           **_maybe(rng, 0.1, time_window=_shift(rng))}
+                           **_maybe(rng, 0.1, time_window=_shift(rng)),
+                           **_maybe(rng, 0.2, chargers=rng.choice((0, 1, 1, 3)))}
                           for number in range(rng.randint(1, 3))]
     customers = [{"id": name.replace("#", str(number)), "location": place(),
                   **_customer(rng, dimensions)} for number in range(rng.choice(SIZES))]

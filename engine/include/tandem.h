@@ -95,6 +95,13 @@ typedef struct tandem_span {
     int64_t latest;
 } tandem_span;
 
+/* That one vehicle more, or less, is charged at a depot from a time on. */
+typedef struct tandem_plugging {
+    int64_t depot;
+    int64_t time;
+    int64_t change;
+} tandem_plugging;
+
 /* A vehicle type. Its speed changes are a number, -1 without a profile. What a vehicle carries
    beside its customers' is taken from its capacity; what it has worked when it may begin (`begun`)
    is taken from its working duration, and costs as if it were fixed. The end of the shift and the
@@ -106,8 +113,9 @@ typedef struct tandem_span {
    the first dimension. No drone, nor who flies by itself, is in the air while it storms.
    `rules/drone_types.h` says which rows tell of which drones. Of one that flies by itself, what is
    said of drones holds for its trips; its legs hold launches and recoveries. Each of its trips
-   takes a battery of the depot where it begins, or all beyond so many `trips_uncharged` together a
-   place to charge at its own. Its driver has so many breaks, in order, of a route that began at
+   takes a battery of the depot where it begins, or it is charged there, where it may have to wait
+   for that (`shares_chargers`); rollouts let it fly so many `trips_uncharged` unless it has a place
+   there all day. Its driver has so many breaks, in order, of a route that began at
    `breaks_since` if that isn't before all. Whose driver `must_rest`, does as `rules/driving.h`
    says. */
 typedef struct tandem_vehicle_type {
@@ -155,6 +163,7 @@ typedef struct tandem_vehicle_type {
     int64_t flies;
     int64_t takes_batteries;
     int64_t trips_uncharged;
+    int64_t shares_chargers;
     int64_t pickup_order;
     int64_t lifo; /* whether only what was loaded last can be unloaded */
     int64_t carried;
@@ -185,9 +194,9 @@ typedef struct tandem_vehicle_type {
     int64_t driven_before;
     int64_t worked_before;
     int64_t half_rested_before; /* whether the first part of a rest was the last */
-    int64_t rests_in_flights; /* whether the driver may rest while drones are out */
-    int64_t share_before;     /* what a vehicle has done of the work, -1: it isn't used yet */
-    int64_t keeps_hours; /* whether depots' hours limit its trips more than its shift does */
+    int64_t rests_in_flights;   /* whether the driver may rest while drones are out */
+    int64_t share_before;       /* what a vehicle has done of the work, -1: it isn't used yet */
+    int64_t keeps_hours;        /* whether depots' hours limit its trips more than its shift does */
 } tandem_vehicle_type;
 
 /* What a vehicle costs, and what per km, per customer of the truck and per hour, its drones' apart;
@@ -581,6 +590,9 @@ typedef struct tandem_trip {
     int64_t barred;
     int64_t kept; /* relations by which others go on this trip */
     int64_t load[3];
+    int64_t wanted;        /* of a battery as it begins, for it and all trips behind */
+    int64_t charged_from;  /* when the vehicle is charged before it */
+    int64_t charged_until; /* the same as that where it isn't */
 } tandem_trip;
 
 /* A vehicle's route, in a slot. */
@@ -983,6 +995,10 @@ typedef struct tandem_sortie_2d {
     tandem_sortie* data;
     int64_t shape[2];
 } tandem_sortie_2d;
+typedef struct tandem_plugging_1d {
+    tandem_plugging* data;
+    int64_t shape[1];
+} tandem_plugging_1d;
 typedef struct tandem_span_1d {
     tandem_span* data;
     int64_t shape[1];
@@ -1190,11 +1206,13 @@ typedef struct tandem_problem_data {
     tandem_setup_1d setup; /* (node,) none where nobody sets up */
     tandem_i64_1d max_time_aboard; /* (node,) ms, none where nothing is limited */
     tandem_pair_1d pair;           /* (node,) none where nobody belongs together */
-    tandem_i64_2d max_between;  /* (type, node) ms from a pickup to its delivery, none likewise */
-    tandem_lag_2d lag;          /* (node, rank), none likewise */
-    tandem_lag_2d across;       /* (node, rank) behind others on any vehicle, none likewise */
-    tandem_span_1d span;        /* (node,) as a route is timed, none likewise */
-    tandem_f64_2d vehicle_cost; /* (type, node) of being served by it, none likewise */
+    tandem_i64_2d max_between;   /* (type, node) ms from a pickup to its delivery, none likewise */
+    tandem_lag_2d lag;           /* (node, rank), none likewise */
+    tandem_lag_2d across;        /* (node, rank) behind others on any vehicle, none likewise */
+    tandem_span_1d span;         /* (node,) as a route is timed, none likewise */
+    tandem_plugging_1d plugging; /* (number,) of other routes as one is timed, by depot and time,
+                                    and how many in the last row; none where nobody waits */
+    tandem_f64_2d vehicle_cost;  /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
         no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */
     tandem_hub_1d hub; /* (depot,) none where all have enough */
@@ -1498,7 +1516,8 @@ int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fle
 int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k, const tandem_broken_leg* leg,
                       tandem_driver* driver, const tandem_i64_2d* times);
 
-/* Write when a vehicle of a type stands for each break on a leg, when that begins, and when it ends.
+/* Write when a vehicle of a type stands for each break on a leg, when that begins, and when it
+ * ends.
  */
 int tandem_break_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
                        const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,

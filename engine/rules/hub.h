@@ -1,5 +1,5 @@
-// What vehicles that fly share at a depot: each trip takes a battery, or all that a vehicle flies
-// but the first a place to charge.
+// What vehicles that fly share at a depot: each trip takes a battery, or the vehicle is charged
+// before it at one of so many places. Rollouts give such a place away for all day.
 #pragma once
 
 #include "problem/instance.h"
@@ -8,6 +8,12 @@ namespace tandem {
 
 // Whether each trip of a type takes a battery of the depot where it begins.
 inline bool takes_batteries(const VehicleType& type) { return type.takes_batteries != 0; }
+
+// Whether vehicles of a type may have to wait for a place to charge.
+inline bool shares_chargers(const VehicleType& type) { return type.shares_chargers != 0; }
+
+// Whether a depot has a place to charge for one vehicle more, with so many there.
+inline bool has_free_charger(const Hub& hub, Int charged) { return charged < hub.chargers; }
 
 // Whether a vehicle that makes so many trips needs a place to charge at its depot.
 inline bool needs_charger(const VehicleType& type, Int trips) {

@@ -32,7 +32,7 @@ from model.engine.variants import (
 )
 from model.problem import (
     MAX_DIMENSIONS, MAX_STORMS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray,
-    IntArray, Problem, VehicleType,
+    IntArray, Problem, VehicleType, shares_chargers,
 )
 
 DIMENSIONS_PER_TIER = 3
@@ -178,9 +178,9 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
         variants = [variant_of(each, problem, durations) for each in (kind, kind.drones)]
         if kind.flies:
             variants[1] = weighed_variant_of(kind, problem, durations)
-        instance.type[row, index] = _type_row(kind, ways, drone_row, *variants)
-        charge_left = problem.vehicle_types[part_of].charge_left
-        if charge_left:
+        instance.type[row, index] = _type_row(kind, ways, drone_row,
+                                              shares_chargers(problem, kind), *variants)
+        if charge_left := problem.vehicle_types[part_of].charge_left:
             instance.type[row, index].first_charge[: len(charge_left)] = charge_left
         instance.reload[row, index, list(kind.reload_places)] = True
         drones = kind.drones
@@ -269,7 +269,7 @@ def _customer_row(customer: Customer) -> tuple[Any, ...]:
             customer.latest, padded(customer.demand, DIMENSIONS_PER_TIER))
 
 
-def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: int,
+def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, shares: bool, variant: int,
               drone_variant: int) -> tuple[Any, ...]:
     drones = kind.drones
     load = kind.initial_load or (0,) * len(kind.capacity)
@@ -287,7 +287,7 @@ def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, variant: i
         NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
         *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
         drone_variant, *battery_row(energy), int(kind.flies), int(kind.takes_batteries),
-        kind.trips_uncharged, _pickup_order(kind), int(kind.lifo), load[0],
+        kind.trips_uncharged, int(shares), _pickup_order(kind), int(kind.lifo), load[0],
         padded(free, room), padded(() if drones is None else drones.capacity, room),
         *powers_row(energy), full_row(energy, MOST_DRONES),
         *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room), UNUSED, 0)

@@ -26,7 +26,7 @@ class Memory:
     """
 
     def __init__(self, problem: Problem, past: Past = EVERYTHING_OPEN) -> None:
-        self._problem = problem
+        self.problem = problem
         self._past = past
         self._known: dict[Vehicle, _Known] = {}
 
@@ -34,14 +34,14 @@ class Memory:
         """Judge a plan. In place."""
         judged = {index: self._judged(route, f"routes[{index}]")
                   for index, route in enumerate(plan.routes)}
-        return check(self._problem, plan, self._past, judged)
+        return check(self.problem, plan, self._past, judged)
 
     def _judged(self, route: Route, path: str) -> JudgedRoute:
         vehicle = Vehicle(route.vehicle_type, route.vehicle)
         known = self._known.get(vehicle)
         if known is not None and (known.route is route or known.route == route):
             return known.judged
-        judged = judge_route(self._problem, route, path, self._past)
+        judged = judge_route(self.problem, route, path, self._past)
         if not judged.violations:
             # Violations tell the route's place in the plan, which may be another the next time.
             self._known[vehicle] = _Known(route, judged)

@@ -1,10 +1,9 @@
 """When everything in a route happens, from the decisions that leave a choice.
 
 A decision fixes sequences, launches and recoveries at each stop in order, when a trip begins, and
-until when trucks wait for whom others serve. All else follows as soon as possible, but launches are
-held back as long as windows would let a flight last longer than the endurance, or hover for more
-than its battery holds, or that is being charged. Times in ms, plain Python integers.
-"""
+until when trucks wait for others. All else follows as soon as possible, but launches are held back
+while windows would let a flight last longer than the endurance, or hover for more than its battery
+holds, or that is being charged. Times in ms, plain Python integers."""
 
 from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -19,7 +18,7 @@ from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
 from model.problem import DroneType, Problem, VehicleType
-from model.solution import Route, Sortie, Stop, Trip, Visit
+from model.solution import Charge, Route, Sortie, Stop, Trip, Visit
 
 
 class Operation(NamedTuple):
@@ -49,6 +48,7 @@ class TripDecision:
     start: int | None = None  # arrival at the first stop; None: as soon as possible
     breaks: tuple[BreakDecision, ...] = ()
     awaited: tuple[Awaited, ...] = ()  # customers of orders across vehicles
+    charges: tuple[Charge, ...] = ()
 
     def customers(self, first: int) -> tuple[int, ...]:
         """Return those whom it serves, whose nodes begin at `first`, the truck's first."""
@@ -114,7 +114,7 @@ def read_decision(trip: Trip, kind: VehicleType, bound: Container[int] = ()) -> 
     nodes = tuple([stop.node for stop in trip.stops])
     start, taken, waits = trip.stops[0].arrival, decisions_of(trip), waits_of(trip, bound)
     if not trip.sorties:
-        return TripDecision(nodes, (), None, start, taken, waits)
+        return TripDecision(nodes, (), None, start, taken, waits, trip.charges)
     keyed: list[list[tuple[tuple[int, ...], Operation]]] = [[] for _ in nodes]
     sorties = []
     begins = launch_begins(trip.sorties, kind)
@@ -323,7 +323,7 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
                                      start if node < first else arrival + setup, flights))
         stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
-        return Trip(tuple(stops), (), tuple(breaks))
+        return Trip(tuple(stops), (), tuple(breaks), decision.charges)
     return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type), tuple(breaks))
 
 
@@ -361,7 +361,7 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             departure = fact.departure
         stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
-        return Trip(tuple(stops), (), known.breaks)
+        return Trip(tuple(stops), (), known.breaks, decision.charges)
     return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type), known.breaks)
 
 

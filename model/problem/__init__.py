@@ -7,6 +7,7 @@ from model.problem.energy import MAX_BATTERY, MAX_POINTS, MAX_POWER, MICROJOULES
 from model.problem.fairness import Balance, Before, Fairness, Measure
 from model.problem.fleet import DroneType, Pickups, SpeedProfile, VehicleType
 from model.problem.hours import keeps_hours, within_hours
+from model.problem.hubs import limits_chargers, shares_chargers
 from model.problem.overtime import Overtime
 from model.problem.problem import Problem
 from model.problem.quantities import (
@@ -30,5 +31,5 @@ __all__ = [
     "Fairness", "FloatArray", "IncompatibleGoods", "Int32Array", "IntArray", "Lag", "Measure",
     "Overtime", "Part", "Pickups", "Points", "Problem", "Relation", "RelationKind", "ServedBy",
     "Shipment", "SpeedProfile", "Storms", "StraightLegs", "Travel", "UIntArray", "VehicleType",
-    "keeps_hours", "within_hours",
+    "keeps_hours", "limits_chargers", "shares_chargers", "within_hours",
 ]

@@ -23,7 +23,7 @@ class Depot:
     stop_cost: float = 0.0  # of each stop there
     after: str | None = None  # id of the customer who has been served before, by the same vehicle
     batteries: int | None = None  # charged, for trips of who flies from there; None: enough
-    chargers: int | None = None  # for who flies from there, each for one all day; None: enough
+    chargers: int | None = None  # for who flies from there, each for one at a time; None: enough
 
     def __post_init__(self) -> None:
         require_quantity(f"{self.kind} {self.id} earliest", self.earliest)

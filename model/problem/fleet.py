@@ -132,7 +132,6 @@ class VehicleType:
     energy: Energy | None = None  # of one that flies: what a trip may take of the battery
     max_range: int | None = None  # of one that flies: mm to customers from a trip's ends
     storms: Storms = ()  # of one that flies: no trip may be in the air then
-    has_charger: bool = False  # of one that flies: it has a place to charge at its depot already
     straight: int = 0  # index into Problem.travel, whose distances tell that
     breaks: tuple[Break, ...] = ()  # of each driver, in the order in which they are taken
     driving: DrivingRules | None = None  # None: drivers need no rest beside their breaks
@@ -220,8 +219,8 @@ class VehicleType:
 
     @property
     def trips_uncharged(self) -> int:
-        """How many trips it makes at most that needs no place to charge at its depot."""
-        if not self.flies or self.takes_batteries or self.has_charger:
+        """How many trips it makes at most that has no place to charge all day, in rollouts."""
+        if not self.flies or self.takes_batteries:
             return UNLIMITED
         return 0 if self.charge_left else 1
 

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import partial
 from itertools import count
 
+from model.judge.chargers import with_charging
 from model.judge.ends import with_ends
 from model.judge.hubs import hub_violations
 from model.judge.past import Past, Vehicle
@@ -94,7 +95,8 @@ def _scheduled(left: Remainder, decisions: Iterable[RouteDecision]) -> Solution:
     for decision in in_company(left.problem, [*decisions]):
         route = _in_turn(left, decision, made)
         made += [] if route is None else [route]
-    return complete(left.problem, tuple(_within_stock(left.problem, made)))
+    return with_charging(left.problem, complete(left.problem, tuple(
+        _within_stock(left.problem, made))))
 
 
 def _within_stock(problem: Problem, routes: list[Route]) -> list[Route]:
@@ -204,6 +206,9 @@ def take_back(problem: Problem, past: Past, before: Solution, kept: Mapping[Vehi
         if worker is None:
             others.append(Route(left.kinds[route.vehicle_type], 0, mine))
         else:
+            if worker.vehicle in kept and kept[worker.vehicle].charges:
+                charges = (*kept[worker.vehicle].charges, *mine[0].charges)
+                mine = (replace(mine[0], charges=charges), *mine[1:])
             trips[worker.vehicle] = (*trips.get(worker.vehicle, ()), *mine)
     known = [Route(*vehicle, done) for vehicle, done in trips.items()]
     taken = {*trips, *(worker.vehicle for worker in left.workers.values()), *past.unavailable}
@@ -232,7 +237,7 @@ def _whole(trip: Trip, nodes: Sequence[int], drones: Sequence[int], offset: int 
                 recovery_stop=sortie.recovery_stop + offset,
                 visits=tuple(replace(visit, node=nodes[visit.node]) for visit in sortie.visits))
         for sortie in trip.sorties)
-    return Trip(stops, sorties, trip.breaks)
+    return Trip(stops, sorties, trip.breaks, trip.charges)
 
 
 def _joined(begun: Trip, rest: Trip, nodes: Sequence[int], drones: Sequence[int]) -> Trip:

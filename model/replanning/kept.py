@@ -9,7 +9,7 @@ from model.judge.places import halts
 from model.judge.timing import RouteDecision, TripDecision, read_decision, resume_trip
 from model.problem import MAX_QUANTITY, UNREACHABLE, Problem, VehicleType
 from model.replanning.amend import broken_by, customers_of, repaired, without
-from model.solution import Route, Solution, Sortie, Stop, Trip
+from model.solution import Charge, Route, Solution, Sortie, Stop, Trip
 
 
 @dataclass(frozen=True)
@@ -32,6 +32,7 @@ class Kept:
     decision: RouteDecision
     route: Route  # timed
     way_on: WayOn | None = None  # from the last stop of the last trip
+    charges: tuple[Charge, ...] = ()  # behind the last trip, by now
 
     @property
     def served(self) -> set[int]:
@@ -79,9 +80,17 @@ def _kept(problem: Problem, route: Route, vehicle: Vehicle, past: Past) -> Kept:
              for trip, facts in zip(route.trips[:len(known)], known, strict=True)]
     decision = RouteDecision(*vehicle, tuple(trips))
     if known[-1].rest != "anything":
-        return Kept(vehicle, decision, retimed(problem, decision, known, past.now))
+        charges = _charged_by(route.trips[len(known):len(known) + 1], past.now)
+        return Kept(vehicle, decision, retimed(problem, decision, known, past.now),
+                    charges=charges)
     planned = route.trips[len(known) - 1]
     return _continued(problem, decision, planned, meeting_stop(planned, known[-1]), past)
+
+
+def _charged_by(planned: Sequence[Trip], now: int) -> tuple[Charge, ...]:
+    """Return when a vehicle was charged by now before the trip that is next, if there is one."""
+    return tuple([Charge(charge.start, min(charge.end, now))
+                  for trip in planned for charge in trip.charges if charge.start < now])
 
 
 def meeting_stop(trip: Trip, known: KnownTrip) -> int:
@@ -102,7 +111,7 @@ def _settled(kind: VehicleType, trip: Trip, known: KnownTrip, grounded: Collecti
         sorties = tuple(_as_sortie(sortie, len(stops)) for sortie in known.sorties)
         if known.rest == "home":
             stops.append(Stop(kind.ends_at, 0, 0, 0))
-        return Trip(tuple(stops), sorties, known.breaks)
+        return Trip(tuple(stops), sorties, known.breaks, trip.charges)
     meeting, bound = meeting_stop(trip, known), len(known.stops) - 1
     stops = list(trip.stops[:meeting + 1])
     if meeting < len(trip.stops) - 1:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from model.judge.freshness import first_departure
-from model.judge.hubs import taken_at_hubs
+from model.judge.hubs import batteries_taken
 from model.judge.past import Past, Vehicle
 from model.problem import BoolArray, Customer, Depot, Problem, VehicleType
 from model.replanning.amend import customers_of
@@ -175,14 +175,10 @@ def _sites(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],
 
 def _hubs_left(problem: Problem, kept: Mapping[Vehicle, Kept],
                depots: tuple[Depot, ...]) -> tuple[Depot, ...]:
-    """Return depots without what trips that were begun have taken."""
-    if not problem.limits_hubs:
-        return depots
-    taken = taken_at_hubs(problem, [each.route for each in kept.values()])
-    return tuple([
-        replace(depot, batteries=_left(depot.batteries, taken.batteries[node]),
-                chargers=_left(depot.chargers, taken.chargers[node]))
-        for node, depot in enumerate(depots)])
+    """Return depots without the batteries that trips that were begun have taken."""
+    taken = batteries_taken(problem, [each.route for each in kept.values()])
+    return tuple([replace(depot, batteries=_left(depot.batteries, taken[node]))
+                  for node, depot in enumerate(depots)])
 
 
 def _left(stock: int | None, taken: int) -> int | None:

@@ -5,6 +5,7 @@ import time
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 
+from model.judge.chargers import with_charging
 from model.judge.check import Evaluation, check
 from model.judge.explain import Reason, explain_type, unexplained
 from model.judge.memory import Memory
@@ -15,7 +16,7 @@ from model.planner import (
     ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult, Progress,
     complete_plan,
 )
-from model.problem import Problem
+from model.problem import Problem, limits_chargers
 from model.replanning.driven_on import carried_through, driven_on
 from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
@@ -81,6 +82,7 @@ class Replanning:
         TooManyTypesError
             If more vehicles are under way than can be planned for.
         """
+        terms = replace(terms, plan=with_charging(problem, terms.plan))
         self._plan = terms.plan
         past = _past(problem, terms)
         self.problem = problem = _released(problem, past)
@@ -177,8 +179,9 @@ class Replanning:
         if has_orders and self.check(solution).violations:
             # Who came in between was at another place before.
             first, solution = handed, bridge.whole(handed)
-        if self.check(solution).violations and (self.problem.lags or any(
-                map(has_clock, self.problem.vehicle_types))):
+        if self.check(solution).violations and (
+                self.problem.lags or limits_chargers(self.problem)
+                or any(map(has_clock, self.problem.vehicle_types))):
             # Breaks may be due on a day as a whole that aren't on what is left of it, and whoever
             # waits where a trip goes on serves others later than it will.
             solution = self._settled

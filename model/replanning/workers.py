@@ -11,14 +11,14 @@ from dataclasses import dataclass, replace
 from operator import le
 from typing import Literal
 
+from model.judge.chargers import level_behind
 from model.judge.driving import travel_duration
 from model.judge.flown_trips import charged_between
 from model.judge.freshness import first_departure
-from model.judge.hubs import is_charged
 from model.judge.loads import highest, trip_loads
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
-from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType
+from model.problem import MAX_QUANTITY, MS_PER_HOUR, Problem, VehicleType, shares_chargers
 from model.replanning.amend import customers_of
 from model.replanning.kept import Kept, WayOn, charged_then, with_drones_then
 from model.replanning.rested import with_clock
@@ -250,11 +250,21 @@ def _later(problem: Problem, past: Past, route: Kept, home: int, home_by: int,
         return None
     own = replace(_own_type(problem, route, ready, home_by, trips_left), start=place,
                   max_travel_duration=travel_left,
-                  charge_left=charged_between(problem, kind, route.route.trips, ready),
-                  has_charger=is_charged(problem, route.route))
+                  charge_left=_charge_left(problem, route, ready))
     own = replace(own, works_since=home) if kind.cost_per_hour else own
     rested = with_clock(kind, own, route.route, home)
     return None if rested is None else Worker(route.vehicle, rested)
+
+
+def _charge_left(problem: Problem, route: Kept, ready: int) -> tuple[int, ...]:
+    """Return what a vehicle that flies has when it may begin another trip; nothing of others.
+
+    Where places to charge are shared, it is charged as planned until now, and no more.
+    """
+    kind = problem.vehicle_types[route.vehicle.type]
+    if shares_chargers(problem, kind):
+        return (level_behind(problem, kind, route.route.trips, route.charges),)
+    return charged_between(problem, kind, route.route.trips, ready)
 
 
 def _own_type(problem: Problem, route: Kept, earliest: int, home_by: int,

@@ -9,7 +9,9 @@ from model.engine.instance import WORK_RATES, Instance
 from model.engine.leg import are_the_same_back
 from model.engine.library import dtype_of
 from model.engine.records import Records
-from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem
+from model.problem import (
+    MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem, limits_chargers,
+)
 from model.search.evaluation import evaluate
 from model.search.halts import Halts, halts_of
 from model.search.needless_flights import without_needless_flights
@@ -57,6 +59,8 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
         pair=instance.pair[0], max_between=instance.max_between[0],
         lag=instance.lag[0], across=instance.across[0],
         span=np.zeros(instance.across.shape[1], dtype_of("tandem_span")),
+        plugging=np.zeros(2 * problem.num_nodes + 1 if limits_chargers(problem) else 0,
+                          dtype_of("tandem_plugging")),
         vehicle_cost=instance.vehicle_cost[0],
         no_launch=instance.no_launch[0], hub=instance.hub[0], **halts._asdict(),
         price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),

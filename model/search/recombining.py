@@ -27,14 +27,14 @@ from model.search.sharing import ROUNDING
 def take_better_parts(data: ProblemData, searcher: Searcher) -> None:
     """Let the best plan take over the parts of the plan as it is that cost less. In place.
 
-    Where that would take too many vehicles, batteries or places to charge, those parts alone that
-    need no more of any. None where the plan costs something as a whole, or orders bind routes.
+    Where that would take too many vehicles or batteries, those parts alone that need no more of
+    any. None where the plan costs something as a whole, or orders or places to charge bind routes.
 
     Who is to go with others stays in one part with them, so that no other part serves them too.
     """
     fairness = data.fairness
     if (fairness.makespan > 0 or fairness.balance > 0 or fairness.min_vehicles > 0
-            or len(data.across)):
+            or len(data.across) or len(data.plugging)):
         return
     now, best, slots = searcher.now, searcher.best, len(searcher.active)
     nodes, unit = np.arange(data.num_depots, data.num_nodes), np.arange(data.num_nodes)
@@ -140,7 +140,7 @@ def _needed(data: ProblemData, fleet: Fleet, part: IntArray, slots: int) -> IntA
     there = np.flatnonzero(fleet.route["length"][:slots])
     each = np.zeros((slots, data.num_types), np.int64)
     each[there, fleet.route["type"][there]] = 1
-    needed = np.zeros((len(part) + 1, data.num_types + 2 * len(data.hub)), np.int64)
+    needed = np.zeros((len(part) + 1, data.num_types + len(data.hub)), np.int64)
     np.add.at(needed, part[there], np.hstack([each, taken_by(data, fleet, slots)])[there])
     return needed
 

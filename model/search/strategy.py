@@ -10,7 +10,7 @@ import numpy as np
 from model.engine.drone_types import all_kinds
 from model.engine.instance import WORK_RATES, Instance
 from model.engine.records import Records
-from model.problem import UNLIMITED, BoolArray, IntArray, Problem
+from model.problem import UNLIMITED, BoolArray, IntArray, Problem, limits_chargers
 from model.search.route.layout import MOST_VISITS, Strategy
 
 SCAN_ALL_BELOW = 400
@@ -79,7 +79,7 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         change_vehicles=moves.types and len(problem.vehicle_types) > 1 and not linked,
         scan_all=scan_all,
         keep_places=(scan_all and not linked and blink <= LEAST_BLINK
-                     and not problem.lags_across),
+                     and not problem.lags_across and not limits_chargers(problem)),
         give_up_early=not (fair or problem.launch_sites or _may_save(instance, evaluation)),
         blink=blink)
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from model.judge.hubs import taken_at_hubs
+from model.judge.hubs import batteries_taken
 from model.problem import UNLIMITED, Energy, Problem, VehicleType
 from model.solution import Route
 from tests.model.tiny import MINUTE, draw_battery
@@ -41,6 +41,13 @@ def with_fliers(rng: np.random.Generator, problem: Problem, share: float = 0.7) 
     return replace(problem, vehicle_types=tuple(map(flying, problem.vehicle_types)))
 
 
+def from_few_batteries(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem of several trips in the air, for which hubs have too few batteries."""
+    problem = from_few_hubs(rng, problem)
+    return replace(problem, depots=tuple(replace(depot, chargers=None)
+                                         for depot in problem.depots))
+
+
 def with_hubs(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem whose depots have few batteries, or places to charge, for who flies."""
     def few(most: int) -> int | None:
@@ -61,16 +68,11 @@ def from_few_hubs(rng: np.random.Generator, problem: Problem) -> Problem:
 
 
 def without_taken(problem: Problem, routes: Sequence[Route]) -> Problem:
-    """Return a problem whose depots have what some routes leave."""
-    if not problem.limits_hubs:
-        return problem
-    taken = taken_at_hubs(problem, routes)
+    """Return a problem whose depots have the batteries that some routes leave."""
+    taken = batteries_taken(problem, routes)
     return replace(problem, depots=tuple(
-        replace(depot,
-                batteries=None if depot.batteries is None
-                else depot.batteries - taken.batteries[node],
-                chargers=None if depot.chargers is None else depot.chargers - taken.chargers[node])
-        for node, depot in enumerate(problem.depots)))
+        replace(depot, batteries=None if depot.batteries is None
+                else depot.batteries - taken[node]) for node, depot in enumerate(problem.depots)))
 
 
 def from_hubs(rng: np.random.Generator, customers: int, batteries: int) -> Problem:

@@ -12,6 +12,7 @@ from app.records.jobs.search import Find, Plannable, Search
 from app.records.jobs.slices import SLICE
 from app.records.jobs.store import JobStore
 from model.planner import PlanOptions
+from model.problem import limits_chargers
 
 FEWEST_TURNS = 3
 """Times that a region's seconds must be in a job's for it to be planned by regions."""
@@ -48,14 +49,15 @@ class RegionTerms:
         """Tell whether a job is planned by regions.
 
         Not one whose legs or places are only known by asking others, or that goes on from a plan,
-        costs something as a whole, has orders across vehicles, or is to make so many iterations and
-        no more.
+        costs something as a whole, has orders across vehicles, shares chargers in time, or is to
+        make so many iterations and no more.
         """
         task, options = asked.task, asked.options
         return (task.problem.num_customers >= self.least_customers
                 and options.time_limit >= FEWEST_TURNS * self.seconds
                 and options.search_iterations is None
                 and not task.problem.fairness.is_stated and not task.problem.lags_across
+                and not limits_chargers(task.problem)
                 and task.replanning is None and task.far is None
                 and not (task.places is not None and task.places.found)
                 and all(origin.by != "roads" for origin in task.legs))

@@ -8,10 +8,12 @@
 #include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/hub.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/insertion/evaluate.h"
+#include "search/moves/two_opt_star.h"
 #include "search/route/fairness.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
@@ -21,6 +23,37 @@
 #include "search/route/state.h"
 
 namespace tandem {
+
+namespace {
+
+// Let a route be as it is given or, if its vehicle is charged in turn, without those trips that
+// can't be flown so. In place; false if nothing is left.
+bool refresh_by_trips(const ProblemData& data, const Fleet& fleet, Int slot) {
+    Route& route = fleet.route[slot];
+    if (!shares_chargers(data.type[route.type])) return refresh(data, fleet, slot);
+    if (refresh_as_planned(data, fleet, slot)) return true;
+    const Int spare = fleet.route.size() - 2;
+    keep_aside(fleet, slot, spare);
+    if (refresh(data, fleet, slot)) return true;
+    route.length = route.sorties = route.trips = 0;
+    Int first = 0;
+    bool done = false;
+    for (Int p = 0; p < fleet.route[spare].length; ++p) {
+        if (fleet.stop(spare, p).kind != end_stop) continue;
+        const Int before = route.length;
+        append(fleet, spare, first, p + 1, slot);
+        first = p + 1;
+        if (refresh(data, fleet, slot)) {
+            done = true;
+            continue;
+        }
+        route.length = before;
+        done = before > 0 && refresh(data, fleet, slot);
+    }
+    return done;
+}
+
+}  // namespace
 
 void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone) {
     const Int slot = fleet.route.size() - 1;
@@ -46,7 +79,7 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
     for (Int slot = 0; slot < num_routes; ++slot) {
         data.deadline.go_on_late();
         Route& route = now.route[slot];
-        if (refresh(data, now, slot) && (route.kept & kept) == 0) {
+        if (refresh_by_trips(data, now, slot) && (route.kept & kept) == 0) {
             kept |= route.kept;
             ++now.used[route.type];
             cost += now.cost[slot];
@@ -96,7 +129,7 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
-    if (orders_cross(data)) {
+    if (orders_cross(data) || shares_chargers(data.type[route.type])) {
         load_trips(data, route, stops, trips, sorties);
         keep_starts(data, route, stops);
         return drive_forward(data, route, stops, sorties);

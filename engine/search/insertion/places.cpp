@@ -147,7 +147,7 @@ void try_trips_of(const Insertion& insertion, Int slot) {
     const Int k = now.route[slot].type;
     if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
         !goods_may_follow(data, now, slot, node) ||
-        !may_take_off(data, searcher, k, data.type[k].depot, now.route[slot].trips)) {
+        !may_take_off(data, searcher, k, data.type[k].depot)) {
         return;
     }
     if (is_paired(data.pair, node)) {
@@ -212,7 +212,7 @@ double cost_alone(const ProblemData& data, const Searcher& searcher, Int k, Int 
 void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, Best& best) {
     for (Int k = 0; k < data.num_types; ++k) {
         if (!is_left(data, searcher.now, k) ||
-            !may_take_off(data, searcher, k, data.type[k].begins_at, 0)) {
+            !may_take_off(data, searcher, k, data.type[k].begins_at)) {
             continue;
         }
         const Surcharge surcharge(

@@ -4,14 +4,14 @@
 
 #include "rules/drone_types.h"
 #include "rules/flown_trip.h"
+#include "rules/hub.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/start.h"
 #include "rules/window.h"
-#include "search/route/flown_trips.h"
+#include "search/route/charging.h"
 #include "search/route/lags.h"
 #include "search/route/rarer.h"
-#include "search/route/routes.h"
 
 namespace tandem {
 namespace {
@@ -78,8 +78,8 @@ Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop
     return most;
 }
 
-// Return by how much later a timed trip has to begin at least; at most 0 if it needn't, `far` if
-// that doesn't help.
+}  // namespace
+
 Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 const Trip& trip, View<const Sortie, 1> sorties) {
     Int most = -far;
@@ -95,8 +95,6 @@ Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1>
     }
     return most;
 }
-
-}  // namespace
 
 Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties, Int first) {
@@ -118,7 +116,10 @@ bool holds_count(const ProblemData& data, Int k) {
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
     if (!holds_count(data, route.type)) return false;
-    if (charges_between_trips(data.type[route.type]) && lacks_charge(data, route, stops, trips)) {
+    const VehicleType& type = data.type[route.type];
+    if (shares_chargers(type)
+            ? !is_charged_in_turn(data, route, stops, trips)
+            : charges_between_trips(type) && lacks_charge(data, route, stops, trips)) {
         return true;
     }
     if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return true;
@@ -135,19 +136,10 @@ bool hold_trips(const ProblemData& data, Route& route, View<Stop, 1> stops,
     const bool charging = charges_between_trips(type);
     Charge charge = charging ? first_charge(type, 0) : Charge{};
     for (const Trip& trip : trips.first(route.trips)) {
-        Int excess = most_excess(data, route, stops, trip, sorties);
-        while (true) {
-            Int wait = excess > 0 ? excess : waits_for_calm(data, route, stops, trip);
-            if (wait == 0 && charging) wait = waits_for_charge(data, route, stops, trip, charge);
-            if (wait <= 0) break;
-            if (wait == far) return false;
-            Stop& stop = stops[trip.first];
-            stop.release = std::max(stop.arrival, stop.release) + wait;
-            if (!drive_forward(data, route, stops, sorties)) return false;
-            const Int left = most_excess(data, route, stops, trip, sorties);
-            if (excess > 0 && left >= excess) return false;
-            excess = left;
-        }
+        const auto wait = [&] {
+            return charging ? waits_for_charge(data, route, stops, trip, charge) : 0;
+        };
+        if (!hold_trip(data, route, stops, trip, sorties, wait)) return false;
         if (charging) charge = charge_behind(data, route, stops, trip, charge);
     }
     return true;

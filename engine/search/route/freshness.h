@@ -2,7 +2,11 @@
 // nobody served behind another, for too long.
 #pragma once
 
+#include <algorithm>
+
+#include "search/route/flown_trips.h"
 #include "search/route/layout.h"
+#include "search/route/routes.h"
 
 namespace tandem {
 
@@ -17,6 +21,33 @@ bool holds_count(const ProblemData& data, Int k);
 // or somebody served too soon or too late behind another.
 bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                   View<const Trip, 1> trips, View<const Sortie, 1> sorties);
+
+// Return by how much later a timed trip has to begin at least; at most 0 if it needn't, `far` if
+// that doesn't help.
+Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                const Trip& trip, View<const Sortie, 1> sorties);
+
+// Let a trip of a timed route begin as soon as nothing lasts too long, and its battery is charged.
+//
+// `wait_for_charge` returns how much later it has to begin for that; at most 0 if it needn't, `far`
+// if that doesn't help. In place; false if that doesn't help, or a rule is broken.
+template <class WaitForCharge>
+bool hold_trip(const ProblemData& data, Route& route, View<Stop, 1> stops, const Trip& trip,
+               View<Sortie, 1> sorties, const WaitForCharge& wait_for_charge) {
+    Int excess = most_excess(data, route, stops, trip, sorties);
+    while (true) {
+        Int wait = excess > 0 ? excess : waits_for_calm(data, route, stops, trip);
+        if (wait == 0) wait = wait_for_charge();
+        if (wait <= 0) return true;
+        if (wait == far) return false;
+        Stop& stop = stops[trip.first];
+        stop.release = std::max(stop.arrival, stop.release) + wait;
+        if (!drive_forward(data, route, stops, sorties)) return false;
+        const Int left = most_excess(data, route, stops, trip, sorties);
+        if (excess > 0 && left >= excess) return false;
+        excess = left;
+    }
+}
 
 // Let each trip of a timed route begin as soon as nothing lasts too long, and its battery is
 // charged.

@@ -20,37 +20,20 @@ Int batteries_taken(const ProblemData& data, const Searcher& searcher, Int depot
     return taken;
 }
 
-// Return how many places to charge at a depot the routes take.
-Int chargers_taken(const ProblemData& data, const Searcher& searcher, Int depot) {
-    Int taken = 0;
-    for (const Int slot : searcher.active) {
-        const Route& route = searcher.now.route[slot];
-        if (route.length == 0) continue;
-        const VehicleType& type = data.type[route.type];
-        if (type.depot == depot && needs_charger(type, route.trips)) ++taken;
-    }
-    return taken;
-}
-
 }  // namespace
 
-bool may_take_off(const ProblemData& data, const Searcher& searcher, Int k, Int depot, Int trips) {
+bool may_take_off(const ProblemData& data, const Searcher& searcher, Int k, Int depot) {
     if (!hubs_count(data)) return true;
     const VehicleType& type = data.type[k];
-    const Hub &begun = data.hub[depot], &home = data.hub[type.depot];
-    if (takes_batteries(type) && begun.batteries < unlimited &&
-        !has_battery_for(type, begun, batteries_taken(data, searcher, depot))) {
-        return false;
-    }
-    return home.chargers >= unlimited ||
-           has_charger_for(type, home, trips, chargers_taken(data, searcher, type.depot));
+    const Hub& begun = data.hub[depot];
+    return !takes_batteries(type) || begun.batteries >= unlimited ||
+           has_battery_for(type, begun, batteries_taken(data, searcher, depot));
 }
 
 bool hubs_suffice(const ProblemData& data, const Searcher& searcher) {
     for (Int depot = 0; depot < data.hub.size(); ++depot) {
         const Hub& hub = data.hub[depot];
-        if ((hub.batteries < unlimited && batteries_taken(data, searcher, depot) > hub.batteries) ||
-            (hub.chargers < unlimited && chargers_taken(data, searcher, depot) > hub.chargers)) {
+        if (hub.batteries < unlimited && batteries_taken(data, searcher, depot) > hub.batteries) {
             return false;
         }
     }

@@ -81,6 +81,7 @@ struct ProblemData {
     View<const Lag, 2> lag;                       // (node, rank) of who is served behind others
     View<const Lag, 2> across;           // (node, rank) behind or before them, by any vehicle
     View<Span, 1> span;                  // (node,) written as a route is timed
+    View<tandem_plugging, 1> plugging;   // (number,) by depot and time, written likewise
     View<const double, 2> vehicle_cost;  // (type, node) of being served by it
     View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
     View<const Hub, 1> hub;              // (depot,) none where all have enough
@@ -130,6 +131,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.lag,
             from.across,
             from.span,
+            from.plugging,
             from.vehicle_cost,
             from.no_launch,
             from.hub,
@@ -229,7 +231,7 @@ inline void copy_sequence(const Stop& stop, Stop& to) {
     to.release = stop.release;
 }
 
-// Let a trip be empty. In place.
+// Let a trip be empty, but for when its vehicle is charged before it. In place.
 inline void clear_trip(Trip& trip) {
     trip.first = trip.last = trip.halts = trip.release = trip.distance = 0;
     for (Int dimension = 0; dimension < dimensions_per_tier; ++dimension) trip.load[dimension] = 0;

@@ -30,6 +30,14 @@ inline bool goods_count(const ProblemData& data) { return !data.goods.empty(); }
 // Tell whether depots have only so many batteries, or places to charge, for who flies.
 inline bool hubs_count(const ProblemData& data) { return !data.hub.empty(); }
 
+// Tell whether who flies may have to wait until another was charged.
+inline bool waits_for_chargers(const ProblemData& data) { return !data.plugging.empty(); }
+
+// Tell whether a route is timed between what others do: the order counts in which they are.
+inline bool routes_meet(const ProblemData& data) {
+    return !data.across.empty() || waits_for_chargers(data);
+}
+
 // Tell whether some parcels may be aboard for so long and no longer.
 inline bool time_aboard_counts(const ProblemData& data) { return !data.max_time_aboard.empty(); }
 

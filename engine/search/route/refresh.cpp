@@ -7,12 +7,14 @@
 #include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/hours.h"
+#include "rules/hub.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/breaks.h"
+#include "search/route/charging.h"
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
@@ -180,20 +182,14 @@ bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1>
     });
 }
 
-// As `price_as_is`, of a route whose loads are known and whose first trip begins no sooner than its
-// release says.
-bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+// As `price_as_is`, of a route whose trips are timed, and held as long as they have to be.
+bool price_timed(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     const VehicleType& type = data.type[route.type];
     const bool held_back = data.evaluation[route.type].held_back;
-    clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties)) return false;
-    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
-        return false;
-    }
     Int departure = first_departure(data, route, stops, sorties);
     settled = held_back || has_to_wait(data, route, stops, sorties);
     if (settled) {
@@ -208,6 +204,23 @@ bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
     if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);
     fleet.early[slot] = held_back ? early : 0.0;
     return true;
+}
+
+// As `price_as_is`, of a route whose loads are known and whose first trip begins no sooner than its
+// release says.
+bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const View<Trip, 1> trips = fleet.trip[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const VehicleType& type = data.type[route.type];
+    clear_holds(route, stops, trips);
+    if (!drive_forward(data, route, stops, sorties)) return false;
+    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
+        return false;
+    }
+    if (shares_chargers(type) && !charge_in_turn(data, fleet, slot)) return false;
+    return price_timed(data, fleet, slot, settled);
 }
 
 // As `price_loaded`, where a driver who begins later may have had breaks before.
@@ -256,13 +269,11 @@ bool price_faster(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
     return false;
 }
 
-// As `refresh`, with trips that end where they do.
-bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
-    bool settled = false;
-    if (!price_as_is(data, fleet, slot, no_bar, settled)) return false;
+// Write all else that follows from when a route's trips begin, of one that has a price. In place.
+void look_around(const ProblemData& data, const Fleet& fleet, Int slot, bool settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
-    if (orders_cross(data)) plan_starts(route, stops);
+    if (routes_meet(data)) plan_starts(route, stops);
     if (settled) {
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot]);
@@ -272,6 +283,13 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     } else {
         look_back(data, route, stops);
     }
+}
+
+// As `refresh`, with trips that end where they do.
+bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
+    bool settled = false;
+    if (!price_as_is(data, fleet, slot, no_bar, settled)) return false;
+    look_around(data, fleet, slot, settled);
     return true;
 }
 
@@ -327,9 +345,8 @@ void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
     }
 }
 
-}  // namespace
-
-bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
+// Write what a route carries, and what other routes let it do. In place; false if it breaks a rule.
+bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
@@ -338,8 +355,14 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
     if (orders_cross(data)) note_spans(data, fleet, slot);
     if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips, sorties)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
-    if (tiers_aboard(fleet) > 0 && !weigh(data, fleet, slot)) return false;
-    const VehicleType& type = data.type[route.type];
+    return tiers_aboard(fleet) == 0 || weigh(data, fleet, slot);
+}
+
+}  // namespace
+
+bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
+    if (!load_route(data, fleet, slot)) return false;
+    const VehicleType& type = data.type[fleet.route[slot].type];
     if (may_rest(type)) {
         const double least = least_cost(data, fleet, slot);
         if (least >= bar) return false;
@@ -400,8 +423,29 @@ bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
     return true;
 }
 
+bool refresh_as_planned(const ProblemData& data, const Fleet& fleet, Int slot) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const View<Trip, 1> trips = fleet.trip[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    if (!load_route(data, fleet, slot)) return false;
+    for (const Trip& trip : trips.first(route.trips)) {
+        Stop& stop = stops[trip.first];
+        stop.release = std::max(stop.release, stop.free_start);
+        stop.hold = none;
+    }
+    bool settled = false;
+    if (!drive_forward(data, route, stops, sorties) ||
+        any_too_long(data, route, stops, trips, sorties) || !has_places(data, fleet, slot) ||
+        !price_timed(data, fleet, slot, settled)) {
+        return false;
+    }
+    look_around(data, fleet, slot, settled);
+    return true;
+}
+
 void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to) {
-    if (orders_cross(data)) {
+    if (routes_meet(data)) {
         copy_route(fleet, slot, fleet, to);
     } else {
         keep_aside(fleet, slot, to);
@@ -409,7 +453,7 @@ void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to) {
 }
 
 void put_back(const ProblemData& data, const Fleet& fleet, Int slot, Int from) {
-    if (orders_cross(data)) {
+    if (routes_meet(data)) {
         copy_route(fleet, from, fleet, slot);
     } else {
         keep_aside(fleet, from, slot);

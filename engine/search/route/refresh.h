@@ -28,6 +28,10 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
 // Where trips may end at several places, that which costs least is chosen between two.
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot);
 
+// As `refresh`, of a vehicle that is charged in turn: its trips begin no sooner than planned, and
+// it is charged as planned before. False, too, if that doesn't do.
+bool refresh_as_planned(const ProblemData& data, const Fleet& fleet, Int slot);
+
 // Keep a route in a slot that nobody uses, to be put back. In place.
 void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to);
 

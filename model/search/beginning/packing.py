@@ -2,13 +2,15 @@
 
 import math
 from bisect import bisect_left
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from model.problem import MS_PER_HOUR, UNLIMITED, Problem, Storms, VehicleType
-from model.search.beginning.stock import left_at
+from model.problem import MS_PER_HOUR, UNLIMITED, Problem, VehicleType, shares_chargers
+from model.search.beginning.charging import TurnRow, packed_in_turn
+from model.search.beginning.leg import Leg, Timing
+from model.search.beginning.stock import batteries_left
 from model.search.beginning.translate import (
     best_plan, left_out, make_searcher, read_routes,
 )
@@ -41,17 +43,36 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
     Those with the least leeway come first, each where its vehicle waits least before and behind; on
     another vehicle where it fits between no trips. What no vehicle can fly is left out, or for what
     routes `beside` leave no batteries, fewest customers first. Of several `orders` the best counts.
-    Routes have no times yet. `nodes` are the problem's, by the numbers that trips have.
+    Routes have no times yet, but when trips begin where places to charge are shared. `nodes` are
+    the problem's, by the numbers that trips have.
     """
     kind = problem.vehicle_types[k]
-    stock = left_at(problem, beside, kind.depot)
-    if kind.takes_batteries and len(trips) > stock.batteries:
-        trips = sorted(trips, key=len, reverse=True)[:stock.batteries]
-    timing = _Timing(problem, kind, nodes or range(problem.num_nodes))
+    batteries = batteries_left(problem, beside, kind.depot)
+    if kind.takes_batteries and len(trips) > batteries:
+        trips = sorted(trips, key=len, reverse=True)[:batteries]
+    timing = Timing(problem, kind, nodes or range(problem.num_nodes))
     legs = [leg for leg in map(timing.leg, trips) if leg is not None]
-    rows = _best_packed(kind, legs, stock.chargers, orders)
+    if shares_chargers(problem, kind):
+        return _charged_in_turn(problem, k, legs, beside, orders)
+    rows = _best_packed(kind, legs, orders)
     return [Route(k, number, tuple([_trip(kind, leg.trip) for leg in row.legs]))
             for number, row in enumerate(rows)]
+
+
+def _charged_in_turn(problem: Problem, k: int, legs: Sequence[Leg], beside: Sequence[Route],
+                     orders: int) -> list[Route]:
+    """Return trips of a type whose vehicles share places to charge; they begin when that says."""
+    kind = problem.vehicle_types[k]
+    chargers = problem.depots[kind.depot].chargers
+    taken = [charge for route in beside for trip in route.trips
+             if trip.stops[0].node == kind.depot for charge in trip.charges]
+    packed = [packed_in_turn(kind, order, UNLIMITED if chargers is None else chargers, taken)
+              for order in _orders(legs, orders, lambda leg: leg.latest)]
+    rows = min(packed, key=lambda rows: (-_num_trips(rows), len(rows)))
+    return [Route(k, number, tuple([
+        replace(_trip(kind, leg.trip, start), charges=charges)
+        for leg, start, charges in zip(row.legs, row.starts, row.charges, strict=True)]))
+        for number, row in enumerate(rows)]
 
 
 def comes_by_trips(problem: Problem) -> bool:
@@ -144,59 +165,16 @@ def packed_anew(problem: Problem, data: ProblemData, searcher: Searcher,
     return found if found.value.best < searcher.value.best else searcher
 
 
-def _may_go_on(kind: VehicleType, trips: int, is_place_left: bool) -> bool:
-    """Tell whether a vehicle that makes so many trips may make another, with a place to charge."""
-    needs_one = trips == kind.trips_uncharged
-    return trips < kind.max_trips and (is_place_left or not needs_one)
-
-
-@dataclass(frozen=True)
-class _Leg:
-    """A trip as others of its vehicle meet it."""
-
-    trip: Sequence[int]
-    ready: int  # all its parcels are there
-    latest: int  # start by which it is in time, if nobody waits
-    busy: int  # how long its vehicle is until it may begin another
-    storms: Storms = ()  # between which starts it would meet one
-
-    @property
-    def slack(self) -> int:
-        """For how long it may be put off."""
-        return self.latest - self.ready
-
-    @property
-    def leeway(self) -> int:
-        """The same, less for one that takes long."""
-        return self.slack - self.busy
-
-    def soonest(self, free: int) -> int:
-        """Return its first start once its vehicle is free."""
-        start = max(self.ready, free)
-        for before, behind in self.storms:
-            if before < start < behind:
-                start = behind
-        return start
-
-    def last(self, bound: int) -> int:
-        """Return its last start up to a bound."""
-        start = min(self.latest, bound)
-        for before, behind in reversed(self.storms):
-            if before < start < behind:
-                start = before
-        return start
-
-
 @dataclass
 class _Row:
     """Trips of one vehicle in their order."""
 
     earliest: int
-    legs: list[_Leg] = field(default_factory=list)
+    legs: list[Leg] = field(default_factory=list)
     free: list[int] = field(default_factory=list)  # when it may begin another after each
     latest: list[int] = field(default_factory=list)  # start of each by which all behind are in time
 
-    def best_place(self, leg: _Leg) -> tuple[float, int]:
+    def best_place(self, leg: Leg) -> tuple[float, int]:
         """Return what the best place for a trip costs in time, and that place; infinite if none."""
         best = math.inf, 0
         for place in range(bisect_left(self.latest, leg.ready + leg.busy), len(self.legs) + 1):
@@ -214,7 +192,7 @@ class _Row:
             best = min(best, (cost, place))
         return best
 
-    def put(self, place: int, leg: _Leg) -> None:
+    def put(self, place: int, leg: Leg) -> None:
         """Put a trip at a place. In place."""
         self.legs.insert(place, leg)
         self.free.insert(place, 0)
@@ -228,16 +206,15 @@ class _Row:
             bound = self.latest[index] - (self.legs[index - 1].busy if index else 0)
 
 
-def _packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int) -> list[_Row]:
-    """Return trips on vehicles, put there in an order, with so many places to charge."""
+def _packed(kind: VehicleType, legs: Sequence[Leg]) -> list[_Row]:
+    """Return trips on vehicles, put there in an order."""
     rows: list[_Row] = []
     for leg in legs:
-        is_left = sum(len(row.legs) > kind.trips_uncharged for row in rows) < chargers
-        able = [row for row in rows if _may_go_on(kind, len(row.legs), is_left)]
+        able = [row for row in rows if len(row.legs) < kind.max_trips]
         (cost, place), row = min([(row.best_place(leg), row) for row in able],
                                  key=lambda found: found[0][0], default=((math.inf, 0), None))
         if row is None or cost == math.inf:
-            if len(rows) == kind.count or not _may_go_on(kind, 0, is_left):
+            if len(rows) == kind.count:
                 continue
             row = _Row(kind.earliest)
             rows.append(row)
@@ -245,65 +222,27 @@ def _packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int) -> list[_Row
     return rows
 
 
-def _best_packed(kind: VehicleType, legs: Sequence[_Leg], chargers: int,
-                 orders: int) -> list[_Row]:
+def _best_packed(kind: VehicleType, legs: Sequence[Leg], orders: int) -> list[_Row]:
     """Return as many trips as there is room for, on as few vehicles, of several orders."""
-    rng = np.random.default_rng(0)
-    packed = [_packed(kind, sorted(legs, key=lambda leg: leg.leeway), chargers)]
-    for _ in range(orders - 1):
-        share = rng.uniform(1.0 - SHAKEN, 1.0 + SHAKEN, len(legs)).tolist()
-        order = sorted(range(len(legs)), key=lambda index: legs[index].slack * share[index])
-        packed.append(_packed(kind, [legs[index] for index in order], chargers))
+    packed = [_packed(kind, order) for order in _orders(legs, orders, lambda leg: leg.leeway)]
     return min(packed, key=lambda rows: (-_num_trips(rows), len(rows)))
 
 
-def _num_trips(rows: Sequence[_Row]) -> int:
+def _orders(legs: Sequence[Leg], number: int,
+            first: Callable[[Leg], int]) -> Iterator[list[Leg]]:
+    """Yield trips in several orders: in the first by what is said, then by chance and leeway."""
+    rng = np.random.default_rng(0)
+    yield sorted(legs, key=first)
+    for _ in range(number - 1):
+        share = rng.uniform(1.0 - SHAKEN, 1.0 + SHAKEN, len(legs)).tolist()
+        order = sorted(range(len(legs)), key=lambda index: legs[index].slack * share[index])
+        yield [legs[index] for index in order]
+
+
+def _num_trips(rows: Sequence[_Row] | Sequence[TurnRow]) -> int:
     return sum(len(row.legs) for row in rows)
 
 
-def _trip(kind: VehicleType, customers: Sequence[int]) -> Trip:
-    return Trip(tuple([Stop(node, 0, 0, 0) for node in (
+def _trip(kind: VehicleType, customers: Sequence[int], start: int = 0) -> Trip:
+    return Trip(tuple([Stop(node, start, start, start) for node in (
         kind.begins_at, *customers, kind.ends_at)]))
-
-
-class _Timing:
-    """When trips of a type may begin, and how long they take."""
-
-    def __init__(self, problem: Problem, kind: VehicleType, nodes: Sequence[int]) -> None:
-        self._problem = problem
-        self._nodes = nodes
-        self._kind = kind
-        self._duration = problem.travel[kind.travel].duration
-
-    def leg(self, trip: Sequence[int]) -> _Leg | None:
-        """Return a trip as others meet it; None if it is never in time."""
-        kind, customers = self._kind, [self._problem.customer_at(self._nodes[node])
-                                       for node in trip]
-        ready = max([kind.earliest, *[customer.release_time for customer in customers]])
-        time, here, spent = ready + kind.launch_duration, kind.begins_at, kind.launch_duration
-        latest = kind.latest
-        for node, customer in zip(map(self._nodes.__getitem__, trip), customers, strict=True):
-            leg = self._duration.item(here, node) + self._problem.setup_between(here, node)
-            time, spent, here = time + leg, spent + leg, node
-            latest = min(latest, customer.latest - spent)
-            service = kind.service_at(customer)
-            time, spent = max(time, customer.earliest) + service, spent + service
-        home = self._duration.item(here, kind.ends_at) + kind.recovery_duration
-        latest = min(latest, kind.latest - spent - home)
-        airborne = time + home - ready
-        storms = tuple([(begin + kind.recovery_duration - airborne, end - kind.launch_duration)
-                        for begin, end in kind.storms])
-        found = _Leg(trip, ready, latest,
-                     airborne + max(kind.reload_duration, self._charging(airborne)), storms)
-        found = replace(found, ready=found.soonest(ready), latest=found.last(latest))
-        is_late = found.ready > found.latest or found.ready + airborne > kind.latest
-        return None if is_late else found
-
-    def _charging(self, airborne: int) -> int:
-        """Return how long a battery is charged at most after so long a trip; 0: it is full at once.
-        """
-        energy = self._kind.energy
-        if energy is None or not energy.charge:
-            return 0
-        most = max(*energy.cruise, *energy.climb, *energy.descent, *energy.hover)
-        return -(-min(airborne * most, energy.available) // energy.charge)

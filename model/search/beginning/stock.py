@@ -1,34 +1,19 @@
-"""Batteries, and places to charge, that routes of vehicles that fly take of their depots."""
+"""Batteries that routes of vehicles that fly take of their depots."""
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 from model.problem import UNLIMITED, Problem
 from model.solution import Route
 
 
-class Stock(NamedTuple):
-    """What there is at a depot, or taken of it."""
-
-    batteries: int
-    chargers: int
-
-
-def taken_at(problem: Problem, routes: Sequence[Route], node: int) -> Stock:
-    """Return what routes take of a depot."""
-    kinds = problem.vehicle_types
-    return Stock(
-        sum(trip.stops[0].node == node for route in routes
-            if kinds[route.vehicle_type].takes_batteries for trip in route.trips),
-        sum(kinds[route.vehicle_type].depot == node
-            and len(route.trips) > kinds[route.vehicle_type].trips_uncharged for route in routes))
+def batteries_taken(problem: Problem, routes: Sequence[Route], node: int) -> int:
+    """Return how many batteries routes take of a depot."""
+    return sum(trip.stops[0].node == node for route in routes
+               if problem.vehicle_types[route.vehicle_type].takes_batteries
+               for trip in route.trips)
 
 
-def left_at(problem: Problem, routes: Sequence[Route], node: int) -> Stock:
-    """Return what routes leave of a depot."""
-    depot = problem.depots[node]
-    if depot.batteries is None and depot.chargers is None:
-        return Stock(UNLIMITED, UNLIMITED)
-    taken = taken_at(problem, routes, node)
-    return Stock(UNLIMITED if depot.batteries is None else depot.batteries - taken.batteries,
-                 UNLIMITED if depot.chargers is None else depot.chargers - taken.chargers)
+def batteries_left(problem: Problem, routes: Sequence[Route], node: int) -> int:
+    """Return how many batteries routes leave of a depot."""
+    stock = problem.depots[node].batteries
+    return UNLIMITED if stock is None else stock - batteries_taken(problem, routes, node)

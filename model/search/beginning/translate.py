@@ -16,7 +16,7 @@ from model.search.route.layout import (
 )
 from model.search.route.state import Searcher
 from model.solution import (
-    Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit, renumbered_routes,
+    Charge, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit, renumbered_routes,
     with_handling,
 )
 
@@ -120,7 +120,7 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
              for trip in route.trips for index, stop in enumerate(trip.stops)]
     written = fleet.stop[slot, : len(stops)]
     written["node"], written["kind"] = np.array(stops).T
-    written["hold"] = NONE
+    written["hold"], written["free_start"] = NONE, 0
     firsts = np.cumsum([0] + [len(trip.stops) for trip in route.trips])
     sorties = sorted(
         ((int(first) + sortie.launch_stop, sortie.launch_time, int(first) + sortie.recovery_stop,
@@ -132,6 +132,12 @@ def write_route(fleet: Fleet, slot: int, route: Route) -> None:
         nodes = [visit.node for visit in sortie.visits]
         row.launch, row.recovery, row.drone = launch, recovery, sortie.drone
         row.count, row.nodes[: len(nodes)] = len(nodes), nodes
+    written["free_start"][firsts[:-1]] = [trip.stops[0].arrival for trip in route.trips]
+    # Who is charged in turn once before each trip at most: if in pieces, it is timed anew.
+    charges = [trip.charges[0] if len(trip.charges) == 1 else (0, 0) for trip in route.trips]
+    for name, times in zip(("charged_from", "charged_until"), zip(*charges, strict=True),
+                           strict=True):
+        fleet.trip[slot, : len(charges)][name] = times
     row = fleet.route[slot]
     row.type, row.length, row.sorties = route.vehicle_type, len(stops), len(sorties)
 
@@ -196,8 +202,10 @@ def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip
         Trip(with_handling(halts[first:last + 1], *handling),
              tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last),
-             _breaks(data.type[route.type], halts, rows, (first, last), broken) if broken else ())
-        for first, last in zip(trips["first"].tolist(), trips["last"].tolist(), strict=True))
+             _breaks(data.type[route.type], halts, rows, (first, last), broken) if broken else (),
+             (Charge(since, until),) if kind.shares_chargers and since < until else ())
+        for first, last, since, until in trips[
+            ["first", "last", "charged_from", "charged_until"]].tolist())
 
 
 def _breaks(kind: Any, halts: Sequence[Stop], rows: Records, trip: tuple[int, int],

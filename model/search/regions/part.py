@@ -7,7 +7,7 @@ from functools import cached_property
 import numpy as np
 
 from model.problem import Depot, Problem
-from model.search.beginning.stock import taken_at
+from model.search.beginning.stock import batteries_taken
 from model.search.regions.region import Region, Vehicle, customers_of
 from model.solution import Solution, renumbered
 
@@ -95,11 +95,8 @@ def _parted(problem: Problem, region: Region, nodes: Collection[int]) -> set[int
 
 
 def _depots_for(problem: Problem, region: Region) -> tuple[Depot, ...]:
-    """Return depots that have as many batteries, and places to charge, as the region takes."""
-    if not problem.limits_hubs:
-        return problem.depots
-    taken = [taken_at(problem, region.plan.routes, node) for node in range(problem.num_depots)]
+    """Return depots that have as many batteries as the region takes."""
     return tuple([
-        replace(depot, batteries=None if depot.batteries is None else batteries,
-                chargers=None if depot.chargers is None else chargers)
-        for depot, (batteries, chargers) in zip(problem.depots, taken, strict=True)])
+        depot if depot.batteries is None else
+        replace(depot, batteries=batteries_taken(problem, region.plan.routes, node))
+        for node, depot in enumerate(problem.depots)])

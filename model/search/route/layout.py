@@ -99,6 +99,7 @@ class ProblemData(NamedTuple):
     lag: Records  # (node, rank) how long behind others each is served, none likewise
     across: Records  # (node, rank) behind or before them by any vehicle, none likewise
     span: Records  # (node,) from when to when, as a route is timed, none likewise
+    plugging: Records  # (number,) as a route is timed, none where nobody waits to be charged
     vehicle_cost: FloatArray  # (type, node) of being served by it, none where nobody states any
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
     hub: Records  # (depot,), none where all have enough

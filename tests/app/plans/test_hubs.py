@@ -1,5 +1,6 @@
 """Vehicles that fly from depots by themselves, over HTTP."""
 
+from itertools import accumulate, pairwise
 from typing import Any
 
 import httpx
@@ -244,22 +245,67 @@ def test_trips_take_batteries_of_their_hub(
             for reason in left_out["reasons"]} == {"BATTERIES"}
 
 
-def test_who_lacks_a_place_to_charge_flies_once(
-        searching: httpx.Client, smallest: Request) -> None:
-    request = by_air(ones(smallest), count=1, energy=ENERGY, turnaround={"charge_w": 5000})
-    enough = planned(searching, request)
-    assert len(trips_of(enough)) > 1
-    hub = request["depots"][0]
-    hub["chargers"] = 0
+def in_turn(client: httpx.Client, request: Request, chargers: int | None) -> Request:
+    """Return a request of two drones for one parcel each trip, who are charged before each again.
+    """
+    first = request["customers"][0]
+    request["customers"] = [first | {"id": f"c{number}", "demand": request["fleet"][0]["capacity"],
+                                     "time_window": {"latest": 6000}} for number in range(6)]
+    request = by_air(request, count=2, energy=ENERGY)
+    most = trips_of(planned(client, request))[0]["energy_wh"]
+    request["fleet"][0] |= {"energy": ENERGY | {"battery_wh": most * 1.01},
+                            "turnaround": {"charge_w": 200}}
+    request["depots"][0]["chargers"] = chargers
+    return request
+
+
+def charges_of(plan: Request) -> list[tuple[float, float]]:
+    """Return from when until when drones are charged, in order."""
+    return sorted((each["start"], each["end"]) for trip in trips_of(plan)
+                  for each in trip.get("charging", ()))
+
+
+def test_drones_are_charged_one_behind_the_other(
+        client: httpx.Client, searching: httpx.Client, smallest: Request) -> None:
+    request = in_turn(client, smallest, 1)
+    plan = planned(searching, request)
+    assert plan["status"] == "complete"
+    charges = charges_of(plan)
+    assert len(charges) == 4
+    assert all(end <= start for (_, end), (start, _) in pairwise(charges))
+    assert plan["hubs"][0]["chargers_left"] == 0
+    assert all(stop["energy_left_wh"] >= 0 for trip in trips_of(plan) for stop in trip["stops"])
+    assert is_feasible(client, request, plan)
+    for trip in trips_of(plan):
+        trip.pop("charging", None)
+    assert is_feasible(client, request, plan)
+    request["depots"][0]["chargers"] = 0
+    answer = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert {each["code"] for each in answer["violations"]} == {"CHARGERS"}
     short = planned(searching, request)
-    assert len(trips_of(short)) == 1
-    assert short["hubs"] == [{"depot": hub["id"], "batteries_left": None, "chargers_left": 0}]
+    assert len(trips_of(short)) == 2
     remedies = {reason[name] for left_out in short["unassigned"]
                 for reason in left_out["reasons"] for name in ("remedy", "other_remedy")
                 if reason.get(name)}
-    assert f"fits with one more charger at {hub['id']}" in remedies
-    hub["chargers"] = 1
-    assert planned(searching, request)["cost"] == enough["cost"]
+    assert f"fits with one more charger at {request['depots'][0]['id']}" in remedies
+    request["depots"][0]["chargers"] = None
+    assert charges_of(planned(searching, request)) == []
+
+
+def test_a_day_goes_on_with_what_was_charged_by_then(
+        client: httpx.Client, searching: httpx.Client, smallest: Request) -> None:
+    request = in_turn(client, smallest, 1)
+    plan = planned(searching, request)
+    start, end = charges_of(plan)[1]
+    for now in (start, (start + end) / 2, end):
+        went_on = planned(searching, request | {"replan": {"plan": plan, "freeze_before": now}})
+        assert went_on["status"] == "complete"
+        before = [charge for charge in charges_of(plan) if charge[1] <= now]
+        assert charges_of(went_on)[:len(before)] == before
+        assert is_feasible(searching, request, went_on)
+        made = [(charge[0], 1) for charge in charges_of(went_on)]
+        made += [(charge[1], -1) for charge in charges_of(went_on)]
+        assert max(accumulate(change for _, change in sorted(made))) == 1
 
 
 def test_a_day_goes_on_with_the_batteries_that_are_left(

@@ -103,9 +103,10 @@ def test_battery_more_lets_a_drone_go(tiny_problem, customers, truck, drones):
 @pytest.mark.parametrize("stock", ["batteries", "chargers"])
 def test_battery_or_charger_more_at_a_hub_lets_a_vehicle_fly_again(tiny_problem, customers, truck,
                                                                    stock):
-    charge = 10**6 if stock == "chargers" else 0
+    # What it has left isn't enough for another trip.
+    charge, available = (10**6, 15 * 10**8) if stock == "chargers" else (0, 10**12)
     watts = (1000, 1000)
-    energy = Energy(10**12, 0.5, (0, 1000), watts, watts, watts, watts, charge=charge)
+    energy = Energy(available, 0.5, (0, 1000), watts, watts, watts, watts, charge=charge)
     flying = replace(truck, count=1, capacity=(3000,), max_trips=9, flies=True, energy=energy)
     problem = tiny_problem(*customers, truck=flying)
     hub = replace(problem.depots[0], **{stock: 1 if stock == "batteries" else 0})

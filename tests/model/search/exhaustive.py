@@ -15,7 +15,7 @@ from itertools import (
 from operator import add, le
 
 from model.judge.check import check
-from model.judge.hubs import taken_at_hubs
+from model.judge.hubs import batteries_taken
 from model.judge.rules import farthest
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, Fairness, Measure, Problem, VehicleType
@@ -126,11 +126,13 @@ def _stock(problem: Problem) -> Taken:
 
 
 def _taken(problem: Problem, route: Route) -> Taken:
-    """Return what a route takes of that."""
+    """Return what a route takes of that: of places to charge one all day, which is dearer."""
     if not problem.limits_hubs:
         return ()
-    taken = taken_at_hubs(problem, (route,))
-    return tuple(part[node] for node in range(problem.num_depots) for part in taken)
+    batteries, kind = batteries_taken(problem, (route,)), problem.vehicle_types[route.vehicle_type]
+    is_charged = len(route.trips) > kind.trips_uncharged
+    return tuple(part for node in range(problem.num_depots)
+                 for part in (batteries[node], int(is_charged and node == kind.depot)))
 
 
 def _cheapest_routes(problem: Problem, kind: int, nodes: Nodes) -> dict[tuple[Taken, Whole], float]:

@@ -94,7 +94,7 @@ def test_plan_put_together_keeps_all_rules(variant: str) -> None:
 
 
 def test_plans_put_together_take_no_more_than_hubs_have() -> None:
-    """Of batteries, or places to charge."""
+    """Of batteries; where places to charge are shared in time, none are put together."""
     better = 0
     for seed in range(6):
         problem, charged = from_hubs(np.random.default_rng(seed), 60, batteries=8), seed % 2 > 0
@@ -109,7 +109,7 @@ def test_plans_put_together_take_no_more_than_hubs_have() -> None:
             evaluation = check(problem, read_plan(data, searcher))
             assert evaluation.violations == ()
             assert evaluation.cost.total <= float(searcher.value.best) * (1 + 1e-9)
-    assert better > 3
+    assert better > 2
 
 
 def test_who_goes_together_does_so_in_plans_put_together() -> None:

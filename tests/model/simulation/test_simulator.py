@@ -18,7 +18,7 @@ from model.simulation.extract import extract
 from model.solution import Route
 from tests.model.mask_oracle import MINUTE, Vehicle, after, judge, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, roll
-from tests.model.fliers import from_few_hubs, with_fliers, without_taken
+from tests.model.fliers import from_few_batteries, with_fliers, without_taken
 from tests.model.permits import with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
@@ -171,7 +171,7 @@ def few_launch_places_among_all(rng: np.random.Generator, problem: Problem) -> P
 
 def few_at_hubs_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     problem = with_some(rng, problem, with_pickups, with_gaps, with_duty, with_reloads)
-    return from_few_hubs(rng, problem)
+    return from_few_batteries(rng, problem)
 
 
 def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
@@ -185,7 +185,7 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     with_turnaround, swapping_among_all, charging_often, charging_among_all, with_drone_types,
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
-    few_launch_places_among_all, with_fliers, fliers_among_all, from_few_hubs,
+    few_launch_places_among_all, with_fliers, fliers_among_all, from_few_batteries,
     few_at_hubs_among_all, with_storms,
     storms_among_all, fliers_in_range, fliers_in_storms, with_launch_sites, few_airborne_in_no_time,
     with_vehicle_costs, with_relations, with_order, with_hours_apart,

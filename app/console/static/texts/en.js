@@ -1296,7 +1296,7 @@ export default {
       batteries:
         'Charged batteries here for vehicles that fly: each trip takes one. Empty: enough.',
       chargers:
-        'Places to charge here for vehicles that fly: each is one vehicle’s all day. Empty: enough.',
+        'Places to charge here for vehicles that fly: each is for one vehicle at a time. Empty: enough.',
     },
     PlaceInput: {
       location: 'Where it is: longitude and latitude, or an address; on a plane x and y.',

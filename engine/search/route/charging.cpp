@@ -1,0 +1,199 @@
+#include "search/route/charging.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "rules/hub.h"
+#include "search/route/flown_trips.h"
+#include "search/route/freshness.h"
+#include "search/route/routes.h"
+
+namespace tandem {
+namespace {
+
+using Plugging = tandem_plugging;
+
+constexpr Int scratch_slots = 2;
+
+// Where vehicles are unplugged as others are plugged in, they come first.
+constexpr auto comes_before = [](const Plugging& one, const Plugging& other) {
+    if (one.depot != other.depot) return one.depot < other.depot;
+    return one.time != other.time ? one.time < other.time : one.change < other.change;
+};
+
+// Return the slot of the route for which one in a slot stands; `nowhere` if it is new.
+Int slot_meant(const Fleet& fleet, Int slot) {
+    if (slot < fleet.route.size() - scratch_slots) return slot;
+    for (const Stop& stop : fleet.stop[slot].first(fleet.route[slot].length)) {
+        if (stop.kind == customer_stop && fleet.where[stop.node].slot >= 0) {
+            return fleet.where[stop.node].slot;
+        }
+    }
+    return nowhere;
+}
+
+// When the battery of the vehicle on a trip was last charged, as far as it then was.
+Charge charge_of(const VehicleType& type, const Trip& trip, const Charge& before) {
+    if (trip.charged_until <= trip.charged_from) return before;
+    return {charged(type, before.kept, trip.charged_from, trip.charged_until), before.since};
+}
+
+// What a timed trip takes of the battery; more than that holds if it is too much.
+Int taken_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+             const Trip& trip) {
+    return battery_of(data.type[route.type]) -
+           follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).left();
+}
+
+// Write when vehicles of other routes than that in a slot are charged. In place: `data.plugging`.
+//
+// A route in a scratch slot stands for the one whose customers it serves.
+void note_pluggings(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const View<Plugging, 1> pluggings = data.plugging;
+    const Int own = slot_meant(fleet, slot);
+    Int count = 0;
+    for (Int other = 0; other < fleet.route.size() - scratch_slots; ++other) {
+        const Route& route = fleet.route[other];
+        if (other == own || route.length == 0 || !shares_chargers(data.type[route.type])) continue;
+        for (const Trip& trip : fleet.trip[other].first(route.trips)) {
+            if (trip.charged_until <= trip.charged_from) continue;
+            const Int depot = fleet.stop(other, trip.first).node;
+            pluggings[count++] = {depot, trip.charged_from, 1};
+            pluggings[count++] = {depot, trip.charged_until, -1};
+        }
+    }
+    std::sort(pluggings.begin(), pluggings.begin() + count, comes_before);
+    pluggings[pluggings.size() - 1].change = count;
+}
+
+// The pluggings that were noted; the last row of all tells how many.
+View<const Plugging, 1> noted(const ProblemData& data) {
+    return data.plugging.first(data.plugging[data.plugging.size() - 1].change);
+}
+
+// Places to charge at a depot, beside those that other vehicles take.
+class Places {
+public:
+    Places(const ProblemData& data, Int depot)
+        : hub_(data.hub[depot]), depot_(depot), pluggings_(noted(data)) {
+        first_ = std::lower_bound(pluggings_.begin(), pluggings_.end(), Plugging{depot, none, none},
+                                  comes_before);
+    }
+
+    // Return when a vehicle that is there from `since` on may begin to be charged for so long;
+    // `far` if never.
+    Int soonest(Int since, Int duration) const {
+        if (hub_.chargers >= unlimited) return since;
+        Int taken = 0, begin = has_free_charger(hub_, 0) ? since : far;
+        for (const Plugging* next = first_; next != pluggings_.end() && next->depot == depot_;
+             ++next) {
+            if (begin != far && next->time >= begin + duration) break;
+            taken += next->change;
+            if (!has_free_charger(hub_, taken)) {
+                begin = far;
+            } else if (begin == far) {
+                begin = std::max(since, next->time);
+            }
+        }
+        return begin;
+    }
+
+private:
+    const Hub& hub_;
+    const Int depot_;
+    const View<const Plugging, 1> pluggings_;
+    const Plugging* first_;
+};
+
+// Write of how much each trip wants to begin with, for those behind to begin as they are timed. In
+// place; false if any takes more than a battery holds.
+bool look_ahead(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                View<Trip, 1> trips) {
+    const VehicleType& type = data.type[route.type];
+    Int lacking = 0;
+    for (Int index = route.trips - 1; index >= 0; --index) {
+        Trip& trip = trips[index];
+        const Int taken = taken_on(data, route, stops, trip);
+        if (taken > battery_of(type)) return false;
+        trip.wanted = std::min(battery_of(type), taken + lacking);
+        if (index == 0) break;
+        const Int since = stops[trips[index - 1].last].leave, until = stops[trip.first].leave;
+        lacking = std::max(Int{0}, trip.wanted - charged(type, 0, since, until));
+    }
+    return true;
+}
+
+// How long a battery is charged that has so much until it has enough; 0 if it has.
+Int time_to_have(const VehicleType& type, Int kept, Int wanted) {
+    return time_charged(type, kept, 0, battery_of(type) - wanted);
+}
+
+}  // namespace
+
+bool charge_in_turn(const ProblemData& data, const Fleet& fleet, Int slot) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const View<Trip, 1> trips = fleet.trip[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const VehicleType& type = data.type[route.type];
+    if (!look_ahead(data, route, stops, trips)) return false;
+    Charge charge = first_charge(type, 0);
+    bool others_are_noted = false;
+    for (Trip& trip : trips.first(route.trips)) {
+        const auto plug = [&](Int wanted) {
+            if (!std::exchange(others_are_noted, true)) note_pluggings(data, fleet, slot);
+            const Int duration = time_to_have(type, charge.kept, wanted);
+            trip.charged_from =
+                Places(data, stops[trip.first].node).soonest(charge.since, duration);
+            trip.charged_until = trip.charged_from == far ? far : trip.charged_from + duration;
+            return trip.charged_until - stops[trip.first].leave;
+        };
+        const auto wait = [&] {
+            const Int taken = taken_on(data, route, stops, trip);
+            if (taken > battery_of(type)) return far;
+            trip.charged_from = trip.charged_until = charge.since;
+            const Int wanted = std::max(taken, trip.wanted);
+            if (wanted <= charge.kept || plug(wanted) <= 0) return Int{0};
+            trip.charged_from = trip.charged_until = charge.since;
+            if (taken <= charge.kept) return Int{0};
+            const Int later = plug(taken);
+            return trip.charged_from == far ? far : later;
+        };
+        if (!hold_trip(data, route, stops, trip, sorties, wait)) return false;
+        charge = charge_of(type, trip, charge);
+        charge.kept -= taken_on(data, route, stops, trip);
+        charge.since = stops[trip.last].leave;
+    }
+    return true;
+}
+
+bool is_charged_in_turn(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                        View<const Trip, 1> trips) {
+    const VehicleType& type = data.type[route.type];
+    Charge charge = first_charge(type, 0);
+    for (const Trip& trip : trips.first(route.trips)) {
+        if (trip.charged_until > trip.charged_from &&
+            (trip.charged_from < charge.since || trip.charged_until > stops[trip.first].leave)) {
+            return false;
+        }
+        charge = charge_of(type, trip, charge);
+        charge.kept -= taken_on(data, route, stops, trip);
+        charge.since = stops[trip.last].leave;
+        if (charge.kept < 0) return false;
+    }
+    return true;
+}
+
+bool has_places(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const View<const Stop, 1> stops = fleet.stop[slot];
+    const View<const Trip, 1> made = fleet.trip[slot].first(fleet.route[slot].trips);
+    note_pluggings(data, fleet, slot);
+    return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
+        return trip.charged_until <= trip.charged_from ||
+               Places(data, stops[trip.first].node)
+                       .soonest(trip.charged_from, trip.charged_until - trip.charged_from) ==
+                   trip.charged_from;
+    });
+}
+
+}  // namespace tandem
