@@ -651,6 +651,7 @@ typedef struct tandem_search_counts {
     int64_t stay;    /* turns near one customer; 0: everywhere */
     int64_t focus;   /* that customer */
     int64_t planned; /* tells the part apart that was planned at best last */
+    int64_t movable; /* customers of the trips that small moves changed last */
 } tandem_search_counts;
 
 /* Costs of the routes as they are and at their best, and what the annealing goes by. */

@@ -37,6 +37,7 @@ constexpr double same_share = 1e-12;  // costs that differ by a smaller share ar
 
 bool SmallMoves::attempt() {
     gather();
+    searcher_.count->movable = customers_;
     if (customers_ < 2) {
         forget();
         return false;

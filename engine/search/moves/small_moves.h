@@ -28,7 +28,7 @@ public:
     bool attempt();
 
     // Tells whether the last attempt found trips that they can change.
-    bool can_do() const { return customers_ > 1; }
+    bool can_do() const { return searcher_.count->movable > 1; }
 
 private:
     // A trip that is changed.

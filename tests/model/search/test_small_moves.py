@@ -1,5 +1,7 @@
 """Trips with one drone that are annealed by small moves."""
 
+import math
+import time
 from dataclasses import replace
 
 import numpy as np
@@ -82,3 +84,11 @@ def test_trucks_and_drones_are_done_sooner_by_them() -> None:
 def test_a_seed_gives_one_plan() -> None:
     problem = drawn(0, 30, 1)
     assert planned(problem, 100, 3) == planned(problem, 100, 3)
+
+
+def test_a_clock_that_does_not_strike_changes_nothing() -> None:
+    problem = drawn(3, 60, 2)
+    nothing = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    plans = {improve(problem, pack([problem]), nothing, SearchConfig(0, 1, 100), deadline).solution
+             for deadline in (math.inf, time.perf_counter() + 60, time.perf_counter() + 90)}
+    assert len(plans) == 1
