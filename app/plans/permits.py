@@ -9,7 +9,7 @@ from app.requests.conversion.groups import Place, Roster
 from app.schemas.customer import VehiclesInput
 from app.schemas.request import PlanRequest
 
-_BARRED = re.compile("^fits if .+? may serve it")
+_BARRED = re.compile("^fits if .+? may serve it(?=$| and )", re.DOTALL)
 
 
 @dataclass(frozen=True)

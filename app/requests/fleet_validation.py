@@ -36,7 +36,7 @@ def hours_errors(draft: Draft) -> Errors:
                            f"The window ends at {draft.told(hours.latest)}, before it starts at "
                            f"{draft.told(hours.earliest)}: raise latest or lower earliest.")
     known = {depot.id: depot.time_window for depot in depots if depot is not None}
-    if (all(hours == HoursInput() for hours in known.values())
+    if (len(known) < len(depots) or all(hours == HoursInput() for hours in known.values())
             or any(_closing(hours) < hours.earliest for hours in known.values())):
         return
     first = next(iter(known))
@@ -59,7 +59,7 @@ def _hours_of_type(kind: VehicleTypeInput, path: Path, known: Mapping[str, Hours
         closes = min(closes, _closing(hours))
     leaves = _closing(hours) if starts_there else inf
     if opens > min(closes, leaves) or (shift.latest is not None
-                          and shift.earliest <= shift.latest < opens):
+                                       and shift.earliest <= shift.latest < opens):
         yield error_at("DEPOT_CLOSED", (*path, "shift"),
                        f"The depot {home!r} isn't open during the shift: change the depot's "
                        "time_window or the shift.")

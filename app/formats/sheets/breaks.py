@@ -82,7 +82,7 @@ def is_ticked(van: Van, meaning: str, default: bool = False) -> bool:
     """
     said = simple(van.texts.get(meaning, ""))
     if said and said not in YES | NO:
-        raise MisreadError(f"{van.texts[meaning]!r} ({van.cell}) is neither yes nor no")
+        raise MisreadError(f"{van.texts[meaning]!r} ({van.cells[meaning]}) is neither yes nor no")
     return said in YES if said else default
 
 
@@ -103,8 +103,8 @@ def driving_rules_of(van: Van) -> Data | None:
     if split := van.texts.get("rest_split"):
         found = _SPLIT.fullmatch(split.strip())
         if found is None:
-            raise MisreadError(f"{split!r} ({van.cell}) are no two parts of a rest: write their "
-                               "minutes, such as 15 + 30")
+            raise MisreadError(f"{split!r} ({van.cells['rest_split']}) are no two parts of a "
+                               "rest: write their minutes, such as 15 + 30")
         rules["split"] = [int(found[1]) * MINUTE, int(found[2]) * MINUTE]
     return rules | {name: van.values[name] for name in BEFORE if van.values.get(name)}
 
@@ -120,8 +120,8 @@ def _preset(van: Van) -> str | None:
         return "eu-561"
     if "hos" in named.split() or "hours of service" in named:
         return "us-hos"
-    raise MisreadError(f"{stated!r} ({van.cell}) is no driving rule known here: write "
-                       f"one of {', '.join(LAWS)}")
+    raise MisreadError(f"{stated!r} ({van.cells['driving_rules']}) is no driving rule known "
+                       f"here: write one of {', '.join(LAWS)}")
 
 
 def break_doubts(vans: Sequence[Van]) -> list[Doubt]:
@@ -139,4 +139,10 @@ def break_doubts(vans: Sequence[Van]) -> list[Doubt]:
            and any(van.values.get(name) for name in LIMITS) for van in vans):
         doubts.append(Doubt("RESTS_ASSUMED", "Rests have no length: they are taken to last "
                             f"{USUAL_REST / MINUTE:.0f} min."))
+    if any(driving_rules_of(van) is None
+           and ("rest_split" in van.texts or any(map(van.values.get, ("rest", *BEFORE))))
+           for van in vans):
+        doubts.append(Doubt("RESTS_UNUSED", "Rests, or what was driven or worked before, are "
+                            "stated without driving rules or how long one may drive or work: "
+                            "nothing is made of them."))
     return doubts

@@ -49,8 +49,12 @@ class Line(NamedTuple):
 
 
 def lists_rules(sheet: Sheet) -> bool:
-    """Tell whether a sheet states what holds for the whole plan: it has few rows, and names it."""
-    return len(sheet.rows) <= MOST_ROWS and any(line.name for line in _lines(sheet))
+    """Tell whether a sheet states what holds for the whole plan: it has few rows, most of which do.
+
+    Of a list of customers one may be called Balance.
+    """
+    known = [line.name is not None for line in _lines(sheet)]
+    return len(sheet.rows) <= MOST_ROWS and any(known) and 2 * sum(known) >= len(known)
 
 
 def fairness_of(sheet: Sheet, style: Style) -> tuple[Data, list[Doubt]]:
@@ -64,8 +68,8 @@ def fairness_of(sheet: Sheet, style: Style) -> tuple[Data, list[Doubt]]:
     stated: Data = {}
     unused = []
     for line in _lines(sheet):
-        if line.name is None:
-            unused.append(line.shown)
+        if line.name is None or line.name in stated:
+            unused.append(f"{line.shown} ({line.cell})")
         else:
             stated[line.name] = _value(line, style)
     measure, cost = stated.pop("balance", None), stated.pop("balance_cost", None)
@@ -98,7 +102,11 @@ def _value(line: Line, style: Style) -> Any:
     try:
         if line.name != "balance":
             found = number_of(line.raw, style.comma)
-            return round(found) if line.name == "min_vehicles" else found
+            if line.name != "min_vehicles":
+                return found
+            if found != round(found):
+                raise MisreadError(f"{shown(line.raw)} is no number of vehicles: write a whole one")
+            return round(found)
     except MisreadError as error:
         raise MisreadError(f"{line.cell}: {error}") from error
     measure = MEASURE_NAMES.get(simple(shown(line.raw)))

@@ -7,7 +7,7 @@ from typing import Any
 from app.formats.sheets.cells import Doubt, MisreadError, Raw, letters
 from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import simple, unit_named, without_unit
-from app.formats.sheets.layout import Table, table_of
+from app.formats.sheets.layout import SEARCHED_ROWS, Table, table_of
 from app.formats.sheets.meanings import DURATION_UNITS, FAMILIES, Kind
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import read
@@ -47,7 +47,6 @@ MOST_VANS = 1000
 class Van:
     """A row of a sheet with vehicles."""
 
-    cell: str
     name: str = ""
     capacities: list[tuple[str, str | None, float]] = field(default_factory=list)
     values: dict[str, float] = field(default_factory=dict)
@@ -57,11 +56,12 @@ class Van:
     breaks: list[list[tuple[float | None, float | None]] | None] = field(default_factory=list)
     break_durations: list[float | None] = field(default_factory=list)
     texts: dict[str, str] = field(default_factory=dict)
+    cells: dict[str, str] = field(default_factory=dict)  # of texts
 
 
 def lists_vans(sheet: Sheet) -> bool:
     """Tell whether a sheet lists vehicles: they have names, and hold or work for how long."""
-    table = table_of(sheet)
+    table = _table_of(sheet)
     if not table.header_rows or len(table.rows) > MOST_VANS:
         return False
     meant = {_meaning_of(heading) for heading in table.headings}
@@ -74,7 +74,7 @@ def lists_vans(sheet: Sheet) -> bool:
 
 def vans_of(sheet: Sheet, style: Style) -> tuple[list[Van], list[Doubt]]:
     """Return the vehicles of a sheet, and what of it isn't used."""
-    table = table_of(sheet)
+    table = _table_of(sheet)
     meant = _columns(table)
     units = {column: _unit_in(table, column, meaning) for column, meaning in meant.items()}
     vans = [van for row in table.rows[:MOST_VANS]
@@ -87,6 +87,17 @@ def vans_of(sheet: Sheet, style: Style) -> tuple[list[Van], list[Doubt]]:
         doubts.append(Doubt("FLEET_UNUSED", f"Of the sheet {sheet.name} nothing is made of "
                             f"{', '.join(unused[:10])}."))
     return vans, doubts
+
+
+def _table_of(sheet: Sheet) -> Table:
+    """Return a sheet's headings and rows; `Break 1` is a heading among those of vehicles."""
+    table = table_of(sheet)
+    if table.header_rows:
+        return table
+    known = {number: len({_meaning_of(raw) for raw in row if isinstance(raw, str)} - {None})
+             for number, row in enumerate(sheet.rows[:SEARCHED_ROWS])}
+    best = max(known, key=lambda number: known[number], default=-1)
+    return table_of(sheet, best) if known.get(best, 0) > 1 else table
 
 
 def _meaning_of(heading: str) -> str | None:
@@ -129,7 +140,7 @@ def _columns(table: Table) -> dict[int, str]:
 def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, str | None],
          style: Style) -> Van | None:
     """Return the vehicle of a row; None: there is none, or no name and no capacity."""
-    van = Van(table.name(row, 0))
+    van = Van()
     ends: dict[str, float] = {}
     for column, meaning in meant.items():
         value = _value(table, row, column, KINDS[meaning], units.get(column), style)
@@ -153,6 +164,7 @@ def _van(table: Table, row: int, meant: Mapping[int, str], units: Mapping[int, s
             van.skills = value
         elif KINDS[meaning] == "text":
             van.texts[meaning] = value
+            van.cells[meaning] = f"{table.sheet.name}!{table.name(row, column)}"
         else:
             van.values[meaning] = value
     if ends:

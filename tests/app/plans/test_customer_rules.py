@@ -67,6 +67,14 @@ def test_remedy_names_all_that_must_be_forbidden_no_more(
     assert client.post("/plan", json=smallest).json()["unassigned"] == []
 
 
+def test_names_of_several_lines_are_named_in_remedies(client: httpx.Client,
+                                                      smallest: Request) -> None:
+    smallest["fleet"][0]["id"] = "big\ntruck"
+    smallest["customers"][1]["vehicles"] = {"forbidden": ["big\ntruck"]}
+    left, = client.post("/plan", json=smallest).json()["unassigned"]
+    assert left["reasons"][0]["remedy"] == "fits if big\ntruck may serve it"
+
+
 def test_explained_customer_has_the_same_remedy(client: httpx.Client, smallest: Request) -> None:
     smallest["fleet"][0]["count"] = 1
     smallest["customers"][1]["vehicles"] = {"forbidden": ["truck-1", "truck"]}

@@ -23,6 +23,16 @@ def test_hours_that_leave_no_day_are_refused(client: httpx.Client, smallest: Req
     assert [code for code, _ in errors_of(client, smallest)] == [code]
 
 
+def test_a_depot_that_is_wrong_makes_no_other_the_home(client: httpx.Client,
+                                                       smallest: Request) -> None:
+    home, = smallest["depots"]
+    smallest["depots"] = [home | {"chargers": -1}, {
+        "id": "other", "location": [1, 1], "time_window": {"earliest": 900}}]
+    smallest["fleet"][0]["shift"] = {"latest": 600}
+    errors = client.post("/plan", json=smallest).json()["errors"]
+    assert [error["code"] for error in errors] == ["OUT_OF_RANGE"]
+
+
 def test_depots_that_close_say_so(client: httpx.Client, smallest: Request) -> None:
     smallest["fleet"][0] |= {"speed_kmh": 36, "count": 1, "max_trips": 9}
     smallest["customers"] = [{"id": "far", "location": [6000, 0], "demand": [1]},

@@ -1310,7 +1310,7 @@ export default {
       batteries:
         'Geladene Akkus für Fahrzeuge, die von hier fliegen: Jede Tour braucht einen. Leer: genug.',
       chargers:
-        'Ladeplätze für Fahrzeuge, die von hier fliegen: Jeder lädt eins zur Zeit. Leer: genug.',
+        'Ladeplätze für Fahrzeuge, die von hier fliegen: Jeder lädt immer nur eines. Leer: genug.',
     },
     PlaceInput: {
       location: 'Wo es ist: Länge und Breite oder eine Adresse; auf einer Ebene x und y.',

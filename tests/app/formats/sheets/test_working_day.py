@@ -59,6 +59,12 @@ def test_breaks_have_lengths_of_their_own() -> None:
     assert "breaks" not in third
 
 
+def test_numbered_breaks_are_headings_of_vehicles() -> None:
+    van, = vehicles(("Vehicle", "Capacity", "Break 1", "Break 1 min", "Break 2", "Break 2 min"),
+                    ("van 1", 10, "12:00-14:00", 30, "15:00-16:00", 15))
+    assert [each["duration"] for each in van["breaks"]] == [1800, 900]
+
+
 def test_driving_rules_are_published_ones_or_a_firms_own() -> None:
     reply = read("Fahrzeuge", (
         "Fahrzeug", "Kapazität", "Lenkzeiten", "Lenkzeit bis Pause", "Lenkzeit am Tag",
@@ -84,7 +90,16 @@ def test_what_cannot_be_read_of_a_driver_is_refused(heading: str, cell: str) -> 
     reply = read("Fahrzeuge", ("Fahrzeug", "Kapazität", "Lenkzeit bis Pause", heading),
                  ("A", 40, 4, cell))
     assert [error.code for error in reply.errors] == ["DRIVING_RULES"]
-    assert cell in reply.errors[0].message
+    assert f"{cell!r} (Fahrzeuge!D2)" in reply.errors[0].message
+
+
+def test_rests_without_a_rule_are_told() -> None:
+    unused = read("Fahrzeuge", ("Fahrzeug", "Kapazität", "Lenkpause", "Lenkzeit bis Pause"),
+                  ("A", 40, 45, None))
+    assert "RESTS_UNUSED" in codes(unused)
+    used = read("Fahrzeuge", ("Fahrzeug", "Kapazität", "Lenkpause", "Lenkzeit bis Pause"),
+                ("A", 40, 45, 4))
+    assert "RESTS_UNUSED" not in codes(used)
 
 
 def test_a_sheet_says_what_the_whole_plan_costs() -> None:
@@ -108,10 +123,23 @@ def test_what_is_wrong_with_rules_of_the_plan_is_told() -> None:
     assert "Plan!B1" in wrong.errors[0].message
     half = read("Plan", ("Ausgleich nach", "Stopps"), ("Mindestens Fahrzeuge", 1))
     assert "BALANCE_INCOMPLETE" in codes(half)
+    broken = read("Plan", ("Mindestens Fahrzeuge", 1.4))
+    assert "Plan!B1: 1.4" in broken.errors[0].message
+    twice = read("Plan", ("Mindestens Fahrzeuge", 2), ("Mindestens Fahrzeuge", 1))
+    assert twice.request is not None
+    assert twice.request["fairness"] == {"min_vehicles": 2}
+    assert "RULES_UNUSED" in codes(twice)
     ignored = read("Plan", ("Mindestens Fahrzeuge", 2), mapping={
         "answers": {"sheet:Plan": "ignored"}})
     assert ignored.request is not None
     assert "fairness" not in ignored.request
+
+
+def test_a_customer_may_be_called_as_a_rule_is() -> None:
+    shops = read("Kunden 2", ("Name", "Breite", "Länge"), ("Balance", 48.1, 11.5),
+                 ("Yoga", 48.2, 11.6), ("Dauer", 48.3, 11.6))
+    assert shops.request is not None, shops.errors
+    assert "fairness" not in shops.request
 
 
 def test_the_example_shows_every_rule_and_is_planned(searching: httpx.Client) -> None:
