@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from model.judge.alternatives import best_of, try_places
 from model.judge.bench import Bench, Draft, Trial
 from model.judge.past import Vehicle
+from model.judge.past_rules import PAST_RULES
 from model.judge.places import Place
 from model.judge.rules import Violation
 
@@ -59,11 +60,14 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
 def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
     """Return the rules that a plan breaks and that it doesn't without the customer.
 
-    Without one end of a shipment alone the other breaks one, which excuses no other trip.
+    Without one end of a shipment alone the other breaks one, which excuses no other trip; nor does
+    it that a plan without whoever was served already isn't what has happened.
     """
     is_end = bench.shipment is None and bench.node in bench.problem.shipment_at
+    given = {(each.code, each.message) for each in bench.plan.evaluation.violations}
     before = {(each.code, each.message) for each in bench.left_out.evaluation.violations
               if not (is_end and each.code == "PAIR")}
+    before -= {each for each in before - given if each[0] in PAST_RULES}
     return [each for each in trial.evaluation.violations
             if (each.code, each.message) not in before]
 

@@ -240,6 +240,18 @@ def test_what_has_happened_is_told_where_it_is_changed(client: httpx.Client,
     assert "TIME_MISMATCH" not in codes
 
 
+def test_who_was_served_fits_nowhere_else(client: httpx.Client) -> None:
+    problem = problem_of(0)
+    plan = planned(client, problem)
+    served = plan["routes"][0]["trips"][0]["stops"][1]
+    problem |= {"replan": {"plan": plan, "freeze_before": served["departure"]}}
+    found = fitted(client, {"problem": problem, "plan": plan, "customer": served["id"]})
+    elsewhere = [place for place in found["places"] + found["others"]
+                 if place["vehicle"] != plan["routes"][0]["vehicle"]]
+    assert elsewhere
+    assert all("FROZEN" in {reason["code"] for reason in place["reasons"]} for place in elsewhere)
+
+
 def test_vehicle_that_a_plan_states_twice_goes_on_with_its_first_route(
         client: httpx.Client) -> None:
     whole = problem_of(0)
