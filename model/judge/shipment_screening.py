@@ -108,9 +108,9 @@ class ShipmentScreen:
             return
         pickups.sort(key=lambda end: end[1].stop)
         beside = [list(some) for _, some in groupby(pickups, key=lambda end: end[1].stop)]
-        ways = product(*[chain([row.nearest_first(some)], permutations(some))
-                         if len(some) > 1 else [some] for some in beside])
         most = MOST_ORDERS_ALONE if last[1].own_trip else MOST_ORDERS
+        ways = product(*[chain([row.nearest_first(some)], islice(permutations(some), most))
+                         if len(some) > 1 else [some] for some in beside])
         for way in dict.fromkeys(tuple(chain(*groups)) for groups in islice(ways, most + 1)):
             yield *way, last
 

@@ -1,5 +1,7 @@
 """Whole shipments over HTTP: where they fit plans best, and what they cost elsewhere."""
 
+from collections.abc import Iterator, Sequence
+from itertools import permutations
 from typing import Any
 
 import httpx
@@ -7,6 +9,8 @@ import pytest
 
 from app.schemas.explain import ExplainReply
 from app.schemas.fit import FitReply
+from model.judge import shipment_screening
+from model.problem import MOST_PICKUPS
 from tests.app.plans.asking import refused
 
 Request = dict[str, Any]
@@ -71,6 +75,26 @@ def test_a_whole_shipment_is_fitted_and_explained(client: httpx.Client, paired: 
     assert kinds["vehicle"]["vehicle"] != best["vehicle"]
     assert len(kinds["vehicle"]["ends"]) == len(best["ends"])
     assert kinds["vehicle"]["cost"]["total"] >= 0
+
+
+def test_few_orders_of_many_pickups_are_tried(client: httpx.Client, paired: Request,
+                                              monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = []
+
+    def counted(some: Sequence[object]) -> Iterator[tuple[object, ...]]:
+        for order in permutations(some):
+            drawn.append(order)
+            yield order
+
+    monkeypatch.setattr(shipment_screening, "permutations", counted)
+    [shipment] = paired["shipments"]
+    paired["shipments"] = []
+    plan = client.post("/plan", json=paired).json()
+    many = {"id": "s1", "delivery": shipment["delivery"], "pickups": [
+        {"id": str(number), "amount": [0.1], "location": [3, number]}
+        for number in range(MOST_PICKUPS)]}
+    assert fitted(client, {"problem": paired, "plan": plan, "new_shipment": many})["places"]
+    assert 0 < len(drawn) < 1000
 
 
 def test_a_shipment_left_out_is_told_why_and_who_asks_wrongly_too(client: httpx.Client,
