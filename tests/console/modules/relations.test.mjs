@@ -3,7 +3,7 @@ import test from 'node:test';
 import { removeCustomers } from '../../../app/console/static/js/core/changes.js';
 import { presetOf } from '../../../app/console/static/js/core/presets.js';
 import {
-  needlessIn, relate, renamed,
+  needlessIn, relate, renamed, withShipments,
 } from '../../../app/console/static/js/core/relations.js';
 import {
   helpOf, kindOf, resolve, wordLines, wordsOf,
@@ -41,6 +41,22 @@ test('whoever is renamed is bound under the new name', () => {
     [['A', 'Ben'], ['A', 'Ben', 'C']],
   );
   assert.equal(renamed(REQUEST, 'X', 'Y'), REQUEST);
+});
+
+test('ends of shipments are followed as they are renamed, and left out as they go', () => {
+  const pair = (id) => ({ id, pickup: {}, delivery: {} });
+  const parts = (...names) => ({ id: 't', pickups: names.map((id) => ({ id })), delivery: {} });
+  const bound = (...customers) => ({ kind: 'apart', customers });
+  const request = { shipments: [pair('s'), parts('x', 'y')], relations: [
+    bound('A', 's/pickup'), bound('A', 'B', 't/pickup/x')] };
+  const after = (...shipments) => withShipments(request, { ...request, shipments })
+    .relations.map(({ customers }) => customers);
+  assert.deepEqual(after(pair('new'), parts('x', 'y')),
+    [['A', 'new/pickup'], ['A', 'B', 't/pickup/x']]);
+  assert.deepEqual(after(pair('s'), parts('z', 'y')), [['A', 's/pickup'], ['A', 'B', 't/pickup/z']]);
+  assert.deepEqual(after(pair('s'), parts('y')), [['A', 's/pickup'], ['A', 'B']]);
+  assert.deepEqual(after(parts('x', 'y')), [['A', 'B', 't/pickup/x']]);
+  assert.equal('relations' in withShipments({}, { shipments: [] }), false);
 });
 
 test('another place begins where the customer is', () => {

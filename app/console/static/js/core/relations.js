@@ -1,5 +1,7 @@
 /** Who goes with whom: what names customers, and follows them when they go or are renamed. */
 
+import { endsOf } from './visits.js';
+
 /** Fields that say nothing of relations of a kind. */
 const NEEDLESS = { before: ['scope'] };
 const OF_ORDERS = ['min_lag', 'max_lag', 'same_vehicle'];
@@ -33,4 +35,22 @@ export function renamed(request, former, name) {
       customers: relation.customers.map((each) => (each === former ? name : each)),
     })),
   };
+}
+
+/** Return the problem with other shipments than before, by whose names relations call their ends. */
+export function withShipments(former, changed) {
+  if (!changed.relations) return changed;
+  const [before, after] = [former, changed].map(
+    ({ shipments = [] }) => shipments.map((each) => endsOf(each).map(({ name }) => name)));
+  const names = new Map(before.length === after.length
+    ? before.flatMap((ends, at) => (ends.length === after[at].length
+      ? ends.map((name, end) => [name, after[at][end]]) : []))
+    : []);
+  const called = (name) => names.get(name) ?? name;
+  const there = new Set(after.flat());
+  const gone = new Set(before.flat().map(called).filter((name) => !there.has(name)));
+  const relations = changed.relations.map((relation) => ({
+    ...relation, customers: relation.customers.map(called),
+  }));
+  return { ...changed, relations: withoutNamed(relations, (name) => gone.has(name)) };
 }

@@ -1,10 +1,11 @@
 /** Shipments, relations, depots, launch sites and what else a problem has beside customers and fleet. */
 
 import { edit, openTab } from '../actions.js';
-import { freeName } from '../core/changes.js';
+import { freeName, removeCustomers } from '../core/changes.js';
 import { number } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { placeOf } from '../core/places.js';
+import { withShipments } from '../core/relations.js';
 import { labelOf } from '../core/schema.js';
 import { endsOf } from '../core/visits.js';
 import { html } from '../libraries.js';
@@ -22,7 +23,8 @@ export function Shipments({ request }) {
   return html`<details class="card" open=${isSelected}><summary>${labelOf('shipments')}
       <span class="right">${number(request.shipments?.length ?? 0, 0)}</span></summary>
     <div class="inside"><${Field} name="shipments" keys=${['shipments']} request=${request}
-      schema=${schemas.PlanRequest.properties.shipments} onChange=${edit} /></div></details>`;
+      schema=${schemas.PlanRequest.properties.shipments}
+      onChange=${(changed) => edit(withShipments(request, changed))} /></div></details>`;
 }
 
 /** Who goes with whom, open where something is wrong with it. */
@@ -87,9 +89,7 @@ function clear() {
   edit((request) => {
     const { matrices, ...rest } = request;
     return {
-      ...rest,
-      customers: [],
-      ...(rest.relations && { relations: [] }),
+      ...removeCustomers(rest, rest.customers.map(({ id }) => id)),
       ...(rest.airspace && { airspace: { ...rest.airspace, no_fly: [] } }),
     };
   });
