@@ -15,11 +15,11 @@ const SOURCES = readdirSync(JUDGE)
   .filter((name) => name.endsWith('.py'))
   .map((name) => readFileSync(new URL(name, JUDGE), 'utf8'));
 
-/** What a browser has to choose a language with. */
-Object.assign(globalThis, {
+/** What a browser has to choose a language with; other tests run beside, and have none. */
+const BROWSER = {
   localStorage: { getItem: () => null, setItem() {} },
   document: { documentElement: {} },
-});
+};
 
 /** What stands in words of the service for what is within braces. */
 const VALUES = [
@@ -66,6 +66,7 @@ test('every remedy of the judge is found in its sources', () => {
 });
 
 test('every remedy is said in German, one of several limits as one sentence', async () => {
+  Object.assign(globalThis, BROWSER);
   await choose('de');
   try {
     const left = [...REMEDIES, ...OF_ENDS].filter((remedy) =>
@@ -84,6 +85,7 @@ test('every remedy is said in German, one of several limits as one sentence', as
     );
   } finally {
     await choose('en');
+    for (const name of Object.keys(BROWSER)) delete globalThis[name];
   }
 });
 

@@ -37,7 +37,7 @@ export function renamed(request, former, name) {
   };
 }
 
-/** Return the problem with other shipments than before, by whose names relations call their ends. */
+/** Return the problem with other shipments than before, whose ends relations name as they do. */
 export function withShipments(former, changed) {
   if (!changed.relations) return changed;
   const [before, after] = [former, changed].map(

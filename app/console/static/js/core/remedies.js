@@ -8,8 +8,8 @@ const BY_SO_MUCH =
   /(longer|later|more|more overtime|one more vehicle|another trip|were above [\d.,]+)$/;
 
 /**
- * Return a remedy without its numbers and names, which tells its kind from others; of several limits
- * with them: the largest of one may be no other's.
+ * Return a remedy without its numbers and names, which tells its kind from others; of several
+ * limits with them: the largest of one may be no other's.
  */
 function kindOf({ remedy }) {
   if (remedy && isOfSeveral(remedy)) return remedy;

@@ -70,7 +70,7 @@ export function wordLines(words, show = String) {
     .join('\n');
 }
 
-/** Return what lines such as `phone: 089 1234` say; null if one lacks its name, or can't be read. */
+/** Return what lines such as `phone: 089 1234` say; null if one lacks its name or can't be read. */
 export function wordsOf(text, read = String) {
   const lines = text.split('\n').filter((line) => line.trim());
   if (!lines.every((line) => line.indexOf(':') > 0)) return null;

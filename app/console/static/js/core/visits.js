@@ -51,7 +51,7 @@ function visitsTo(shipment) {
   }));
 }
 
-/** Return the shipment one of whose ends bears a name: `{id, names}`, of all ends; else undefined. */
+/** Return the shipment with an end of a name: `{id, names}`, of all ends; else undefined. */
 export function shipmentOf({ shipments = [] }, name) {
   const whole = shipments.find((each) => endsOf(each).some((end) => end.name === name));
   return whole && { id: whole.id, names: endsOf(whole).map((end) => end.name) };

@@ -28,7 +28,8 @@ export function CustomersTab() {
   return html`<${NewOrder} /><${CustomerTable} key=${epoch} request=${request} />
     <${AddressSearch} request=${request} />
     <${DoubtedPlaces} request=${request} /><${SelectedCustomer} request=${request} />
-    <${Shipments} request=${request} /><${Relations} request=${request} /><${Places} request=${request} />
+    <${Shipments} request=${request} /><${Relations} request=${request} />
+    <${Places} request=${request} />
     <${DayFields} request=${request} />`;
 }
 

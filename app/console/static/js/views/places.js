@@ -1,4 +1,4 @@
-/** Shipments, relations, depots, launch sites and what else a problem has beside customers and fleet. */
+/** Shipments, relations, depots, launch sites and what else is neither customer nor fleet. */
 
 import { edit, openTab } from '../actions.js';
 import { freeName, removeCustomers } from '../core/changes.js';

@@ -23,7 +23,8 @@ export function WhyHere({ id }) {
   const isOut = leftOutOf(entry.plan).some((each) => each.id === id);
   const isAsking = answer?.state === 'asking';
   return html`<div class="section"><div class="buttons"><button type="button" disabled=${isAsking}
-      onClick=${() => askWhy(entry, id, whole)}>${isOut ? t('why.ask.price') : t('why.ask.here')}</button>
+      onClick=${() => askWhy(entry, id, whole)}>${
+        isOut ? t('why.ask.price') : t('why.ask.here')}</button>
       <span role="status">${isAsking ? t('why.ask.asking') : ''}</span></div>
     ${answer?.told && html`<${Told} told=${answer.told} customer=${customer}
       id=${whole?.id ?? id} request=${entry.request} />`}</div>`;
