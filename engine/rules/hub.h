@@ -31,4 +31,10 @@ inline bool has_charger_for(const VehicleType& type, const Hub& hub, Int trips, 
     return needs_charger(type, trips) || !needs_charger(type, trips + 1) || taken < hub.chargers;
 }
 
+// Whether a vehicle that has made so many trips may begin one more at a depot that isn't its own:
+// no place there is given away.
+inline bool charges_away(const VehicleType& type, const Hub& hub, Int trips) {
+    return !needs_charger(type, trips + 1) || hub.chargers >= unlimited;
+}
+
 }  // namespace tandem

@@ -42,6 +42,7 @@ bool may_take_off(const Instance& instance, const State& state, Int r, Int k, In
     const VehicleType& type = instance.type(b, k);
     return has_battery_for(type, instance.hub(b, depot),
                            taken_at(instance, state, r, depot).batteries) &&
+           (depot == type.depot || charges_away(type, instance.hub(b, depot), trips)) &&
            has_charger_for(type, instance.hub(b, type.depot), trips,
                            taken_at(instance, state, r, type.depot).chargers);
 }

@@ -60,13 +60,15 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
 def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
     """Return the rules that a plan breaks and that it doesn't without the customer.
 
-    Without one end of a shipment alone the other breaks one, which excuses no other trip; nor does
-    it that a plan without whoever was served already isn't what has happened.
+    What breaks only because he is missed excuses no other trip, so that in a plan without broken
+    rules none are excused; nor is what one end of a shipment breaks without the other, nor that a
+    plan without whoever was served already isn't what has happened.
     """
     is_end = bench.shipment is None and bench.node in bench.problem.shipment_at
     given = {(each.code, each.message) for each in bench.plan.evaluation.violations}
+    codes = {code for code, _ in given} - ({"PAIR"} if is_end else set())
     before = {(each.code, each.message) for each in bench.left_out.evaluation.violations
-              if not (is_end and each.code == "PAIR")}
+              if each.code in codes}
     before -= {each for each in before - given if each[0] in PAST_RULES}
     return [each for each in trial.evaluation.violations
             if (each.code, each.message) not in before]

@@ -19,6 +19,7 @@ from model.judge.retiming import read_route, time_route
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem, Shipment
 from model.solution import Solution
+from tests.model.search.mixed_days import with_missing_legs
 from tests.model.tiny import draw_tiny, with_gaps, with_table
 from tests.model.tiny_shipments import with_flown_shipments, with_shipments
 
@@ -132,6 +133,19 @@ def test_the_best_offer_is_the_best_of_all(seed: int) -> None:
             assert best.evaluation.cost.total <= lowest + 1e-9
         else:
             assert new_violations(bench, best) or seed % 3 == 2
+
+
+@pytest.mark.parametrize("seed", [6, 7])
+def test_what_breaks_only_because_a_shipment_is_missed_excuses_no_place(seed: int) -> None:
+    """Between those who are beside an end there may be no way."""
+    rng = np.random.default_rng(seed)
+    problem = with_missing_legs(rng, with_shipments(rng, draw_tiny(rng)))
+    solution = greedy(problem)
+    assert check(problem, solution).is_feasible
+    for shipment in problem.shipments:
+        bench = bench_of(problem, solution, shipment.pickup)
+        for place in find_fits(bench, 5).places if bench.found else ():
+            assert bool(new_violations(bench, place)) != place.evaluation.is_feasible
 
 
 @pytest.mark.parametrize("seed", range(12))

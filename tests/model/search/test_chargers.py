@@ -11,9 +11,12 @@ from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import Problem
 from model.search.improve import SearchConfig, improve
+from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.chargers import MINUTE, battery_of, charged_street, order
-from tests.model.fliers import charging, from_hubs
+from tests.model.fliers import charging, from_few_hubs, from_hubs
+from tests.model.rollouts import roll
+from tests.model.tiny import draw_tiny, with_gaps, with_open_reloads, with_reloads
 
 
 def searched(problem: Problem, turns: int, seed: int = 0) -> Solution:
@@ -102,3 +105,17 @@ def test_few_places_serve_more_than_a_vehicle_each() -> None:
     plan = searched(problem, 400)
     charged = {route.vehicle for route in plan.routes for trip in route.trips if trip.charges}
     assert len(charged) > 2
+
+
+@pytest.mark.parametrize("seed", [55, 760, 999])
+def test_rollouts_are_charged_where_their_trips_begin(seed: int) -> None:
+    """Another depot than their own, at which they reload, may have no place for that."""
+    rng = np.random.default_rng(seed)
+    problem = draw_tiny(rng)
+    rng.random()
+    change = (with_reloads, with_open_reloads)[int(rng.integers(2))]
+    problem = from_few_hubs(rng, change(rng, problem))
+    problem = with_gaps(rng, problem) if rng.random() < 0.3 else problem
+    rollout = roll([problem], seed).rollouts[0]
+    plan = extract(problem, pack([problem]), rollout.actions)
+    assert not check(problem, plan).violations
