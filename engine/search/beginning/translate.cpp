@@ -136,8 +136,15 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
     }
     if (has_breaks(data.type[route.type]) || limits_timed_travel(data.type[route.type])) {
         bool settled = false;
-        return price_as_is(data, fleet, slot, no_bar, settled) &&
-               (settled || settle(data, route, stops, trips, sorties));
+        const Int spare = fleet.route.size() - 1;
+        copy_route(fleet, slot, fleet, spare);
+        if (!price_as_is(data, fleet, slot, no_bar, settled) ||
+            (!settled && !settle(data, route, stops, trips, sorties))) {
+            // Of the ways to rest while drones fly few are followed, which may be others now: it is
+            // driven as it was timed.
+            copy_route(fleet, spare, fleet, slot);
+        }
+        return true;
     }
     load_trips(data, route, stops, trips, sorties);
     clear_holds(route, stops, trips);

@@ -11,7 +11,9 @@ from model.solution import Solution
 from tests.model.search.test_optimum import (
     TURNS, long_sorties, missed_seeds, one_drone, searched_cost,
 )
-from tests.model.tiny import with_energy
+from tests.model.tiny import with_energy, with_gaps
+from tests.model.tiny_breaks import with_breaks
+from tests.model.tiny_driving import with_driving
 from tests.model.tiny_shipments import with_flown_shipments
 
 
@@ -58,3 +60,16 @@ def test_drones_fetch_and_deliver_shipments() -> None:
         brought += any(each.delivery in served for each in problem.shipments)
         fetched += any(each.pickup in served for each in problem.shipments)
     assert min(brought, fetched) >= 2
+
+
+@pytest.mark.parametrize("seed", [3153, 3653])
+def test_a_route_found_is_driven_as_it_was_timed(seed: int) -> None:
+    """Timed once more at the end, its driver would find no way to rest while drones fly."""
+    rng = np.random.default_rng([seed, 10])
+    problem = with_flown_shipments(rng, one_drone(rng) if rng.random() < 0.5 else long_sorties(rng))
+    problem = with_energy(rng, problem, 0.5) if rng.random() < 0.4 else problem
+    problem = with_driving(rng, with_breaks(rng, problem))
+    problem = with_gaps(rng, problem) if rng.random() < 0.3 else problem
+    found = improve(problem, pack([problem]), Solution((), problem.left_out(())),
+                    SearchConfig(seed, turns=8)).solution
+    assert check(problem, found).violations == ()
