@@ -13,7 +13,7 @@ from itertools import chain
 from math import ceil
 
 from model.judge.check import check
-from model.judge.combined_remedies import Diagnose, combined_remedy, customer_broken
+from model.judge.combined_remedies import AND, Diagnose, combined_remedy, customer_broken
 from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.diagnosis import Diagnosis
@@ -61,8 +61,8 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
                  until: float = math.inf) -> Reason:
     """Return why no vehicle of a type serves the customer at `node`. As `explain`.
 
-    Of several places that is of his own, unless he could be served at another, or only there
-    something would help.
+    Of several places that is of his own, unless he could be served at another, or fewer changes
+    would do there.
     """
     told = _explain_at(problem, solution, index, node, until)
     if told.code in POSSIBLE:
@@ -71,9 +71,14 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
         reason = _explain_at(problem, solution, index, place, until)
         if reason.code in POSSIBLE:
             return _at_place(problem, reason, place)
-        if told.remedy is None and reason.remedy is not None:
+        if _changes(reason) < _changes(told):
             told = _at_place(problem, reason, place)
     return told
+
+
+def _changes(reason: Reason) -> float:
+    """Return how many limits a remedy changes; infinity: there is none."""
+    return math.inf if reason.remedy is None else reason.remedy.count(f"{AND}if ")
 
 
 WINDOW = re.compile(r"\bits ((?:last )?window(?: \d+)?)")

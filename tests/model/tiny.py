@@ -226,12 +226,14 @@ def with_duty(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem with overtime, whose stops cost and are limited, as are sorties and legs."""
     def tired(kind: VehicleType) -> VehicleType:
         longest = _maybe(rng, 0.7, 0, 20)
+        # Apart, so that all that is drawn later is the same with speeds by the hour and without.
+        legs = rng.spawn(1)[0] if kind.speed_profile else rng
         overtime = Overtime(float(rng.integers(0, 60)), UNLIMITED if longest is None else longest)
         return replace(
             kind, overtime=overtime if rng.random() < 0.7 else None,
             cost_per_stop=float(rng.integers(0, 5)), max_stops=_maybe(rng, 0.5, 0, 3, 1),
             max_sorties=_maybe(rng, 0.5, 0, 3, 1),
-            max_travel_duration=None if kind.flies else _maybe(rng, 0.5, 4, 40))
+            max_travel_duration=None if kind.flies else _maybe(legs, 0.5, 4, 40))
 
     return replace(problem, vehicle_types=tuple(map(tired, problem.vehicle_types)))
 
