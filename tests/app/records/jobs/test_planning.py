@@ -16,6 +16,7 @@ from app.records.jobs.planning import PlanWork
 from app.records.jobs.reading import JobReader
 from app.records.jobs.rows import JobRow, NewJob, Standing
 from app.records.jobs.running import Returning
+from app.records.jobs.search import NEARLY_OVER
 from app.records.jobs.slices import MAX_CRASHES, POISONOUS, Slice, Stopping
 from app.records.jobs.store import JobStore
 from app.requests.conversion import travels
@@ -115,7 +116,8 @@ def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     planner = SteppingPlanner()
     work = desk.process(planner)
     slices = until(lambda: work.advance(job), lambda now: now.over)
-    assert planner.cooled == pytest.approx(before.searched / limit)
+    # What is stopped late, on a busy machine, has searched longer than asked.
+    assert planner.cooled == pytest.approx(min(before.searched / limit, NEARLY_OVER))
     assert before.cost is not None
     assert all(now.cost is not None and now.cost <= before.cost for now in slices)
     done = desk.row(job)
