@@ -7,7 +7,7 @@ who is there and takes off next. That finds no plan for some for which there wou
 """
 
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from heapq import heapify, heappop, heappush
 from itertools import chain
@@ -112,13 +112,17 @@ def most_charged(problem: Problem, solution: Solution, node: int) -> int:
     charges = sorted((charge.start, charge.end) for _, route, _ in _sharing(problem, solution)
                      for trip in route.trips if trip.stops[0].node == node
                      for charge in trip.charges)
-    ends, most = list[int](), 0
+    return max(_at_once(charges), default=0)
+
+
+def _at_once(charges: Iterable[tuple[int, int]]) -> Iterator[int]:
+    """Yield how many vehicles are charged as each begins to be, from when to when in order."""
+    ends = list[int]()
     for start, end in charges:
         while ends and ends[0] <= start:
             heappop(ends)
         heappush(ends, end)
-        most = max(most, len(ends))
-    return most
+        yield len(ends)
 
 
 def _sharing(problem: Problem, solution: Solution) -> Iterator[tuple[int, Route, VehicleType]]:
@@ -140,13 +144,11 @@ def _sharing(problem: Problem, solution: Solution) -> Iterator[tuple[int, Route,
 
 def _crowded(problem: Problem, node: int,
              charges: Sequence[tuple[int, int, int, int]]) -> Lack | None:
-    depot, ends = problem.depots[node], list[int]()
-    for start, end, route, trip in charges:
-        while ends and ends[0] <= start:
-            heappop(ends)
-        heappush(ends, end)
-        if depot.chargers is not None and len(ends) > depot.chargers:
-            return Lack(route, trip, f"{len(ends)} vehicles are charged at once at {depot.id}, "
+    depot = problem.depots[node]
+    counts = _at_once([(start, end) for start, end, _, _ in charges])
+    for count, (_, _, route, trip) in zip(counts, charges, strict=True):
+        if depot.chargers is not None and count > depot.chargers:
+            return Lack(route, trip, f"{count} vehicles are charged at once at {depot.id}, "
                         f"which has places for {depot.chargers}")
     return None
 

@@ -17,7 +17,7 @@ from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
 from model.judge.rules import amounts
 from model.judge.trial import Attempt, attempts
-from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Overtime
+from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Depot, Overtime, Problem
 from model.solution import Stop, Visit
 
 
@@ -221,8 +221,6 @@ def _depot_hours(attempt: Attempt, closes: int) -> Diagnosis:
     depot, end = problem.depots[vehicle_type.ends_at], attempt.evaluation.makespan
     late = up_to_tenth(end - closes, MS_PER_MINUTE)
     enough = closes + late
-    depots = [replace(each, latest=min(enough, UNLIMITED)) if each is depot else each
-              for each in problem.depots]
     longer = vehicle_type.latest + allowed_overtime(vehicle_type)
     changed = replace(vehicle_type, latest=(
         vehicle_type.latest if longer >= enough else min(enough, UNLIMITED)))
@@ -231,7 +229,13 @@ def _depot_hours(attempt: Attempt, closes: int) -> Diagnosis:
         "SHIFT", f"{vehicle_type.id} would be back {in_minutes(late)} after {depot.id} closes.",
         if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough)
         if suffices else None,
-        replace(with_type(attempt, changed), depots=tuple(depots)))
+        replace(with_type(attempt, changed), depots=_open_until(problem, depot, enough)))
+
+
+def _open_until(problem: Problem, depot: Depot, enough: int) -> tuple[Depot, ...]:
+    """Return the depots, one of which closes later."""
+    return tuple([replace(each, latest=min(enough, UNLIMITED)) if each is depot else each
+                  for each in problem.depots])
 
 
 def _closed_before_departure(attempt: Attempt) -> Diagnosis | None:
@@ -242,12 +246,10 @@ def _closed_before_departure(attempt: Attempt) -> Diagnosis | None:
         return None
     late = up_to_tenth(start.departure - depot.latest, MS_PER_MINUTE)
     enough = depot.latest + late
-    depots = [replace(each, latest=min(enough, UNLIMITED)) if each is depot else each
-              for each in problem.depots]
     return Diagnosis(
         "SHIFT", f"{attempt.vehicle_type.id} would leave {in_minutes(late)} after {depot.id} "
         "closes.", if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough),
-        replace(problem, depots=tuple(depots)))
+        replace(problem, depots=_open_until(problem, depot, enough)))
 
 
 def _shift(attempt: Attempt) -> Diagnosis:
