@@ -208,11 +208,13 @@ Int driving_from(const ProblemData& data, const VehicleType& type, View<const St
            setup_after(data.setup, stops[p].node, stops[p + 1].node);
 }
 
+void forget_rests(const VehicleType& type, Stop& stop) {
+    stop.gap -= resting_in_gap(type, stop);
+    stop.rests = 0;
+}
+
 void clear_rests(const VehicleType& type, View<Stop, 1> stops) {
-    for (Stop& stop : stops) {
-        stop.gap -= resting_in_gap(type, stop);
-        stop.rests = 0;
-    }
+    for (Stop& stop : stops) forget_rests(type, stop);
 }
 
 bool place_rests(const ProblemData& data, const Route& route, View<Stop, 1> stops,

@@ -24,6 +24,9 @@ Int resting_in_gap(const VehicleType& type, const Stop& stop);
 Int driving_from(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
                  Int p);
 
+// Let nobody rest behind a stop. In place.
+void forget_rests(const VehicleType& type, Stop& stop);
+
 // Let nobody rest on a route. In place.
 void clear_rests(const VehicleType& type, View<Stop, 1> stops);
 

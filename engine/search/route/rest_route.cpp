@@ -149,10 +149,7 @@ Int RestRoute::least_pause(const RestLabel& label, Int time, const Ahead& ahead)
 }
 
 void RestRoute::rest_nowhere(Int first, Int last) const {
-    for (Int q = first; q < last; ++q) {
-        stops[q].gap -= resting_in_gap(type, stops[q]);
-        stops[q].rests = 0;
-    }
+    for (Int q = first; q < last; ++q) forget_rests(type, stops[q]);
 }
 
 void RestRoute::take(const TakenRest& taken) const {
