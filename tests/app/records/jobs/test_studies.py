@@ -79,17 +79,20 @@ def test_scenario_that_fails_leaves_the_others_be(jobs: httpx.Client) -> None:
 
 
 def test_stopped_sweep_keeps_what_its_scenarios_found(jobs: httpx.Client) -> None:
-    grid = {"unassigned_cost": [50, 60, 70, 80]}
+    grid = {"unassigned_cost": [50, 60, 70, 80, 90, 100, 110, 120]}
     job = submit(jobs, {"base": request_of(60), "grid": grid}, "/sweep")
     eventually(lambda: read(jobs, job)["cost"])
     stopped = jobs.delete(f"/jobs/{job}").json()
     JobReply.model_validate(stopped)
     assert stopped["state"] == "cancelled"
-    found = [cell["cost"] for cell in stopped["result"]["cells"]]
-    # Of the two that may run at once, one may have been about to begin.
-    assert len([cost for cost in found if cost is not None]) in (1, 2)
-    assert stopped["cost"] == min(cost for cost in found if cost is not None)
-    assert {cell["status"] for cell in stopped["result"]["cells"]} == {"partial", "cancelled"}
+    cells = stopped["result"]["cells"]
+    found = [cell["cost"] for cell in cells if cell["cost"] is not None]
+    # Two run at once, or a few more: the queue counts those that have begun, and on a busy machine
+    # looks again before that.
+    assert 1 <= len(found) < len(cells)
+    assert stopped["cost"] == min(found)
+    assert [cell["status"] for cell in cells] == [
+        "cancelled" if cell["cost"] is None else "partial" for cell in cells]
 
 
 def test_errors_of_scenarios_name_them(jobs: httpx.Client) -> None:
