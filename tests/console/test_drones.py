@@ -23,7 +23,7 @@ def street(**vehicle: Any) -> str:
         "customers": [{"id": name, "location": [2 * number, 0], "demand": [number]}
                       for number, name in enumerate("ABC", 1)],
         "fleet": [{"id": "van", "count": 1, "capacity": [9], "costs": {"per_km": 1}} | vehicle],
-        "options": {"search_iterations": 300}})
+        "options": {"time_limit": 60, "search_iterations": 300}})
 
 
 @pytest.mark.parametrize(("drones", "why"), [

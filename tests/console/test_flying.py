@@ -25,7 +25,7 @@ def hub_and_site() -> dict[str, Any]:
         "id": "quad", "flies": True, "depot": "roof", "count": 1, "capacity": [2],
         "endurance": 1200, "energy": {
             "battery_wh": 800, "power": {"cruise_w": 600, "cruise_w_per_kg": 120}}})
-    request["options"] = {"search_iterations": 2000}
+    request["options"] = {"time_limit": 60, "search_iterations": 2000}
     return request
 
 

@@ -152,7 +152,7 @@ def closed() -> dict[str, Any]:
             "airspace": {"zones": [{"format": "ed269", "data": {"features": [zone]}}],
                          "wind": [{"from": 0, "speed_kmh": 20, "gust_kmh": 25},
                                   {"from": 36000, "speed_kmh": 20, "gust_kmh": 40}]},
-            "options": {"search_iterations": 50}}
+            "options": {"time_limit": 60, "search_iterations": 50}}
 
 
 def test_zones_and_wind_have_nothing_english_on_german_pages(

@@ -18,7 +18,7 @@ ONE_VAN: dict[str, Any] = {
     "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
     "customers": [{"id": "A", "location": [6, 0], "demand": [5], "service_duration": 60}],
     "fleet": [{"id": "van", "count": 1, "capacity": [5], "speed_kmh": 60}],
-    "options": {"search_iterations": 200},
+    "options": {"time_limit": 60, "search_iterations": 200},
 }
 BACK = 7200
 """When the van has been back for long."""

@@ -22,7 +22,7 @@ PROBLEM: dict[str, Any] = {
                    "time_window": {"latest": (600, 700, 9000)[number - 1]}}
                   for side, sign in (("E", 1), ("W", -1)) for number in (1, 2, 3)],
     "fleet": [{"id": "truck", "count": 3, "capacity": [3], "speed_kmh": 60}],
-    "options": {"search_iterations": 500},
+    "options": {"time_limit": 60, "search_iterations": 500},
 }
 NOW = 480  # both trucks are between their first and their second customer
 

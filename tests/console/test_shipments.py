@@ -22,7 +22,7 @@ REQUEST: dict[str, Any] = {
         {"id": "safe", "amount": [90], "pickup": {"location": [4, 0]},
          "delivery": {"location": [0, 2]}}],
     "fleet": [{"id": "van", "count": 1, "capacity": [5]}],
-    "options": {"search_iterations": 200}}
+    "options": {"time_limit": 60, "search_iterations": 200}}
 
 
 def test_shipments_are_seen_and_told_of(page: Page) -> None:

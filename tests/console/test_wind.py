@@ -18,7 +18,7 @@ def windy_day(**airspace: Any) -> dict[str, Any]:
     """Return a dated problem whose drones stay aboard above 30 km/h."""
     request: dict[str, Any] = json.loads((EXAMPLES / "smallest.json").read_text("utf-8"))
     request |= {"plan_start": "2026-11-27T08:00:00+01:00", "time_zone": "Europe/Berlin",
-                "airspace": airspace, "options": {"search_iterations": 200}}
+                "airspace": airspace, "options": {"time_limit": 60, "search_iterations": 200}}
     request["fleet"][0]["drones"] = {"count": 1, "capacity": [9], "max_wind_kmh": 30}
     return request
 

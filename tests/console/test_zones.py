@@ -110,7 +110,7 @@ def test_a_countrys_file_is_dropped_planned_around_and_told_of_and_flights_are_s
         "customers": [{"id": name, "demand": [1], "location": beside_hub(*way)}
                       for name, way in SHOPS_KM.items()],
         "fleet": [{"id": "quad", "flies": True, "count": 2, "capacity": [2], "max_trips": 4}],
-        "options": {"search_iterations": 200}}))
+        "options": {"time_limit": 60, "search_iterations": 200}}))
     planned(page, "5 of 5 served")
     page.evaluate(DROP, ["finland.json", json.dumps(country())])
     expect(page.locator(".map-legend")).to_contain_text("Published zone")

@@ -16,7 +16,7 @@ def day(*customers: str, **vehicle: Any) -> Data:
     return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
             "customers": [{"id": name, "location": [6, 0], "demand": [5]} for name in customers],
             "fleet": [{"id": "van", "count": 1, "capacity": [5], "speed_kmh": 60} | vehicle],
-            "options": {"search_iterations": 50}}
+            "options": {"time_limit": 60, "search_iterations": 50}}
 
 
 def test_another_trip_serves_who_is_left_out(client: httpx.Client,

@@ -19,7 +19,7 @@ NOON = {"id": "lunch", "duration": 1800, "start": {"earliest": 600, "latest": 12
 @pytest.fixture
 def resting(smallest: Request) -> Request:
     """Return a request whose only vehicle has a break while it serves."""
-    smallest["options"] = {"search_iterations": 300}
+    smallest["options"] = {"time_limit": 60, "search_iterations": 300}
     smallest["fleet"][0] |= {"count": 1, "breaks": [NOON], "costs": {"per_km": 1, "per_hour": 10},
 }
     for customer in smallest["customers"]:
@@ -124,7 +124,7 @@ def test_a_driver_at_the_depot_has_a_break_while_the_only_drone_flies(
                    "breaks": [{"id": "nap", "duration": 900, "after_departure": True,
                                "start": {"earliest": 600, "latest": 1200}}],
                    "drones": {"count": 1, "capacity": [1], "speed_kmh": 60, "endurance": 7200}}],
-        "options": {"search_iterations": 50}}
+        "options": {"time_limit": 60, "search_iterations": 50}}
     plan = planned(service, request)
     assert plan["status"] == "complete"
     assert [each["id"] for each in breaks_of(plan)] == ["nap"]

@@ -22,7 +22,7 @@ def far() -> Request:
                       for name, place in (("a", [90, 0]), ("b", [90, 90]), ("c", [0, 90]))],
         "fleet": [{"id": "van", "count": 1, "capacity": [3], "speed_kmh": 60,
                    "driving_rules": {"preset": "eu-561"}}],
-        "options": {"search_iterations": 200}}
+        "options": {"time_limit": 60, "search_iterations": 200}}
 
 
 def test_who_drives_for_too_long_rests_and_the_plan_says_by_which_rule(

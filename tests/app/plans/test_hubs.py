@@ -14,7 +14,7 @@ ENERGY = {"battery_wh": 100, "reserve": 0, "power": {"cruise_w": 200, "cruise_w_
 
 def by_air(request: Request, **stated: object) -> Request:
     """Return a request all of whose customers drones of the depot serve."""
-    request["options"] = {"search_iterations": 300}
+    request["options"] = {"time_limit": 60, "search_iterations": 300}
     kind = request["fleet"][0]
     kind |= {"flies": True, "speed_kmh": 60, "max_trips": 10, "launch_duration": 20,
              "recovery_duration": 10, **stated}

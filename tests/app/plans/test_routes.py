@@ -45,7 +45,7 @@ def test_drone_example_reply_fits_its_schema(client: httpx.Client, with_drones: 
 
 
 def test_solver_tells_how_the_plan_was_made(client: httpx.Client, smallest: Request) -> None:
-    smallest["options"] = {"seed": 4, "threads": 1, "search_iterations": 10}
+    smallest["options"] = {"seed": 4, "threads": 1, "search_iterations": 10, "time_limit": 60}
     nobody: Request = smallest | {"customers": []}
     for request in (smallest, nobody):
         solver = client.post("/plan", json=request).json()["solver"]

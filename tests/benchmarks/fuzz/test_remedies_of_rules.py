@@ -27,7 +27,7 @@ def request_of(van: Request, **parts: Any) -> Request:
     """Return a day of one van that drives a kilometre a minute."""
     return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}], "customers": [],
             "fleet": [{"id": "van", "count": 1, "capacity": [5], "speed_kmh": 60, **van}],
-            "options": {"search_iterations": 200}, **parts}
+            "options": {"time_limit": 60, "search_iterations": 200}, **parts}
 
 
 def customer(**parts: Any) -> list[Request]:

@@ -198,7 +198,7 @@ def test_what_a_sheet_of_shipments_says_is_planned(searching: httpx.Client) -> N
     reply = searching.post("/import", content=ENGLISH.encode(), params={"settings": settings},
                            headers={"Content-Type": "text/csv"})
     plan = searching.post("/plan", json=reply.json()["request"]
-                          | {"options": {"search_iterations": 300}})
+                          | {"options": {"time_limit": 60, "search_iterations": 300}})
     assert plan.status_code == 200, plan.text
     kinds = [(stop["kind"], stop["id"]) for trip in plan.json()["routes"][0]["trips"]
              for stop in trip["stops"]]

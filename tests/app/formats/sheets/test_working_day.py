@@ -154,7 +154,8 @@ def test_the_example_shows_every_rule_and_is_planned(searching: httpx.Client) ->
         ("before", "vehicle", True)}
     assert [kind.lifo for kind in request.fleet] == [False, True]
     assert request.fairness.balance is not None
-    plan = searching.post("/plan", json=reply.request | {"options": {"search_iterations": 300}})
+    plan = searching.post("/plan", json=reply.request | {
+        "options": {"time_limit": 60, "search_iterations": 300}})
     assert plan.status_code == 200, plan.text
     assert plan.json()["status"] == "complete"
     vehicles = {stop["id"]: route["vehicle"] for route in plan.json()["routes"]
