@@ -77,7 +77,7 @@ public:
             return true;
         }
         RestLabel& last = *std::max_element(
-            label_.begin(), label_.end(),
+            label_.begin(), label_.begin() + count_,
             [](const RestLabel& one, const RestLabel& other) { return one.time < other.time; });
         if (label.time >= last.time) return false;
         last = label;

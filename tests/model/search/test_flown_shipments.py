@@ -62,7 +62,7 @@ def test_drones_fetch_and_deliver_shipments() -> None:
     assert min(brought, fetched) >= 2
 
 
-@pytest.mark.parametrize("seed", [3153, 3653])
+@pytest.mark.parametrize("seed", [3153, 3653, 4676])
 def test_a_route_found_is_driven_as_it_was_timed(seed: int) -> None:
     """Timed once more at the end, its driver would find no way to rest while drones fly."""
     rng = np.random.default_rng([seed, 10])
