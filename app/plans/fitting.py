@@ -53,9 +53,9 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     problem, judged = task.judged_problem, task.judge_routes(solution)
     evaluation = task.setting.judge(problem, solution, judged)
     _require_readable(evaluation)
+    bench = _bench(task, request, solution, judged)
     now, limit = time.perf_counter(), request.options.time_limit
     until = max(body.received_at + TRYING_SHARE * limit, now + LEAST_TRYING * limit)
-    bench = _bench(task, request, solution, judged)
     fits = find_fits(bench, request.count, until,
                      vehicle_of if request.one_per_vehicle else spot_of)
     reply: Data = {

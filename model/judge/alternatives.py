@@ -15,7 +15,7 @@ from model.judge.clock import window_of
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
-from model.judge.screening import Guess, Screen
+from model.judge.screening import Guess, Screen, share_over
 from model.judge.shipment_screening import ShipmentScreen
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
@@ -29,6 +29,9 @@ TRIES, MORE_TRIES = 3, 8
 
 ALL_TRIES, ALL_MORE_TRIES = 120, 600
 """Places that are tried in all, if there are no more ways than that: small plans have all tried."""
+
+SCREENING_SHARE = 0.5
+"""Share of the time in which places are guessed at, before any is tried."""
 
 EVERYWHERE = frozenset({"VEHICLE", "SKILLS", "SERVED_BY"})
 """Rules that whoever breaks them with a vehicle breaks at all its places."""
@@ -112,8 +115,10 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
 
     All of them have their first turn before any has its second.
     """
+    screened = share_over(SCREENING_SHARE, until)
     guesses = {group: [guess for guess in some if not _is_here(bench, guess.place)]
-               for group, some in guesses_for(bench, bench.problem).items()}
+               for group, some in guesses_for(bench, bench.problem, screened).items()}
+    is_complete = time.perf_counter() < screened
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)
     tried: dict[Group, list[Draft]] = {}
@@ -125,15 +130,19 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
             if time.perf_counter() >= until:
                 return tried, False
             tried.setdefault(group, []).append(bench.draft(guesses[group][turn].place))
-    return tried, True
+    return tried, is_complete
 
 
-def guesses_for(bench: Bench, problem: Problem) -> dict[Group, list[Guess]]:
-    """Return the places of each vehicle and means that may be tried, the likeliest first."""
+def guesses_for(bench: Bench, problem: Problem,
+                until: float = math.inf) -> dict[Group, list[Guess]]:
+    """Return the places of each vehicle and means that may be tried, the likeliest first.
+
+    Those that are found until an instant, on `time.perf_counter`.
+    """
     solution, past = bench.left_out.solution, bench.setting.past
     if bench.shipment is None:
-        return Screen(problem, solution, bench.node, past).guesses()
-    return ShipmentScreen(problem, solution, bench.shipment, past).guesses()
+        return Screen(problem, solution, bench.node, past).guesses(until)
+    return ShipmentScreen(problem, solution, bench.shipment, past).guesses(until)
 
 
 def _is_settled(drafts: Sequence[Draft], turn: int, enough: int) -> bool:
@@ -159,11 +168,14 @@ def _is_here(bench: Bench, place: Place) -> bool:
     return place._replace(drone=here.drone) == here
 
 
-def here_of(bench: Bench) -> Place | None:
-    """Return where a plan has the customer or shipment, as a place to put it; None if nowhere."""
+def here_of(bench: Bench, until: float = math.inf) -> Place | None:
+    """Return where a plan has the customer or shipment, as a place to put it.
+
+    None if it has it nowhere, or if that isn't found until an instant, on `time.perf_counter`.
+    """
     if bench.found is None or bench.shipment is None:
         return None if bench.found is None else bench.found.place
-    some = guesses_for(bench, bench.problem)
+    some = guesses_for(bench, bench.problem, until)
     return next((guess.place for (vehicle, by), guesses in some.items()
                  if (vehicle.type, by) == (bench.found.place.vehicle.type, bench.found.place.by)
                  for guess in guesses if _is_here(bench, guess.place)), None)
@@ -194,12 +206,15 @@ def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative
     halt = halt_of(bench.plan, node)
     now = None if halt is None else window_of(customer, halt.service_start)
     found: list[Alternative] = []
+    is_complete = True
     for window in range(len(customer.openings) if customer.gaps else 0):
         if window == now:
             continue
         problem = with_customer(bench.problem, node, in_window(customer, window))
-        guesses = sorted([guess for some in guesses_for(bench, problem).values()
+        screened = share_over(SCREENING_SHARE, until)
+        guesses = sorted([guess for some in guesses_for(bench, problem, screened).values()
                           for guess in some], key=lambda guess: guess.rank)
+        is_complete &= time.perf_counter() < screened
         drafts: list[Draft] = []
         for turn, guess in enumerate(guesses[:ALL_TRIES]):
             if time.perf_counter() >= until:
@@ -208,7 +223,7 @@ def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative
                 drafts.append(bench.draft(guess.place, problem))
         found += [replace(each, window=window, node=node)
                   for each in best_of(bench, "window", drafts, problem)]
-    return found, True
+    return found, is_complete
 
 
 def in_window(customer: Customer, window: int) -> Customer:

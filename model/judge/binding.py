@@ -8,6 +8,7 @@ import math
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from typing import Literal, NamedTuple
 
 from model.judge.alternatives import Findings, guesses_for, halt_of, here_of, with_customer
@@ -73,7 +74,7 @@ def find_binding(bench: Bench, findings: Findings,
 
     `findings` are those of `find_alternatives`; `until` is on `time.perf_counter`.
     """
-    here = here_of(bench)
+    here = here_of(bench, until)
     begun = _best_now(bench, findings, here)
     cost = begun.evaluation.cost.total
     places = [here, here if begun is bench.plan else begun.place,
@@ -82,13 +83,14 @@ def find_binding(bench: Bench, findings: Findings,
     for limit in _limits(bench, places):
         if time.perf_counter() >= until:
             return tuple(found), False
-        saved = cost - _cost_with(bench, limit, places)
+        saved = cost - _cost_with(bench, limit, places, until)
         if saved <= NOT_WORTH * max(1.0, abs(cost)):
             saved = 0.0
         is_reached = limit.slack is not None and limit.slack <= 0 and not limit.gives_trips
         if saved or is_reached:
             found.append(Binding(limit, saved))
-    return tuple(sorted(found, key=lambda each: -each.saves_per_unit)), True
+    return (tuple(sorted(found, key=lambda each: -each.saves_per_unit)),
+            time.perf_counter() < until)
 
 
 def _best_now(bench: Bench, findings: Findings, here: Place | None) -> Trial:
@@ -107,31 +109,37 @@ def _cheaper_but_illegal(bench: Bench, findings: Findings, cost: float) -> list[
     return [draft.place for draft in sorted(cheaper, key=lambda draft: draft.rank)[:MAX_RETRIES]]
 
 
-def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None]) -> float:
-    """Return the lowest cost of a legal plan with the customer at one of some places."""
+def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None],
+               until: float) -> float:
+    """Return the lowest cost of a legal plan with the customer at one of some places.
+
+    Of those tried until an instant.
+    """
     judged = None
     if limit.kind is not None:
         judged = bench.setting.judge_routes(limit.problem, bench.left_out.solution)
     wanted = [*places]
     if limit.gives_trips:
-        wanted = [*_further_trips(bench, limit)]
+        wanted = [*_further_trips(bench, limit, until)]
     elif limit.unit == "rule" or limit.whose == "request":
-        wanted += _likeliest(bench, limit.problem)
+        wanted += _likeliest(bench, limit.problem, until)
     tried = [bench.finish(bench.draft(place, limit.problem), limit.problem, judged)
-             for place in dict.fromkeys(wanted) if place is not None]
+             for place in takewhile(lambda _: time.perf_counter() < until, dict.fromkeys(wanted))
+             if place is not None]
     return min([trial.evaluation.cost.total for trial in tried if trial.evaluation.is_feasible],
                default=math.inf)
 
 
-def _likeliest(bench: Bench, problem: Problem) -> list[Place]:
+def _likeliest(bench: Bench, problem: Problem, until: float) -> list[Place]:
     """Return the places of all vehicles that look cheapest."""
-    guesses = [guess for some in guesses_for(bench, problem).values() for guess in some]
+    guesses = [guess for some in guesses_for(bench, problem, until).values()
+               for guess in some]
     return [guess.place for guess in sorted(guesses, key=lambda guess: guess.rank)[:MAX_LIFTED]]
 
 
-def _further_trips(bench: Bench, limit: Limit) -> Iterator[Place]:
+def _further_trips(bench: Bench, limit: Limit, until: float) -> Iterator[Place]:
     """Yield trips that a limit allows the customer for himself."""
-    for (vehicle, _), guesses in guesses_for(bench, limit.problem).items():
+    for (vehicle, _), guesses in guesses_for(bench, limit.problem, until).items():
         own = [guess.place for guess in guesses if guess.place.own_trip]
         if vehicle.type == limit.kind:
             yield from own[:1]

@@ -5,8 +5,10 @@ of each vehicle's likeliest, by truck and by drone.
 """
 
 import math
+import time
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import takewhile
 
 from model.judge.alternatives import best_of, try_places
 from model.judge.bench import Bench, Draft, Trial
@@ -14,9 +16,14 @@ from model.judge.past import Vehicle
 from model.judge.past_rules import PAST_RULES
 from model.judge.places import Place
 from model.judge.rules import Violation
+from model.judge.screening import share_over
 
 SPARE = 8
 """So many more places than asked for are judged with the whole plan if these break rules there."""
+
+
+TRYING_SHARE = 0.9
+"""Share of the time in which routes are tried, before plans with the best ones are judged."""
 
 
 def spot_of(place: Place) -> tuple[object, ...]:
@@ -43,18 +50,22 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
               spot: Callable[[Place], tuple[object, ...]] = spot_of) -> Fits:
     """Return the best places found by an instant, `count` at most.
 
-    `until` is on `time.perf_counter`; of places that are one `spot`, the best counts.
+    `until` is on `time.perf_counter`; of places that are one `spot`, the best counts. Of what was
+    tried by then, one place is told in any case.
     """
-    by_group, is_complete = try_places(bench, until)
+    by_group, is_complete = try_places(bench, share_over(TRYING_SHARE, until))
     drafts = [draft for some in by_group.values() for draft in some]
-    places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count, spot)
+    places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count, spot, until)
     chosen = {trial.place.vehicle for trial in places if trial.place is not None}
     vehicles: dict[Vehicle, list[Draft]] = {}
     for draft in drafts:
         if draft.place.vehicle not in chosen:
             vehicles.setdefault(draft.place.vehicle, []).append(draft)
-    others = [each.trial for some in vehicles.values() for each in best_of(bench, "vehicle", some)]
-    return Fits(tuple(places), tuple(sorted(others, key=lambda trial: trial.rank)), is_complete)
+    others = [each.trial for some in takewhile(lambda _: time.perf_counter() < until,
+                                               vehicles.values())
+              for each in best_of(bench, "vehicle", some)]
+    return Fits(tuple(places), tuple(sorted(others, key=lambda trial: trial.rank)),
+                is_complete and time.perf_counter() < until)
 
 
 def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
@@ -75,14 +86,17 @@ def new_violations(bench: Bench, trial: Trial) -> list[Violation]:
 
 
 def _best(bench: Bench, drafts: Iterable[Draft], count: int,
-          spot_of: Callable[[Place], tuple[object, ...]]) -> Sequence[Trial]:
+          spot_of: Callable[[Place], tuple[object, ...]], until: float) -> Sequence[Trial]:
     """Return the plans with the first of some drafts, the best first; others if none is allowed.
+
+    After an instant no more than one.
     """
     seen: set[tuple[object, ...]] = set()
     allowed: list[Trial] = []
     broken: list[Trial] = []
     for draft in drafts:
-        if len(allowed) >= count or len(broken) >= count + SPARE:
+        if len(allowed) >= count or len(broken) >= count + SPARE or (
+                seen and time.perf_counter() >= until):
             break
         spot = spot_of(draft.place)
         if spot not in seen:

@@ -3,9 +3,11 @@
 A guess that costs little: it decides which places are tried, never what is said of them.
 """
 
+import math
+import time
 from collections import defaultdict
-from collections.abc import Collection, Iterator
-from itertools import pairwise
+from collections.abc import Collection, Iterator, Mapping
+from itertools import chain, pairwise, takewhile
 from typing import NamedTuple
 
 from model.judge.clock import service_start
@@ -71,14 +73,29 @@ class Screen:
         self._legs: dict[int, _Legs] = {}
         self._means = means
 
-    def guesses(self) -> dict[tuple[Vehicle, Means], list[Guess]]:
+    def guesses(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Guess]]:
         """Return the places of each vehicle, by truck and by drone, the best ones first.
 
-        Beside those in use, one more vehicle of each type that has more.
+        Beside those in use, one more vehicle of each type that has more. Of trips in use
+        none that come up after `until`, on `time.perf_counter`.
         """
         found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
         routes = self._routes()
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
+        on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes))
+        alone = (self._alone(vehicle, number, is_new=vehicle not in trips)
+                 for vehicle, number in self._own_trips(trips))
+        for guess in chain.from_iterable(chain(on_trips, alone)):
+            found[guess.place.vehicle, guess.place.by].append(guess)
+        for (vehicle, _), guesses in found.items():
+            price = self._problem.vehicle_cost(vehicle.type, self._node)
+            if price:
+                guesses[:] = [guess._replace(cost=guess.cost + price) for guess in guesses]
+            guesses.sort(key=lambda guess: guess.rank)
+        return found
+
+    def _on_trips(self, routes: Mapping[Vehicle, Route]) -> Iterator[Iterator[Guess]]:
+        """Yield the places on each trip that isn't over."""
         for vehicle, route in routes.items():
             known = self._past.trips.get(vehicle, ())
             for number, trip in enumerate(route.trips):
@@ -89,17 +106,7 @@ class Screen:
                 if number < len(known):
                     first_stop = len(known[number].stops)
                     first_flight = len(known[number].sorties)
-                for guess in self._on_trip(vehicle, number, trip, first_stop, first_flight):
-                    found[vehicle, guess.place.by].append(guess)
-        for vehicle, number in self._own_trips(trips):
-            for guess in self._alone(vehicle, number, is_new=vehicle not in trips):
-                found[vehicle, guess.place.by].append(guess)
-        for (vehicle, _), guesses in found.items():
-            price = self._problem.vehicle_cost(vehicle.type, self._node)
-            if price:
-                guesses[:] = [guess._replace(cost=guess.cost + price) for guess in guesses]
-            guesses.sort(key=lambda guess: guess.rank)
-        return found
+                yield self._on_trip(vehicle, number, trip, first_stop, first_flight)
 
     def _routes(self) -> dict[Vehicle, Route]:
         """Return the route of each vehicle; the first, where a plan wrongly states several."""
@@ -249,6 +256,13 @@ class Screen:
                     yield Guess(max(0, airborne + added - drones.endurance), cost, added,
                                 Place(vehicle, number, "drone", sortie.launch_stop,
                                       sortie.recovery_stop, sortie.drone, index, visit))
+
+
+def share_over(share: float, until: float) -> float:
+    """Return the instant, on `time.perf_counter`, at which a share of the time until one is over.
+    """
+    now = time.perf_counter()
+    return now + share * (until - now)
 
 
 def slacks_of(problem: Problem, shift_ends: int, trip: Trip) -> list[int]:

@@ -4,9 +4,11 @@ A guess, as for one customer: it decides which places are tried, never what is s
 places are on the trip as it is without the shipment, and its ends are put there the last one first.
 """
 
+import math
+import time
 from collections import defaultdict
-from collections.abc import Iterator, Sequence
-from itertools import chain, groupby, islice, permutations, product
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import chain, groupby, islice, permutations, product, takewhile
 from math import prod
 
 from model.judge.clock import service_start
@@ -14,9 +16,12 @@ from model.judge.loads import trip_loads
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
-from model.judge.screening import ANYHOW, BY_TRUCK, Guess, Screen, slacks_of
+from model.judge.screening import ANYHOW, BY_TRUCK, Guess, Screen, share_over, slacks_of
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, Problem, Shipment
 from model.solution import Solution, Stop, Trip
+
+_TripOf = tuple[Vehicle, int, bool]
+"""Whose trip, its index, and whether it is one more that it comes before."""
 
 Ends = tuple[tuple[int, Place], ...]
 """Nodes and places, in the order of visits."""
@@ -27,6 +32,9 @@ look best."""
 
 KEPT, KEPT_FLIGHTS = 8, 4
 """Of each trip, the places of an end by truck and by drone that are combined then."""
+
+SINGLE_ENDS = 0.5
+"""Share of the time in which single ends are guessed at, before all at once."""
 
 KEPT_PICKUPS = 30
 """So many ways to choose places for several pickups before one of a delivery are combined then."""
@@ -48,29 +56,33 @@ class ShipmentScreen:
             self._trips.setdefault(Vehicle(route.vehicle_type, route.vehicle), route.trips)
         self._solution = solution
 
-    def guesses(self) -> dict[tuple[Vehicle, Means], list[Guess]]:
-        """Return the places of each vehicle, by truck and with drones, the best ones first."""
+    def guesses(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Guess]]:
+        """Return the places of each vehicle, by truck and with drones, the best ones first.
+
+        Those that are found until an instant, on `time.perf_counter`.
+        """
         found: defaultdict[tuple[Vehicle, Means], list[Guess]] = defaultdict(list)
-        by_trip = self._ends_by_trip()
+        by_trip = self._ends_by_trip(share_over(SINGLE_ENDS, until))
         are_all = sum(prod(map(len, ends)) for ends in by_trip.values()) <= MOST_WAYS
-        for (vehicle, number, own_trip), ends in by_trip.items():
-            trip = None if own_trip else self._trips[vehicle][number]
-            row = _Row(self._problem, vehicle, trip, vehicle not in self._trips)
-            for guess in self._on_trip(row, ends if are_all else [*map(_likeliest, ends)],
-                                       are_all):
-                found[vehicle, guess.place.by].append(guess)
+        trips = [self._on_trip(trip, ends if are_all else [*map(_likeliest, ends)], are_all)
+                 for trip, ends in by_trip.items()]
+        for guess in takewhile(lambda _: time.perf_counter() < until, _in_turn(trips)):
+            found[guess.place.vehicle, guess.place.by].append(guess)
         for guesses in found.values():
             guesses.sort(key=lambda guess: guess.rank)
         return found
 
-    def _ends_by_trip(self) -> dict[tuple[Vehicle, int, bool], list[list[Guess]]]:
-        """Return the places of each end, by trip; of trips that have some for every end."""
-        by_trip: dict[tuple[Vehicle, int, bool], list[list[Guess]]] = {}
+    def _ends_by_trip(self, until: float) -> dict[_TripOf, list[list[Guess]]]:
+        """Return the places of each end, by trip; of trips that have some for every end.
+
+        Those that look best come first.
+        """
+        by_trip: dict[_TripOf, list[list[Guess]]] = {}
         nodes = self._shipment.nodes
         for end, node in enumerate(nodes):
             means = BY_TRUCK if self._problem.customer_at(node).served_by == "truck" else ANYHOW
             screen = Screen(self._problem, self._solution, node, self._past, means)
-            for guess in chain.from_iterable(screen.guesses().values()):
+            for guess in chain.from_iterable(screen.guesses(until).values()):
                 key = guess.place.vehicle, guess.place.trip, guess.place.own_trip
                 by_trip.setdefault(key, [[] for _ in nodes])[end].append(guess)
         for (_, _, own_trip), ends in by_trip.items():
@@ -79,10 +91,14 @@ class ShipmentScreen:
                 ends[-1] += [guess._replace(place=guess.place._replace(stop=1, recovery=1))
                              for guess in ends[-1] if guess.place.by == "drone"
                              and not guess.place.recovery]
-        return {key: ends for key, ends in by_trip.items() if all(ends)}
+        return dict(sorted([(key, ends) for key, ends in by_trip.items() if all(ends)],
+                           key=lambda each: _promise(each[1])))
 
-    def _on_trip(self, row: "_Row", ends: Sequence[Sequence[Guess]],
+    def _on_trip(self, trip: _TripOf, ends: Sequence[Sequence[Guess]],
                  are_all: bool) -> Iterator[Guess]:
+        vehicle, number, own_trip = trip
+        row = _Row(self._problem, vehicle, None if own_trip else self._trips[vehicle][number],
+                   vehicle not in self._trips)
         *pickups, deliveries = ends
         nodes = self._shipment.nodes
         for last in deliveries:
@@ -113,6 +129,24 @@ class ShipmentScreen:
                          if len(some) > 1 else [some] for some in beside])
         for way in dict.fromkeys(tuple(chain(*groups)) for groups in islice(ways, most + 1)):
             yield *way, last
+
+
+def _promise(ends: Sequence[Sequence[Guess]]) -> tuple[float, ...]:
+    """Return what is smaller for a trip on which the best places of all ends look better."""
+    best = [min(guess.rank for guess in some) for some in ends]
+    return tuple(map(sum, zip(*best, strict=True)))
+
+
+def _in_turn(trips: Iterable[Iterator[Guess]]) -> Iterator[Guess]:
+    """Yield the first guess of each trip, then the second of each, and so on."""
+    left = [*trips]
+    while left:
+        going_on = []
+        for trip in left:
+            for guess in islice(trip, 1):
+                yield guess
+                going_on.append(trip)
+        left = going_on
 
 
 def _likeliest(guesses: Sequence[Guess]) -> list[Guess]:

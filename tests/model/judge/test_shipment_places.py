@@ -1,14 +1,16 @@
 """Where whole shipments fit plans, and what they cost elsewhere, against all ways there are."""
 
 import math
+import time
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import product
+from functools import partial
+from itertools import count, product
 
 import numpy as np
 import pytest
 
-from model.judge.alternatives import find_alternatives, here_of
+from model.judge.alternatives import find_alternatives, guesses_for, here_of
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
@@ -174,3 +176,31 @@ def test_what_else_could_be_done_is_what_the_judge_says(seed: int) -> None:
                    key=lambda trial: trial.rank).evaluation.cost.total
         for binding in find_binding(bench, found)[0]:
             assert 0 <= binding.saves_per_unit <= cost + 1e-9
+
+
+@pytest.mark.parametrize("seed", [0, 2, 5])
+def test_little_time_has_the_likeliest_places_looked_at_and_tried(
+        seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """By a clock that goes on by one whenever it is read."""
+    rng = np.random.default_rng(seed)
+    problem = (with_flown_shipments if seed % 3 == 2 else with_shipments)(rng, draw_tiny(rng))
+    solution = greedy(problem)
+    shipment = problem.shipments[0]
+    bench = bench_of(problem, solution, shipment.pickup)
+    whole, every = find_fits(bench, 3), guesses_for(bench, problem)
+    num_guesses = sum(map(len, every.values()))
+    for read in (5, 10, 20, 40, 80, 20 * num_guesses):
+        clock = count()
+        monkeypatch.setattr(time, "perf_counter", partial(next, clock))
+        cut = guesses_for(bench, problem, read)
+        looked = next(clock)
+        found = find_fits(bench, 3, looked + read)
+        over = next(clock) - looked - read
+        others = find_alternatives(bench, 0)
+        limits = find_binding(bench, others, 0)
+        monkeypatch.undo()
+        assert looked <= read + len(problem.vehicle_types) + 9
+        assert all({*some} <= {*every[group]} for group, some in cut.items())
+        assert over <= 5
+        assert found == whole if found.is_complete else read < 20 * num_guesses
+        assert (limits, others.is_complete) == (((), False), False)
