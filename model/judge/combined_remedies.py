@@ -18,6 +18,13 @@ AND = " and "
 BEGIN = "fits "
 
 
+class Remedy(NamedTuple):
+    """What suffices, in words, and how many limits that changes; None: nothing is known to."""
+
+    words: str | None
+    num_limits: int = 1
+
+
 class _Step(NamedTuple):
     """An attempt as limits have been changed so far, and in which words."""
 
@@ -25,7 +32,7 @@ class _Step(NamedTuple):
     words: tuple[str, ...] = ()
 
 
-def combined_remedy(attempt: Attempt, diagnose: Diagnose) -> str | None:
+def combined_remedy(attempt: Attempt, diagnose: Diagnose) -> Remedy | None:
     """Return changes of several limits that suffice together; None: none are known.
 
     Each rule that the trip breaks is diagnosed once those before it are kept; `check` judges the
@@ -46,11 +53,12 @@ def combined_remedy(attempt: Attempt, diagnose: Diagnose) -> str | None:
     return None
 
 
-def _joined(words: tuple[str, ...], last: str | None) -> str | None:
+def _joined(words: tuple[str, ...], last: str | None) -> Remedy | None:
     if last is None:
         return None
     first, *others = (*words, last)
-    return first + "".join(AND + each.removeprefix(BEGIN) for each in others)
+    return Remedy(first + "".join(AND + each.removeprefix(BEGIN) for each in others),
+                  1 + len(others))
 
 
 def customer_broken(attempt: Attempt) -> Diagnosis | None:

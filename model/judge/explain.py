@@ -13,7 +13,7 @@ from itertools import chain
 from math import ceil
 
 from model.judge.check import check
-from model.judge.combined_remedies import AND, Diagnose, combined_remedy, customer_broken
+from model.judge.combined_remedies import Diagnose, Remedy, combined_remedy, customer_broken
 from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.diagnosis import Diagnosis
@@ -39,6 +39,7 @@ class Reason:
     message: str
     remedy: str | None = None  # a change that suffices, if one is known
     other_remedy: str | None = None  # another one
+    num_limits: int = 1  # that the remedy changes
 
 
 POSSIBLE = frozenset({"BATTERIES", "CHARGERS", "COST", "FLEET_EXHAUSTED", "SEARCH"})
@@ -78,7 +79,7 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
 
 def _changes(reason: Reason) -> float:
     """Return how many limits a remedy changes; infinity: there is none."""
-    return math.inf if reason.remedy is None else reason.remedy.count(f"{AND}if ")
+    return math.inf if reason.remedy is None else reason.num_limits
 
 
 WINDOW = re.compile(r"\bits ((?:last )?window(?: \d+)?)")
@@ -317,11 +318,11 @@ def _with_remedy(index: int, diagnosis: Diagnosis, attempt: Attempt,
     Where neither does alone, of several rules together.
     """
     holds = diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations
-    remedies = [diagnosis.remedy if holds else None, rest_remedy(attempt)]
-    if not any(remedies):
-        remedies = [combined_remedy(attempt, diagnose)]
-    first, second, *_ = [*filter(None, remedies), None, None]
-    return Reason(index, diagnosis.code, diagnosis.message, first, second)
+    found = [Remedy(words) for words in (diagnosis.remedy if holds else None, rest_remedy(attempt))
+             if words is not None]
+    first, *others = found or [combined_remedy(attempt, diagnose) or Remedy(None)]
+    return Reason(index, diagnosis.code, diagnosis.message, first.words,
+                  others[0].words if others else None, first.num_limits)
 
 
 def _remedy_by_other(problem: Problem, index: int, node: int, means: str) -> str | None:

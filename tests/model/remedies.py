@@ -14,9 +14,9 @@ KM = 1_000_000
 def applied(problem: Problem, reason: Reason, node: int) -> Problem:
     """Return a problem changed as a remedy for a customer says, of several limits by each."""
     remedy, kind = reason.remedy or "", problem.vehicle_types[reason.vehicle_type]
-    first, *others = remedy.split(" and if ")
+    first, *others = re.split(" and (?=if |without )", remedy)
     if others:
-        for each in (first, *(f"fits if {other}" for other in others)):
+        for each in (first, *(f"fits {other}" for other in others)):
             problem = applied(problem, replace(reason, remedy=each), node)
         return problem
     for pattern, change in ON_TYPE.items():

@@ -71,7 +71,8 @@ def test_reason_names_the_rule_and_a_remedy_that_works(
 ):
     *others, d = customers
     problem = tiny_problem(*others, replace(d, **on_customer), truck=replace(truck, **on_truck))
-    assert reason_for_d(problem) == Reason(0, code, message, remedy)
+    limits = (remedy or "").count(" and if ") + 1
+    assert reason_for_d(problem) == Reason(0, code, message, remedy, num_limits=limits)
 
 
 @pytest.mark.parametrize(("code", "on_drones", "message", "remedy"), [
