@@ -78,6 +78,10 @@ def _alternative(bench: Bench, each: Alternative) -> Data:
         placed["window"] = each.window
         if bench.shipment is not None and each.node is not None:
             placed["window_at"] = bench.problem.customer_at(each.node).id
+    if each.companions:
+        placed["companions"] = [
+            bench.problem.customer_at(bench.problem.first_place(unit.node)).id
+            if unit.shipment is None else unit.shipment.id for unit in each.companions]
     return {
         "kind": each.kind,
         **placed,

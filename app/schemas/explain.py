@@ -110,6 +110,9 @@ class AlternativeReply(PlacedReply):
         description="`place`: elsewhere with the same vehicle, in the same way. `by`: by drone "
         "instead of truck, or the other way round, with any vehicle. `window`: in this window "
         "alone. `vehicle`: with this other vehicle. `unassigned`: not at all.")
+    companions: list[str] = Field(
+        [], description="Ids of customers and shipments who go along to the `vehicle`, since "
+        "relations bind them to be served by one. Left out where there is none.")
     window_at: str | None = Field(
         None, description="Of a shipment's `window`: the end whose it is, as `s1/delivery`.")
     cost: CostReply = Field(

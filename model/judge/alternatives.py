@@ -6,17 +6,17 @@ cheapest of its kind is true of those tried.
 
 import math
 import time
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
 from model.judge.bench import Bench, Draft, Trial
 from model.judge.clock import window_of
+from model.judge.group_moves import Unit, companions_of, move_together
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
-from model.judge.screening import Guess, Screen, share_over
-from model.judge.shipment_screening import ShipmentScreen
+from model.judge.screening import share_over
 from model.judge.timing import RouteDecision
 from model.problem import Customer, Problem
 from model.solution import Stop, Visit
@@ -33,6 +33,9 @@ ALL_TRIES, ALL_MORE_TRIES = 120, 600
 SCREENING_SHARE = 0.5
 """Share of the time in which places are guessed at, before any is tried."""
 
+ALONE_SHARE = 0.5
+"""Share of the time in which a customer is moved alone, before those who go with him are, too."""
+
 EVERYWHERE = frozenset({"VEHICLE", "SKILLS", "SERVED_BY"})
 """Rules that whoever breaks them with a vehicle breaks at all its places."""
 
@@ -45,6 +48,7 @@ class Alternative:
 
     kind: Kind
     trial: Trial
+    companions: tuple[Unit, ...] = ()  # who go along, by relations
     window: int | None = None  # which of several is the only one
     node: int | None = None  # whose window; None: nobody's
 
@@ -73,9 +77,10 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
 
     `until` is on `time.perf_counter`.
     """
-    by_group, is_complete = try_places(bench, until)
-    windows, all_windows = _windows(bench, until)
-    found = bench.found
+    companions, found = companions_of(bench), bench.found
+    alone = share_over(ALONE_SHARE, until) if companions else until
+    by_group, is_complete = try_places(bench, alone)
+    windows, all_windows = _windows(bench, alone)
     alternatives: list[Alternative] = []
     if found is not None:
         here = found.place
@@ -86,13 +91,30 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
     for (vehicle, _), drafts in by_group.items():
         if found is None or vehicle != found.place.vehicle:
             vehicles.setdefault(vehicle, []).extend(drafts)
-    others = [each for drafts in vehicles.values() for each in best_of(bench, "vehicle", drafts)]
+    if companions:
+        others, in_time = _all_moved(bench, companions, vehicles, until)
+        is_complete &= in_time
+    else:
+        others = [each for some in vehicles.values() for each in best_of(bench, "vehicle", some)]
     alternatives += [*windows, *sorted(others, key=lambda each: each.trial.rank)]
     if found is not None:
         alternatives.append(Alternative("unassigned", bench.left_out))
     return Findings(tuple(alternatives),
                     tuple([draft for drafts in by_group.values() for draft in drafts]),
                     is_complete and all_windows)
+
+
+def _all_moved(bench: Bench, companions: tuple[Unit, ...], vehicles: Iterable[Vehicle],
+               until: float) -> tuple[list[Alternative], bool]:
+    """Return what it would cost if each vehicle served all who go together, and if all were tried.
+    """
+    moved: list[Alternative] = []
+    for vehicle in vehicles:
+        trial = move_together(bench, companions, vehicle, until)
+        if trial is None:
+            return moved, False
+        moved.append(Alternative("vehicle", trial, companions))
+    return moved, True
 
 
 def best_of(bench: Bench, kind: Kind, drafts: Sequence[Draft],
@@ -117,7 +139,7 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
     """
     screened = share_over(SCREENING_SHARE, until)
     guesses = {group: [guess for guess in some if not _is_here(bench, guess.place)]
-               for group, some in guesses_for(bench, bench.problem, screened).items()}
+               for group, some in bench.guesses(until=screened).items()}
     is_complete = time.perf_counter() < screened
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)
@@ -131,18 +153,6 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
                 return tried, False
             tried.setdefault(group, []).append(bench.draft(guesses[group][turn].place))
     return tried, is_complete
-
-
-def guesses_for(bench: Bench, problem: Problem,
-                until: float = math.inf) -> dict[Group, list[Guess]]:
-    """Return the places of each vehicle and means that may be tried, the likeliest first.
-
-    Those that are found until an instant, on `time.perf_counter`.
-    """
-    solution, past = bench.left_out.solution, bench.setting.past
-    if bench.shipment is None:
-        return Screen(problem, solution, bench.node, past).guesses(until)
-    return ShipmentScreen(problem, solution, bench.shipment, past).guesses(until)
 
 
 def _is_settled(drafts: Sequence[Draft], turn: int, enough: int) -> bool:
@@ -175,7 +185,7 @@ def here_of(bench: Bench, until: float = math.inf) -> Place | None:
     """
     if bench.found is None or bench.shipment is None:
         return None if bench.found is None else bench.found.place
-    some = guesses_for(bench, bench.problem, until)
+    some = bench.guesses(until=until)
     return next((guess.place for (vehicle, by), guesses in some.items()
                  if (vehicle.type, by) == (bench.found.place.vehicle.type, bench.found.place.by)
                  for guess in guesses if _is_here(bench, guess.place)), None)
@@ -212,7 +222,7 @@ def _windows_of(bench: Bench, node: int, until: float) -> tuple[list[Alternative
             continue
         problem = with_customer(bench.problem, node, in_window(customer, window))
         screened = share_over(SCREENING_SHARE, until)
-        guesses = sorted([guess for some in guesses_for(bench, problem, screened).values()
+        guesses = sorted([guess for some in bench.guesses(problem, screened).values()
                           for guess in some], key=lambda guess: guess.rank)
         is_complete &= time.perf_counter() < screened
         drafts: list[Draft] = []

@@ -3,6 +3,7 @@
 All others stay where they are, in their order. Each trial is a whole plan that was judged.
 """
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -14,10 +15,12 @@ from model.judge.lags import Awaited, soonest_across
 from model.judge.metrics import unassigned_cost
 from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
 from model.judge.places import (
-    Found, Place, changed, find_place, find_shipment, route_with, routes_without,
+    Found, Means, Place, changed, find_place, find_shipment, route_with, routes_without,
 )
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.rules import Violation
+from model.judge.screening import Guess, Screen
+from model.judge.shipment_screening import ShipmentScreen
 from model.judge.timing import RouteDecision
 from model.problem import Problem, Shipment
 from model.solution import Solution
@@ -138,6 +141,18 @@ class Bench:
         cost = self.left_out.evaluation.cost
         own = [self.problem.first_place(node) for node in self.nodes]
         return cost.total - unassigned_cost(self.problem, own)
+
+    def guesses(self, problem: Problem | None = None, until: float = math.inf,
+                only: Vehicle | None = None) -> dict[tuple[Vehicle, Means], list[Guess]]:
+        """Return the places of each vehicle and means that may be tried, the likeliest first.
+
+        Those that are found until an instant, on `time.perf_counter`; `only` is whose alone.
+        """
+        problem, solution = problem or self.problem, self.left_out.solution
+        past = self.setting.past
+        if self.shipment is None:
+            return Screen(problem, solution, self.node, past, only=only).guesses(until)
+        return ShipmentScreen(problem, solution, self.shipment, past, only).guesses(until)
 
     def decide(self, place: Place, problem: Problem | None = None) -> tuple[int, RouteDecision]:
         """Return the index of a route, and it with the customer at a place, without times."""

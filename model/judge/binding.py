@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import takewhile
 from typing import Literal, NamedTuple
 
-from model.judge.alternatives import Findings, guesses_for, halt_of, here_of, with_customer
+from model.judge.alternatives import Findings, halt_of, here_of, with_customer
 from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.driving import travel_duration
@@ -96,7 +96,8 @@ def find_binding(bench: Bench, findings: Findings,
 def _best_now(bench: Bench, findings: Findings, here: Place | None) -> Trial:
     """Return the best that can be done with the customer as things are."""
     known = [bench.plan, *[each.trial for each in findings.alternatives
-                           if each.window is None and each.trial.evaluation.is_feasible]]
+                           if each.window is None and not each.companions
+                           and each.trial.evaluation.is_feasible]]
     if here is not None:
         known.append(bench.put(here))
     return min(known, key=lambda trial: trial.rank)
@@ -132,14 +133,14 @@ def _cost_with(bench: Bench, limit: Limit, places: Sequence[Place | None],
 
 def _likeliest(bench: Bench, problem: Problem, until: float) -> list[Place]:
     """Return the places of all vehicles that look cheapest."""
-    guesses = [guess for some in guesses_for(bench, problem, until).values()
+    guesses = [guess for some in bench.guesses(problem, until).values()
                for guess in some]
     return [guess.place for guess in sorted(guesses, key=lambda guess: guess.rank)[:MAX_LIFTED]]
 
 
 def _further_trips(bench: Bench, limit: Limit, until: float) -> Iterator[Place]:
     """Yield trips that a limit allows the customer for himself."""
-    for (vehicle, _), guesses in guesses_for(bench, limit.problem, until).items():
+    for (vehicle, _), guesses in bench.guesses(limit.problem, until).items():
         own = [guess.place for guess in guesses if guess.place.own_trip]
         if vehicle.type == limit.kind:
             yield from own[:1]

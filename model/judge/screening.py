@@ -60,11 +60,11 @@ class _Legs:
 class Screen:
     """Guesses for one customer, in a plan that leaves him out.
 
-    `means` are those by which he may be served.
+    `means` are those by which he may be served, `only` is the vehicle that may; None: any.
     """
 
     def __init__(self, problem: Problem, solution: Solution, node: int, past: Past,
-                 means: Collection[Means] = ANYHOW) -> None:
+                 means: Collection[Means] = ANYHOW, only: Vehicle | None = None) -> None:
         self._problem = problem
         self._solution = solution
         self._node = node
@@ -72,6 +72,7 @@ class Screen:
         self._past = past
         self._legs: dict[int, _Legs] = {}
         self._means = means
+        self._only = only
 
     def guesses(self, until: float = math.inf) -> dict[tuple[Vehicle, Means], list[Guess]]:
         """Return the places of each vehicle, by truck and by drone, the best ones first.
@@ -84,7 +85,7 @@ class Screen:
         trips = {vehicle: len(route.trips) for vehicle, route in routes.items()}
         on_trips = takewhile(lambda _: time.perf_counter() < until, self._on_trips(routes))
         alone = (self._alone(vehicle, number, is_new=vehicle not in trips)
-                 for vehicle, number in self._own_trips(trips))
+                 for vehicle, number in self._own_trips(trips) if self._only in (None, vehicle))
         for guess in chain.from_iterable(chain(on_trips, alone)):
             found[guess.place.vehicle, guess.place.by].append(guess)
         for (vehicle, _), guesses in found.items():
@@ -97,6 +98,8 @@ class Screen:
     def _on_trips(self, routes: Mapping[Vehicle, Route]) -> Iterator[Iterator[Guess]]:
         """Yield the places on each trip that isn't over."""
         for vehicle, route in routes.items():
+            if self._only not in (None, vehicle):
+                continue
             known = self._past.trips.get(vehicle, ())
             for number, trip in enumerate(route.trips):
                 if number < len(known) - 1 or (

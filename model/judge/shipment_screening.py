@@ -44,13 +44,14 @@ MOST_ORDERS, MOST_ORDERS_ALONE = 6, 24
 
 
 class ShipmentScreen:
-    """Guesses for a shipment, in a plan that leaves it out."""
+    """Guesses for a shipment, in a plan that leaves it out; as `Screen`."""
 
     def __init__(self, problem: Problem, solution: Solution, shipment: Shipment,
-                 past: Past) -> None:
+                 past: Past, only: Vehicle | None = None) -> None:
         self._problem = problem
         self._shipment = shipment
         self._past = past
+        self._only = only
         self._trips: dict[Vehicle, tuple[Trip, ...]] = {}
         for route in solution.routes:
             self._trips.setdefault(Vehicle(route.vehicle_type, route.vehicle), route.trips)
@@ -81,7 +82,7 @@ class ShipmentScreen:
         nodes = self._shipment.nodes
         for end, node in enumerate(nodes):
             means = BY_TRUCK if self._problem.customer_at(node).served_by == "truck" else ANYHOW
-            screen = Screen(self._problem, self._solution, node, self._past, means)
+            screen = Screen(self._problem, self._solution, node, self._past, means, self._only)
             for guess in chain.from_iterable(screen.guesses(until).values()):
                 key = guess.place.vehicle, guess.place.trip, guess.place.own_trip
                 by_trip.setdefault(key, [[] for _ in nodes])[end].append(guess)

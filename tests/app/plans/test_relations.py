@@ -6,6 +6,7 @@ from typing import Any
 import httpx
 import pytest
 
+from app.schemas.explain import ExplainReply
 from app.schemas.response import PlanReply
 
 Request = dict[str, Any]
@@ -46,6 +47,23 @@ def test_customers_go_with_whom_relations_say(service: httpx.Client, related: Re
                              "customers": ["A", "C"] if len(relations) == 1 else ["A", "D"]}]
     checked = service.post("/check", json={"problem": related, "plan": plan}).json()
     assert [each["code"] for each in checked["violations"]] == ["RELATION"]
+
+
+def test_other_vehicles_are_told_of_with_all_who_go_together(service: httpx.Client,
+                                                             related: Request) -> None:
+    related["relations"] = [{"kind": "together", "customers": ["A", "C"]}]
+    plan = service.post("/plan", json=related).json()
+    asked = {"problem": related, "plan": plan, "customer": "A"}
+    told = service.post("/explain", json=asked).json()
+    ExplainReply.model_validate(told)
+    moved, = [each for each in told["alternatives"] if each["kind"] == "vehicle"]
+    assert (moved["companions"], moved["vehicle"] != vehicle_of(plan)["A"]) == (["C"], True)
+    # There is room for two on each, and B and D stay.
+    assert {each["code"] for each in moved["reasons"]} == {"CAPACITY"}
+    related["fleet"][0]["capacity"] = [4]
+    told = service.post("/explain", json=asked).json()
+    moved, = [each for each in told["alternatives"] if each["kind"] == "vehicle"]
+    assert (moved["companions"], moved["feasible"]) == (["C"], True)
 
 
 def test_who_is_left_out_by_a_relation_is_told_which(service: httpx.Client,

@@ -23,14 +23,16 @@ test('an alternative is told with who comes, where and for how much', () => {
     item('place', {}),
     item('by', { by: 'drone', position: position('B', { recovered_at: 'C' }) }),
     item('window', { window: 1, cost: cost(-3) }),
-    item('vehicle', { vehicle: 'van-2', position: position('hub', { own_trip: true }) }),
+    item('vehicle', {
+      vehicle: 'van-2', position: position('hub', { own_trip: true }), companions: ['C', 's1'],
+    }),
     item('unassigned', { vehicle: null, by: null, position: null, service_start: null }),
   ], customer);
   assert.deepEqual(rows.map(({ what, where }) => [what, where]), [
     ['Elsewhere with truck-1', 'after A, 8:05'],
     ['By a drone of truck-1', 'from B, back at C, 8:05'],
     ['Only 8:00 to 10:00, by truck-1', 'after A, 8:05'],
-    ['By van-2', 'on a trip of its own, 8:05'],
+    ['By van-2 with C, s1', 'on a trip of its own, 8:05'],
     ['Not at all', ''],
   ]);
   assert.deepEqual(rows.map((row) => row.cost), ['+12.40', '+12.40', '−3.00', '+12.40', '+12.40']);

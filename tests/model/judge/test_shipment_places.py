@@ -10,7 +10,7 @@ from itertools import count, product
 import numpy as np
 import pytest
 
-from model.judge.alternatives import find_alternatives, guesses_for, here_of
+from model.judge.alternatives import find_alternatives, here_of
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
 from model.judge.check import check
@@ -76,8 +76,8 @@ def ways(problem: Problem, kind: int, trip: TripDecision,
 
 
 def routes(problem: Problem, solution: Solution,
-           shipment: Shipment) -> Iterator[tuple[int, RouteDecision]]:
-    """Yield a plan's route with a shipment more, and its index, in all ways."""
+           nodes: tuple[int, ...]) -> Iterator[tuple[int, RouteDecision]]:
+    """Yield a plan's route with some nodes more, and its index, in all ways."""
     used = [read_route(problem, route) for route in solution.routes]
     for index, kind in enumerate(problem.vehicle_types):
         taken = {each.vehicle for each in used if each.vehicle_type == index}
@@ -87,13 +87,13 @@ def routes(problem: Problem, solution: Solution,
         index = min(place, len(solution.routes))
         kind = problem.vehicle_types[decision.vehicle_type]
         for number, trip in enumerate(decision.trips):
-            for way in ways(problem, decision.vehicle_type, trip, shipment.nodes):
+            for way in ways(problem, decision.vehicle_type, trip, nodes):
                 trips = (*decision.trips[:number], way, *decision.trips[number + 1:])
                 yield index, replace(decision, trips=trips)
         if len(decision.trips) < kind.max_trips:
             for number in range(len(decision.trips) + 1):
                 empty = TripDecision((kind.begins_at, kind.ends_at))
-                for way in ways(problem, decision.vehicle_type, empty, shipment.nodes):
+                for way in ways(problem, decision.vehicle_type, empty, nodes):
                     trips = (*decision.trips[:number], way, *decision.trips[number:])
                     yield index, replace(decision, trips=with_ends(kind, trips))
 
@@ -102,7 +102,7 @@ def cheapest(problem: Problem, solution: Solution, shipment: Shipment) -> float:
     """Return the lowest cost at which a plan has a shipment more, by all ways there are."""
     best = math.inf
     unassigned = tuple([node for node in solution.unassigned if node not in shipment.nodes])
-    for index, decision in routes(problem, solution, shipment):
+    for index, decision in routes(problem, solution, shipment.nodes):
         timed = time_route(problem, decision, "", EVERYTHING_OPEN)
         if not timed.judged.violations:
             plan = Solution((*solution.routes[:index], timed.route, *solution.routes[index + 1:]),
@@ -187,12 +187,12 @@ def test_little_time_has_the_likeliest_places_looked_at_and_tried(
     solution = greedy(problem)
     shipment = problem.shipments[0]
     bench = bench_of(problem, solution, shipment.pickup)
-    whole, every = find_fits(bench, 3), guesses_for(bench, problem)
+    whole, every = find_fits(bench, 3), bench.guesses()
     num_guesses = sum(map(len, every.values()))
     for read in (5, 10, 20, 40, 80, 20 * num_guesses):
         clock = count()
         monkeypatch.setattr(time, "perf_counter", partial(next, clock))
-        cut = guesses_for(bench, problem, read)
+        cut = bench.guesses(until=read)
         looked = next(clock)
         found = find_fits(bench, 3, looked + read)
         over = next(clock) - looked - read

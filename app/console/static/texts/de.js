@@ -657,6 +657,7 @@ export default {
     only: 'Nur {{window}}, mit {{who}}',
     byTruck: 'Mit dem Fahrzeug {{who}}',
     by: 'Mit {{who}}',
+    goingAlong: '{{who}} zusammen mit {{names}}',
     of: '{{what}} von {{whose}}',
     without: '{{subject}}: Ohne diese Regel würden {{sum}} gespart.',
     unit: {

@@ -647,6 +647,7 @@ export default {
     only: 'Only {{window}}, by {{who}}',
     byTruck: 'By truck, {{who}}',
     by: 'By {{who}}',
+    goingAlong: '{{who}} with {{names}}',
     of: '{{what}} of {{whose}}',
     without: '{{subject}}: without this rule {{sum}} would be saved.',
     unit: {

@@ -82,10 +82,16 @@ function whoseOf(item) {
   return isOnSortie(item) ? t('place.drone', { vehicle }) : vehicle;
 }
 
+function whoInWords(item) {
+  const who = whoseOf(item);
+  const { companions } = item;
+  return companions ? t('why.goingAlong', { who, names: companions.join(', ') }) : who;
+}
+
 function whatInWords(item, customer) {
   const { kind, by, window } = item;
   if (kind === 'unassigned') return t('why.notAtAll');
-  const who = whoseOf(item);
+  const who = whoInWords(item);
   if (kind === 'place') return t('why.elsewhere', { who });
   if (kind === 'window') {
     const only = t('why.only', { window: timeWindow(windowsOf(customer)[window]), who });

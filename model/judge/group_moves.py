@@ -1,0 +1,111 @@
+"""Customers whom relations keep together, all moved to another vehicle at once, by way of trial."""
+
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from model.judge.bench import Bench, Draft, Trial
+from model.judge.check import JudgedRoute
+from model.judge.past import KnownTrip, Vehicle
+from model.judge.places import halts
+from model.problem import Shipment
+
+TRIES = 16
+"""Places of a vehicle that are tried for each of them, the likeliest ones."""
+
+WIDTH = 12
+"""So many ways to place some of them are gone on with, the best ones."""
+
+
+class Unit(NamedTuple):
+    """A customer, or all ends of a shipment, which move as one."""
+
+    node: int
+    shipment: Shipment | None = None
+
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """All that it has."""
+        return (self.node,) if self.shipment is None else self.shipment.nodes
+
+
+@dataclass(frozen=True)
+class _Way:
+    """A plan with some of them at places of a vehicle, and its routes as judged."""
+
+    trial: Trial
+    judged: Mapping[int, JudgedRoute]
+
+
+def companions_of(bench: Bench) -> tuple[Unit, ...]:
+    """Return with whom a customer or shipment has to move to another vehicle, of those served.
+
+    Nobody goes along with one end of a shipment, which the other binds, nor where one of them is
+    on a trip that has begun.
+    """
+    problem, solution = bench.problem, bench.plan.solution
+    if not problem.keeps_together or (bench.shipment is None and bench.node in problem.shipment_at):
+        return ()
+    served = [halt.node for route in solution.routes for trip in route.trips
+              for halt in halts(trip)]
+    begun = {node for trips in bench.setting.past.trips.values() for trip in trips
+             for node in _nodes_of(trip)}
+    found, asked = dict[int, Unit](), [*bench.nodes]
+    for node in asked:
+        bound = {other for relation in problem.relations
+                 if relation.keeps_together and node in relation.nodes for other in relation.nodes}
+        for other in served:
+            if other in bound and other not in bench.nodes and problem.unit_of(other) not in found:
+                shipment = problem.shipment_at.get(other)
+                unit = Unit(problem.unit_of(other), shipment)
+                found[unit.node] = unit
+                asked += unit.nodes
+    return () if begun & {*asked} else tuple(found.values())
+
+
+def move_together(bench: Bench, companions: tuple[Unit, ...], vehicle: Vehicle,
+                  until: float) -> Trial | None:
+    """Return a plan in which a vehicle serves a customer with all who are bound to go with him.
+
+    The best of those tried, one after another being placed; None: there was no time until an
+    instant, on `time.perf_counter`, or the vehicle has no places.
+    """
+    units = (Unit(bench.node, bench.shipment), *companions)
+    ways = [_without(bench, companions)]
+    for unit in units:
+        drafts: list[tuple[tuple[int, float], Bench, Draft]] = []
+        for way in ways:
+            if time.perf_counter() >= until:
+                return None
+            own = Bench(bench.problem, way.trial.solution, unit.node, bench.setting, way.judged,
+                        unit.shipment)
+            cost = way.trial.evaluation.cost.total
+            drafts += [((len(draft.timed.judged.violations), cost + draft.added), own, draft)
+                       for draft in _drafts(own, vehicle)]
+        best = sorted(drafts, key=lambda each: each[0])[:WIDTH]
+        ways = [_Way(own.finish(draft), {**own.judged, draft.index: draft.timed.judged})
+                for _, own, draft in best]
+    return min([way.trial for way in ways], key=lambda trial: trial.rank, default=None)
+
+
+def _nodes_of(trip: KnownTrip) -> frozenset[int]:
+    """Return all who are served on a trip that has begun, as far as is known."""
+    flown = [visit.node for sortie in trip.sorties for visit in sortie.visits]
+    return trip.aboard.union([stop.node for stop in trip.stops], flown)
+
+
+def _without(bench: Bench, companions: tuple[Unit, ...]) -> _Way:
+    """Return the plan that leaves all of them out."""
+    trial, judged = bench.left_out, bench.judged
+    for unit in companions:
+        own = Bench(bench.problem, trial.solution, unit.node, bench.setting, judged, unit.shipment)
+        trial, judged = own.left_out, own.judged
+    return _Way(trial, judged)
+
+
+def _drafts(bench: Bench, vehicle: Vehicle) -> Iterator[Draft]:
+    """Yield routes of a vehicle with a customer or shipment at its likeliest places."""
+    guesses = [guess for some in bench.guesses(only=vehicle).values() for guess in some]
+    for guess in sorted(guesses, key=lambda guess: guess.rank)[:TRIES]:
+        yield bench.draft(guess.place)
