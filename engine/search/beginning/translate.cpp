@@ -53,6 +53,33 @@ bool refresh_by_trips(const ProblemData& data, const Fleet& fleet, Int slot) {
     return done;
 }
 
+// Time a route whose trips begin as late as costs nothing. In place; false if no way was found.
+bool time_anew(const ProblemData& data, Fleet& fleet, Int slot) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const View<Trip, 1> trips = fleet.trip[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
+    const VehicleType& type = data.type[route.type];
+    if (orders_cross(data) || shares_chargers(type)) {
+        load_trips(data, route, stops, trips, sorties);
+        keep_starts(data, route, stops);
+        return drive_forward(data, route, stops, sorties);
+    }
+    if (has_breaks(type) || limits_timed_travel(type)) {
+        bool settled = false;
+        return price_as_is(data, fleet, slot, no_bar, settled) &&
+               (settled || settle(data, route, stops, trips, sorties));
+    }
+    load_trips(data, route, stops, trips, sorties);
+    clear_holds(route, stops, trips);
+    if (!drive_forward(data, route, stops, sorties)) return false;
+    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties) &&
+        !drive_forward(data, route, stops, sorties)) {
+        return false;
+    }
+    return settle(data, route, stops, trips, sorties);
+}
+
 }  // namespace
 
 void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone) {
@@ -125,35 +152,18 @@ double leg_cost(const ProblemData& data, const Searcher& searcher) {
 }
 
 bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
-    if (orders_cross(data) || shares_chargers(data.type[route.type])) {
-        load_trips(data, route, stops, trips, sorties);
-        keep_starts(data, route, stops);
-        return drive_forward(data, route, stops, sorties);
+    const VehicleType& type = data.type[fleet.route[slot].type];
+    if (!has_breaks(type) && !has_driving_rules(type) && !limits_timed_travel(type)) {
+        return time_anew(data, fleet, slot);
     }
-    if (has_breaks(data.type[route.type]) || limits_timed_travel(data.type[route.type])) {
-        bool settled = false;
-        const Int spare = fleet.route.size() - 1;
-        copy_route(fleet, slot, fleet, spare);
-        if (!price_as_is(data, fleet, slot, no_bar, settled) ||
-            (!settled && !settle(data, route, stops, trips, sorties))) {
-            // Of the ways to rest while drones fly few are followed, which may be others now: it is
-            // driven as it was timed.
-            copy_route(fleet, spare, fleet, slot);
-        }
-        return true;
+    const Int spare = fleet.route.size() - 1;
+    copy_route(fleet, slot, fleet, spare);
+    if (!time_anew(data, fleet, slot)) {
+        // Of the ways to rest while drones fly few are followed, which may be others now: it is
+        // driven as it was timed.
+        copy_route(fleet, spare, fleet, slot);
     }
-    load_trips(data, route, stops, trips, sorties);
-    clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties)) return false;
-    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties) &&
-        !drive_forward(data, route, stops, sorties)) {
-        return false;
-    }
-    return settle(data, route, stops, trips, sorties);
+    return true;
 }
 
 }  // namespace tandem
