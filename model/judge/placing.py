@@ -9,6 +9,10 @@ from model.problem import REST, DrivingRules, Problem
 from model.solution import BreakPlace, Route, Trip
 
 PLACES: tuple[BreakPlace, ...] = "departure", "arrival"
+"""Where a stated break is put between two stops."""
+
+ON_A_LEG: tuple[BreakPlace, ...] = "departure", "way", "arrival"
+"""In which order breaks lie between two stops."""
 
 
 def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
@@ -70,8 +74,8 @@ def _ways(decision: RouteDecision, number: int) -> list[RouteDecision]:
 
 
 def _with(trip: TripDecision, more: BreakDecision) -> TripDecision:
-    def order(taken: BreakDecision) -> tuple[int, bool, int]:
-        return taken.stop, taken.place == "arrival", max(0, taken.number)
+    def order(taken: BreakDecision) -> tuple[int, int, int]:
+        return taken.stop, ON_A_LEG.index(taken.place), max(0, taken.number)
 
     return replace(trip, breaks=tuple(sorted((*trip.breaks, more), key=order)))
 

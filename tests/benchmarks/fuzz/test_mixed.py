@@ -23,10 +23,11 @@ Data = dict[str, Any]
 
 PROBLEMS = 12
 
-ONCE_BROKEN = (1643, 2975, 3118, 5114, 9086, 9436)
+ONCE_BROKEN = (1643, 2975, 3118, 5114, 9086, 9436, 2_000_112)
 """Seeds of problems that once were answered with 500, or whose plans were refused: a damaged plan
 without stops, or with a drone launched at a break; an open route that ends at a launch site; breaks
-that follow the departure; and shipments whose pickup has no way home."""
+that follow the departure; shipments whose pickup has no way home; and a lag between routes whose
+driver rests while drones fly."""
 
 
 def test_problems_that_mix_all_rules_are_planned_soundly(client: httpx.Client) -> None:
