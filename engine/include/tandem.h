@@ -1483,6 +1483,11 @@ int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* se
 int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher);
 /* Take the route apart, without sorties, whose customers were left out after the fewest turns. */
 int tandem_give_up_route(const tandem_problem_data* data, const tandem_searcher* searcher);
+/* Insert the shipments left out among the routes that there are, as `search/ejection` says, in so
+   many rounds at most. `made` is how many, `done` whether all were; else the routes are as they
+   were, or the best. */
+int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t rounds,
+                 int64_t* made, int64_t* done);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */

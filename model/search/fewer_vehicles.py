@@ -1,7 +1,8 @@
 """Plans by fewer vehicles, where each costs more than all that they do.
 
 A route is given up, and those whom it served are inserted among the others, by turns that prefer to
-leave out whom they seldom did (`engine/search/turn.h`); once all are served, the next.
+leave out whom they seldom did (`engine/search/turn.h`); once all are served, the next. Shipments
+are inserted by ejecting others instead, where that can be (`model/search/ejection.py`).
 
 References
 ----------
@@ -36,10 +37,11 @@ def fixed_costs(data: ProblemData, searcher: Searcher) -> float:
 
 
 def search_fewer(data: ProblemData, whole: Searcher, search: Callable[[], None],
-                 is_over: Callable[[], bool]) -> None:
+                 is_over: Callable[[], bool], eject: Callable[[], bool] | None) -> None:
     """Search in rounds until it is over for plans by fewer vehicles. In place: go on from the best.
 
-    Meanwhile there are no more vehicles than are to be used.
+    Meanwhile there are no more vehicles than are to be used. `eject` inserts all who are left out,
+    and tells whether that came about; None: only rounds do.
     """
     count = data.type["count"]
     most = int(count[0])
@@ -51,6 +53,8 @@ def search_fewer(data: ProblemData, whole: Searcher, search: Callable[[], None],
                 return
             count[0] = used - 1
             call("tandem_give_up_route", data, whole)
+            if eject is not None and not eject():
+                break
             while whole.best.used.sum() >= used and not is_over():
                 search()
         go_on_from_best(data, whole)

@@ -18,6 +18,7 @@ from model.search.beginning.packing import (
     comes_by_trips, packed_anew, packed_plan, timed, with_single_trips,
 )
 from model.search.beginning.translate import best_plan, make_searcher
+from model.search.ejection import by_ejection
 from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
@@ -63,8 +64,7 @@ IN_PARTS_FROM = 800
 it looks at then is in the processor's cache. Where drones fly, from `LARGE_FROM` on."""
 
 FEW_TURNS = 300
-"""Turns for each customer below which it does; with more it brings nothing, but where customers are
-too many for the cache."""
+"""Turns for each customer below which it does; with more it pays only past the cache."""
 
 LARGER_THAN_CACHE = 20_000
 """Number of customers from which on a search stays near one after another however long it is."""
@@ -357,7 +357,7 @@ def _search_by_fewer(team: _Team, data: ProblemData, crew: Crew) -> None:
     span = Span(team.limits.share(first.turns), FEWER_SHARE, 1.0)
     if not team.over(span):
         search_fewer(data, team.whole, lambda: team.search(crew, span, rounds=1),
-                     lambda: team.over(span))
+                     lambda: team.over(span), by_ejection(data, team.whole, team.workers, span))
     if not team.over():
         team.search(crew, Span(team.limits.share(first.turns), 1.0, 1.0))
 

@@ -1,0 +1,305 @@
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <optional>
+#include <vector>
+
+#include "guard.h"
+#include "randomness.h"
+#include "rules/pair.h"
+#include "search/ejection/pair_row.h"
+#include "search/route/edit.h"
+#include "search/route/fairness.h"
+#include "search/route/rarer.h"
+#include "search/route/refresh.h"
+#include "search/route/state.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int moved_between = 100;  // shipments tried elsewhere after each ejection
+
+// After how many rounds a shipment it is given up if so large a share is still left out.
+constexpr Int hopeless_after = 20;
+constexpr double hopeless_share = 0.05;
+
+// Inserts shipments that are left out among routes that there are, by ejecting others.
+//
+// Whoever fits nowhere is inserted where those who are ejected for it, one shipment or two, were
+// themselves inserted with the least trouble so far; then some shipments are moved at random.
+class Ejection {
+public:
+    Ejection(const ProblemData& data, Searcher& searcher)
+        : data_(data),
+          searcher_(searcher),
+          rows_(data, tiers_aboard(searcher.now)),
+          slots_(searcher.active.begin(), searcher.active.begin() + searcher.count->active),
+          row_(slots_.size()),
+          trouble_(std::size_t(data.num_nodes), 1),
+          pool_(searcher.missing.begin(), searcher.missing.begin() + searcher.count->missing) {}
+
+    // Inserts all who are left out, in so many rounds at most. False if that doesn't come about.
+    bool run(Int rounds) {
+        if (slots_.empty() || !read()) return false;
+        std::size_t fewest = pool_.size();
+        while (!pool_.empty() && made_ < rounds && !is_hopeless(fewest)) {
+            ++made_;
+            if (!make_round()) return false;
+            fewest = std::min(fewest, pool_.size());
+        }
+        return pool_.empty() && write();
+    }
+
+    // How many rounds there were.
+    Int made() const { return made_; }
+
+private:
+    // Where a shipment goes, and who is ejected for it.
+    struct Spot {
+        Int row = nowhere;
+        PairPlace place{};
+        Int one = nowhere, other = nowhere;
+        Int trouble = 0;
+    };
+
+    // Inserts one who is left out, or tries to. False once the search must end.
+    bool make_round() {
+        if (data_.deadline.passed()) return false;
+        const Int pickup = pool_.back();
+        pool_.pop_back();
+        if (insert_anywhere(pickup)) return true;
+        ++trouble_[std::size_t(pickup)];
+        if (!eject_for(pickup)) pool_.insert(pool_.begin(), pickup);
+        for (Int moved = 0; moved < moved_between; ++moved) {
+            if (data_.deadline.passed()) return false;
+            move_any();
+        }
+        return true;
+    }
+
+    // Whether far too many were left out all the time.
+    bool is_hopeless(std::size_t fewest) const {
+        const Int shipments = searcher_.count->customers / 2;
+        return made_ > hopeless_after * shipments &&
+               double(fewest) > hopeless_share * double(shipments);
+    }
+
+    bool read() {
+        const Fleet& now = searcher_.now;
+        begin_ = now.stop(slots_[0], 0).leave;
+        end_ = now.stop(slots_[0], now.route[slots_[0]].length - 1).latest;
+        for (std::size_t index = 0; index < row_.size(); ++index) {
+            PairRow& row = row_[index];
+            const Int slot = slots_[index];
+            for (const Stop& stop : now.stop[slot].first(now.route[slot].length)) {
+                row.node.push_back(stop.node);
+            }
+            if (!rows_.time(row, begin_, end_)) return false;
+        }
+        return true;
+    }
+
+    // One of the places where a shipment fits into a row, each as likely.
+    std::optional<PairPlace> any_place(const PairRow& row, const PairToInsert& pair) const {
+        Int found = 0;
+        std::optional<PairPlace> chosen;
+        rows_.for_each_place(row, pair, [&](PairPlace place) {
+            if (below(searcher_.rng, ++found) == 0) chosen = place;
+        });
+        return chosen;
+    }
+
+    void put_in(Int index, Int pickup, PairPlace place) {
+        PairRow& row = row_[std::size_t(index)];
+        rows_.insert(row, pickup, place);
+        rows_.time(row, begin_, end_);
+    }
+
+    bool insert_anywhere(Int pickup) {
+        const PairToInsert pair = rows_.pair_of(pickup);
+        Int found = 0;
+        Spot chosen;
+        for (std::size_t index = 0; index < row_.size(); ++index) {
+            rows_.for_each_place(row_[index], pair, [&](PairPlace place) {
+                if (below(searcher_.rng, ++found) == 0) chosen = {Int(index), place};
+            });
+        }
+        if (chosen.row == nowhere) return false;
+        put_in(chosen.row, pickup, chosen.place);
+        return true;
+    }
+
+    // Lists the shipments of a row, those that fitted best first, otherwise by chance.
+    void list_pickups(const PairRow& row, std::vector<Int>& pickups) {
+        pickups.clear();
+        for (const Int node : row.node) {
+            if (node >= data_.num_depots && data_.pair[node].unit == node) pickups.push_back(node);
+        }
+        shuffle(pickups);
+        ranked_.clear();
+        for (const Int pickup : pickups) {
+            ranked_.push_back({trouble_[std::size_t(pickup)], Int(ranked_.size()), pickup});
+        }
+        std::sort(ranked_.begin(), ranked_.end());
+        std::transform(ranked_.begin(), ranked_.end(), pickups.begin(),
+                       [](const std::array<Int, 3>& ranked) { return ranked[2]; });
+    }
+
+    template <class T>
+    void shuffle(std::vector<T>& items) const {
+        for (Int index = Int(items.size()) - 1; index > 0; --index) {
+            std::swap(items[std::size_t(index)],
+                      items[std::size_t(below(searcher_.rng, index + 1))]);
+        }
+    }
+
+    bool eject_for(Int pickup) {
+        const PairToInsert pair = rows_.pair_of(pickup);
+        Spot best;
+        best.trouble = trouble_[std::size_t(pickup)];
+        order_.resize(row_.size());
+        std::iota(order_.begin(), order_.end(), Int{0});
+        shuffle(order_);
+        for (const Int index : order_) {
+            const PairRow& row = row_[std::size_t(index)];
+            list_pickups(row, pickups_);
+            for (std::size_t first = 0; first < pickups_.size(); ++first) {
+                const Int one = pickups_[first];
+                if (trouble_[std::size_t(one)] >= best.trouble) break;
+                try_without(index, pair, one, nowhere, best);
+                for (std::size_t second = 0; second < first; ++second) {
+                    const Int other = pickups_[second];
+                    if (trouble_[std::size_t(one)] + trouble_[std::size_t(other)] >= best.trouble)
+                        break;
+                    if (data_.deadline.passed()) return false;
+                    try_without(index, pair, one, other, best);
+                }
+            }
+        }
+        if (best.row == nowhere) return false;
+        take_out(best.row, best.one, best.other);
+        put_in(best.row, pickup, best.place);
+        pool_.push_back(best.one);
+        if (best.other != nowhere) pool_.push_back(best.other);
+        return true;
+    }
+
+    void try_without(Int index, const PairToInsert& pair, Int one, Int other, Spot& best) {
+        rows_.leave_out(row_[std::size_t(index)], one, other, without_);
+        if (without_.node.empty()) return;
+        const std::optional<PairPlace> place = any_place(without_, pair);
+        if (!place) return;
+        const Int more = other == nowhere ? 0 : trouble_[std::size_t(other)];
+        best = {index, *place, one, other, trouble_[std::size_t(one)] + more};
+    }
+
+    void take_out(Int index, Int one, Int other) {
+        rows_.leave_out(row_[std::size_t(index)], one, other, without_);
+        std::swap(row_[std::size_t(index)], without_);
+    }
+
+    // Moves a random shipment to a random place of another row, or exchanges it for one there.
+    void move_any() {
+        const Int index = below(searcher_.rng, Int(row_.size()));
+        const Int to = below(searcher_.rng, Int(row_.size()));
+        PairRow &from = row_[std::size_t(index)], &target = row_[std::size_t(to)];
+        if (from.node.size() <= 2) return;
+        const Int pickup = any_pickup(from);
+        const PairToInsert pair = rows_.pair_of(pickup);
+        rows_.leave_out(from, pickup, nowhere, without_);
+        if (without_.node.empty()) return;
+        if (const auto place = any_place(index == to ? without_ : target, pair)) {
+            std::swap(from, without_);
+            put_in(to, pickup, *place);
+            return;
+        }
+        if (index == to || target.node.size() <= 2) return;
+        const Int other = any_pickup(target);
+        rows_.leave_out(target, other, nowhere, other_without_);
+        if (other_without_.node.empty()) return;
+        const auto here = any_place(without_, rows_.pair_of(other));
+        if (!here) return;
+        const auto there = any_place(other_without_, pair);
+        if (!there) return;
+        std::swap(from, without_);
+        std::swap(target, other_without_);
+        put_in(index, other, *here);
+        put_in(to, pickup, *there);
+    }
+
+    Int any_pickup(const PairRow& row) const {
+        const Int p = 1 + below(searcher_.rng, Int(row.node.size()) - 2);
+        return data_.pair[row.node[std::size_t(p)]].unit;
+    }
+
+    // Writes the rows as the routes; false, with the best routes, if one breaks a rule.
+    bool write() {
+        const Fleet& now = searcher_.now;
+        SearchCounts& count = *searcher_.count;
+        ++count.stamp;
+        count.changed = all_slots;
+        double cost = 0.0;
+        bool allowed = true;
+        for (std::size_t index = 0; index < row_.size(); ++index) {
+            const Int slot = slots_[index];
+            Route& route = now.route[slot];
+            const PairRow& row = row_[index];
+            route.stamp = count.stamp;
+            route.length = 0;
+            if (row.node.size() == 2) {
+                route.trips = 0;
+                now.cost[slot] = 0.0;
+                --now.used[route.type];
+                continue;
+            }
+            allowed = allowed && Int(row.node.size()) <= now.stop.shape(1);
+            if (!allowed) break;
+            for (const Int node : row.node) {
+                put(now.stop[slot], route.length++, node,
+                    node < data_.num_depots ? end_stop : customer_stop);
+            }
+            now.stop(slot, 0).kind = start_stop;
+            allowed = refresh(data_, now, slot);
+            locate(now, slot);
+            cost += now.cost[slot];
+        }
+        list_active(searcher_);
+        if (!allowed) {
+            go_back(searcher_);
+            return false;
+        }
+        count.missing = 0;
+        searcher_.value->cost = cost + plan_cost(data_, searcher_);
+        if (searcher_.value->cost < searcher_.value->best) keep_best(searcher_);
+        return true;
+    }
+
+    const ProblemData& data_;
+    Searcher& searcher_;
+    const PairRows rows_;
+    const std::vector<Int> slots_;
+    std::vector<PairRow> row_;
+    std::vector<Int> trouble_;  // (node,) of a pickup, how often it fitted nowhere
+    std::vector<Int> pool_;     // pickups of those left out
+    std::vector<Int> order_, pickups_;
+    std::vector<std::array<Int, 3>> ranked_;  // (pickup,) its trouble, rank by chance, and node
+    PairRow without_, other_without_;
+    Int begin_ = 0, end_ = 0;
+    Int made_ = 0;
+};
+
+}  // namespace
+}  // namespace tandem
+
+using namespace tandem;
+
+extern "C" int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher,
+                            int64_t rounds, int64_t* made, int64_t* done) {
+    return guarded([&] {
+        const ProblemData problem = data_of(*data);
+        Searcher working = searcher_of(*searcher);
+        Ejection ejection(problem, working);
+        *done = ejection.run(rounds) ? 1 : 0;
+        *made = ejection.made();
+    });
+}

@@ -1,0 +1,66 @@
+#include "search/ejection/pair_row.h"
+
+#include "rules/load.h"
+#include "rules/pair.h"
+
+namespace tandem {
+
+PairToInsert PairRows::pair_of(Int pickup) const {
+    const Int delivery = data_.pair[pickup].partner;
+    return {newcomer_for(data_, type_, pickup), newcomer_for(data_, type_, delivery),
+            leg(legs_, pickup, delivery).duration};
+}
+
+bool PairRows::time(PairRow& row, Int begin, Int end) const {
+    const std::size_t stops = row.node.size(), last = stops - 1;
+    row.leave.resize(stops);
+    row.due.resize(stops);
+    row.gap.resize(stops);
+    row.load.resize(stops * std::size_t(tiers_));
+    row.leave[0] = begin;
+    for (std::size_t p = 0; p < last; ++p) {
+        row.gap[p] = leg(legs_, row.node[p], row.node[p + 1]).duration;
+        const Int arrival = row.leave[p] + row.gap[p];
+        if (p + 1 == last) {
+            row.leave[last] = arrival;
+        } else {
+            const Windows place = places_[row.node[p + 1]];
+            if (place.too_late(arrival)) return false;
+            row.leave[p + 1] = place.end_of_service(arrival);
+        }
+    }
+    row.due[last] = end;
+    for (std::size_t p = last; p-- > 1;) {
+        row.due[p] = places_[row.node[p]].latest_arrival(row.due[p + 1] - row.gap[p]);
+    }
+    for (Int tier = 0; tier < tiers_; ++tier) {
+        Amount load = nothing;
+        for (std::size_t p = 0; p < stops; ++p) {
+            if (p > 0 && p < last) load = plus(load, picked_of(data_.amount, row.node[p], tier));
+            row.load[p * std::size_t(tiers_) + std::size_t(tier)] = load;
+        }
+    }
+    return row.leave[last] <= end;
+}
+
+void PairRows::leave_out(const PairRow& row, Int one, Int other, PairRow& without) const {
+    without.node.clear();
+    for (std::size_t p = 0; p < row.node.size(); ++p) {
+        const Int node = row.node[p];
+        if (node >= data_.num_depots) {
+            const Int unit = data_.pair[node].unit;
+            if (unit == one || unit == other) continue;
+        }
+        without.node.push_back(node);
+    }
+    // By the triangle inequality it comes no later anywhere; where that does not hold it may.
+    if (!time(without, row.leave.front(), row.due.back())) without.node.clear();
+}
+
+void PairRows::insert(PairRow& row, Int pickup, PairPlace place) const {
+    const Int delivery = data_.pair[pickup].partner;
+    row.node.insert(row.node.begin() + place.q + 1, delivery);
+    row.node.insert(row.node.begin() + place.p + 1, pickup);
+}
+
+}  // namespace tandem

@@ -1,0 +1,111 @@
+// A route of shipments alone as a row of nodes, with what tells at once where one more fits.
+#pragma once
+
+#include <vector>
+
+#include "rules/load.h"
+#include "rules/shift.h"
+#include "search/insertion/newcomer.h"
+#include "search/route/layout.h"
+
+namespace tandem {
+
+// A shipment that is to be inserted, as vehicles of the only type meet its ends.
+struct PairToInsert {
+    Newcomer pickup, delivery;
+    Int together;  // how long it takes from one to the other
+};
+
+// Behind which stops the ends come: the delivery right behind the pickup where they are the same.
+struct PairPlace {
+    Int p, q;
+};
+
+// The stops of a vehicle, from where it begins to where it ends.
+struct PairRow {
+    std::vector<Int> node;
+    std::vector<Int> leave;    // at the earliest
+    std::vector<Int> due;      // the last arrival by which all that follow are served in time
+    std::vector<Int> gap;      // how long it takes to the next
+    std::vector<Amount> load;  // (stop, tier) on leaving
+};
+
+// What rows are made and looked at by: one type of trucks that make one trip each, and whose times
+// and loads alone limit them.
+class PairRows {
+public:
+    PairRows(const ProblemData& data, Int tiers)
+        : data_(data),
+          type_(data.type[0]),
+          places_(data.place.by_truck(type_)),
+          legs_(legs_of(data.leg, type_.travel)),
+          tiers_(tiers) {}
+
+    PairToInsert pair_of(Int pickup) const;
+
+    // Writes all that follows from the nodes of a row that begins at `begin` and has to end by
+    // `end`. False if somebody is served too late.
+    bool time(PairRow& row, Int begin, Int end) const;
+
+    // Writes a row without one shipment or two, by their pickups; `nowhere`: no second.
+    void leave_out(const PairRow& row, Int one, Int other, PairRow& without) const;
+
+    // Inserts a shipment, but for what follows from that.
+    void insert(PairRow& row, Int pickup, PairPlace place) const;
+
+    // Calls `visit` with each place where a shipment fits.
+    template <class Visit>
+    void for_each_place(const PairRow& row, const PairToInsert& pair, const Visit& visit) const {
+        const Int last = Int(row.node.size()) - 1;
+        if (!allows_stops(type_, last + 1)) return;
+        for (Int p = 0; p < last; ++p) {
+            if (pair.pickup.place.too_late(row.leave[std::size_t(p)])) return;
+            if (fits(row, p, pair.pickup.node)) {
+                walk(row, pair, p, [&](Int q) { visit(PairPlace{p, q}); });
+            }
+        }
+    }
+
+private:
+    bool fits(const PairRow& row, Int p, Int pickup) const {
+        for (Int tier = 0; tier < tiers_; ++tier) {
+            const Amount more = picked_of(data_.amount, pickup, tier);
+            if (!holds_in(type_, plus(row.load[std::size_t(p * tiers_ + tier)], more), tier))
+                return false;
+        }
+        return true;
+    }
+
+    // Calls `visit` with each stop behind which a shipment may be delivered that is picked up
+    // behind stop `p`.
+    template <class Visit>
+    void walk(const PairRow& row, const PairToInsert& pair, Int p, const Visit& visit) const {
+        const Int last = Int(row.node.size()) - 1;
+        const auto& [pickup, delivery, together] = pair;
+        const Int arrival =
+            row.leave[std::size_t(p)] + leg_from(pickup.inward, row.node[std::size_t(p)]).duration;
+        if (pickup.place.too_late(arrival)) return;
+        Int leave = pickup.place.end_of_service(arrival);
+        for (Int q = p; !delivery.place.too_late(leave); ++q) {
+            const Int next = row.node[std::size_t(q + 1)];
+            const Int out =
+                q == p ? together : leg_from(delivery.inward, row.node[std::size_t(q)]).duration;
+            if (delivery.is_in_time(leave + out, row.due[std::size_t(q + 1)],
+                                    [&] { return leg_to(delivery.onward, next).duration; })) {
+                visit(q);
+            }
+            if (q + 1 == last || !fits(row, q + 1, pickup.node)) return;
+            const Int on = q == p ? leg_to(pickup.onward, next).duration : row.gap[std::size_t(q)];
+            if (leave + on > row.due[std::size_t(q + 1)]) return;
+            leave = places_[next].end_of_service(leave + on);
+        }
+    }
+
+    const ProblemData& data_;
+    const VehicleType& type_;
+    const NodeTable places_;
+    const TravelLegs legs_;
+    const Int tiers_;
+};
+
+}  // namespace tandem
