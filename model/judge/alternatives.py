@@ -139,7 +139,8 @@ def try_places(bench: Bench, until: float) -> tuple[dict[Group, list[Draft]], bo
     """
     screened = share_over(SCREENING_SHARE, until)
     guesses = {group: [guess for guess in some if not _is_here(bench, guess.place)]
-               for group, some in bench.guesses(until=screened).items()}
+               for group, some in bench.guesses(until=screened).items()
+               if group[0] != bench.done_by}
     is_complete = time.perf_counter() < screened
     order = sorted([group for group, some in guesses.items() if some],
                    key=lambda group: guesses[group][0].rank)

@@ -92,11 +92,18 @@ class Bench:
         self.setting = setting or Setting()
         self.found: Found | None = (find_place(solution, node) if shipment is None
                                     else find_shipment(solution, shipment))
+        self.done_by = self._done_by()
         judged = self.setting.judge_routes(problem, solution) if judged is None else judged
         solution = with_all_setups(problem, solution)
         self.plan = Trial(None if self.found is None else self.found.place, solution,
                           self.setting.judge(problem, solution, judged))
         self.left_out, self.judged = self._leave_out(judged)
+
+    def _done_by(self) -> Vehicle | None:
+        """Return who has served the customer already; None: nobody."""
+        if self.found is None or self.setting.past.served().isdisjoint(self.nodes):
+            return None
+        return self.found.place.vehicle
 
     def _leave_out(self, judged: Mapping[int, JudgedRoute]
                    ) -> tuple[Trial, Mapping[int, JudgedRoute]]:
@@ -125,14 +132,17 @@ class Bench:
             kind = self.problem.vehicle_types[decision.vehicle_type]
             ways = [way if len(way.trips) == len(decision.trips)
                     else replace(way, trips=with_ends(kind, way.trips)) for way in ways]
-            timed = self._best(self.problem, ways, index)
+            # What has happened otherwise can't be gone on from.
+            past = self.setting.past if self.done_by is None else EVERYTHING_OPEN
+            timed = self._best(self.problem, ways, index, past)
             plan = changed(solution, index, timed.route, unassigned)
             judged = {**judged, index: timed.judged}
         return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
 
-    def _best(self, problem: Problem, ways: Sequence[RouteDecision], index: int) -> TimedRoute:
+    def _best(self, problem: Problem, ways: Sequence[RouteDecision], index: int,
+              past: Past) -> TimedRoute:
         """Return the best of several ways to go on with a route."""
-        return min([time_route(problem, way, f"routes[{index}]", self.setting.past)
+        return min([time_route(problem, way, f"routes[{index}]", past)
                     for way in ways], key=lambda timed: timed.rank)
 
     @property
@@ -181,7 +191,7 @@ class Bench:
                 decision = replace(decision, trips=tuple([
                     replace(trip, awaited=(*trip.awaited, Awaited(node, until)))
                     for trip in decision.trips]))
-        timed = self._best(problem, [decision], index)
+        timed = self._best(problem, [decision], index, self.setting.past)
         return Draft(place, index, timed, timed.judged.cost.total - before)
 
     def finish(self, draft: "Draft", problem: Problem | None = None,

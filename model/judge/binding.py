@@ -72,8 +72,11 @@ def find_binding(bench: Bench, findings: Findings,
                  until: float = math.inf) -> tuple[tuple[Binding, ...], bool]:
     """Return what binds, as far as is found by an instant, and whether there was time for all.
 
-    `findings` are those of `find_alternatives`; `until` is on `time.perf_counter`.
+    `findings` are those of `find_alternatives`; `until` is on `time.perf_counter`. Nothing binds
+    who is served already.
     """
+    if bench.done_by is not None:
+        return (), True
     here = here_of(bench, until)
     begun = _best_now(bench, findings, here)
     cost = begun.evaluation.cost.total

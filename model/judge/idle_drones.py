@@ -66,8 +66,9 @@ def _why(problem: Problem, solution: Solution, index: int, setting: Setting, unt
     hindered = _hindered(problem, kind, vehicle, setting)
     if hindered is not None:
         return Idle(index, *hindered)
+    served = setting.past.served()
     nodes = [node for node in range(problem.num_depots, problem.num_nodes)
-             if _may_be_flown_to(problem, route.vehicle_type, node)]
+             if node not in served and _may_be_flown_to(problem, route.vehicle_type, node)]
     if not nodes:
         return Idle(index, "KIND", "No customer may be served by its drones.")
     light = [node for node in nodes

@@ -8,6 +8,7 @@ the end.
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import chain
 from typing import Literal, NamedTuple
 
 from model.judge.clock import service_start
@@ -81,6 +82,13 @@ class Past:
     def grounded_on(self, vehicle: Vehicle) -> frozenset[int]:
         """Return which of a vehicle's drones are launched no more."""
         return self.grounded.get(vehicle, frozenset())
+
+    def served(self) -> frozenset[int]:
+        """Return the stops and visits that have happened, or will as planned."""
+        return frozenset(chain.from_iterable(
+            chain([stop.node for stop in trip.stops],
+                  [visit.node for sortie in trip.sorties for visit in sortie.visits])
+            for trips in self.trips.values() for trip in trips))
 
     def carriers(self) -> dict[int, Vehicle]:
         """Return who has the parcels that are on their way, customers served by now included."""

@@ -57,7 +57,7 @@ def drive(problem: Problem, solution: Solution, nodes: Sequence[int], setting: S
     best: Trial | None = None
     for node in nodes:
         bench = Bench(problem, solution, node, setting, judged)
-        best, judged = _best_by_truck(bench), None
+        best, judged = _best_by_truck(bench) if bench.done_by is None else None, None
         if best is None:
             return None
         solution = best.solution
