@@ -15,12 +15,15 @@ TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes
 
 
 FINDINGS = """async (part) => {
+  const passing = document.getAnimations().filter((each) => each instanceof CSSTransition);
+  await Promise.allSettled(passing.map(({ finished }) => finished));
   const found = await axe.run(part ?? document, { resultTypes: ['violations'] });
   return found.violations.filter(({ impact }) => ['serious', 'critical'].includes(impact))
     .flatMap(({ id, help, nodes }) => nodes.map(({ html }) =>
       `${id}: ${help}: ${html.slice(0, 160)}`));
 }"""
-"""Only what counts leaves the page: axe tells of all that it looked at."""
+"""Colours that are changing are waited for. Only what counts leaves the page: axe tells of all that
+it looked at."""
 
 
 def findings(page: Page, part: str | None = None) -> list[str]:
