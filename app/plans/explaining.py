@@ -18,6 +18,7 @@ from app.requests.plan_reading import parse_plan, read_plan
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.explain import ExplainOptions, ExplainReply, ExplainRequest
 from app.schemas.request import PlanRequest
+from app.schemas.shipment import end_name
 from app.serving.load.received import ReceivedBody
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench, Setting
@@ -151,9 +152,15 @@ def node_named(problem: Problem, customer: str | None) -> int:
                 if each.id == customer)
 
 
-def shipment_named(problem: Problem, shipment: str | None) -> Shipment:
-    """Return a shipment that there is."""
-    return next(each for each in problem.shipments if each.id == shipment)
+def unit_named(problem: Problem, shipment: str | None) -> tuple[int, Shipment | None]:
+    """Return the first node of a shipment that there is, and itself, which is to move as one.
+
+    Of one that was aboard a vehicle which broke down the delivery alone is left.
+    """
+    whole = next((each for each in problem.shipments if each.id == shipment), None)
+    if whole is None:
+        return node_named(problem, end_name(str(shipment), "delivery")), None
+    return whole.pickup, whole
 
 
 def preparing_within(bounds: Bounds, should_stop: Callable[[], bool]) -> Preparing:
@@ -224,9 +231,8 @@ class _Explainer:
     def _bench(self, question: Question) -> Bench | None:
         """Return what tries whom is asked about elsewhere; None: nobody is."""
         if question.shipment is not None:
-            whole = shipment_named(self._problem, question.shipment)
-            return Bench(self._problem, self._solution, whole.pickup, self._setting, self._judged,
-                         whole)
+            node, whole = unit_named(self._problem, question.shipment)
+            return Bench(self._problem, self._solution, node, self._setting, self._judged, whole)
         if question.customer is None:
             return None
         node = used_place(self._problem, self._solution,

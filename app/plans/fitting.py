@@ -13,7 +13,7 @@ from app.plans.explain_replies import (
 )
 from app.plans.explaining import (
     LEAST_TRYING, node_named, preparing_within, require_known, require_shipment, require_within,
-    shipment_named,
+    unit_named,
 )
 from app.plans.replies import Data, cost_reply
 from app.plans.task import Task, task_of, warning_replies
@@ -103,10 +103,10 @@ def _bench(task: Task, request: FitRequest, solution: Solution,
     """Return what tries the customer or shipment at places of a plan."""
     problem = task.judged_problem
     if request.shipment is not None or request.new_shipment is not None:
-        shipment = (shipment_named(problem, request.shipment) if request.new_shipment is None
-                    else problem.shipments[-1])
-        return Bench(problem, _with_nodes(solution, shipment.nodes), shipment.pickup, task.setting,
-                     judged, shipment)
+        name = request.shipment if request.new_shipment is None else request.new_shipment.id
+        node, shipment = unit_named(problem, name)
+        nodes = (node,) if shipment is None else shipment.nodes
+        return Bench(problem, _with_nodes(solution, nodes), node, task.setting, judged, shipment)
     customer = request.new_customer
     node = used_place(problem, solution, node_named(
         problem, request.customer if customer is None else customer.id))

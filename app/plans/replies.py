@@ -267,10 +267,12 @@ def _unassigned(problem: Problem, solution: Solution,
                 why: Callable[[int], tuple[Reason, ...]]) -> Data:
     """Return the fields of a reply on who is left out."""
     told: list[Data] = []
+    left_out = frozenset(solution.unassigned)
     room, unexplained = MOST_REASONS, 0
     for node in solution.unassigned:
         shipment = problem.shipment_at.get(node)
-        if shipment is not None and node != shipment.pickup:
+        # Of one that was aboard a vehicle which broke down the delivery alone is left out.
+        if shipment is not None and node != shipment.pickup and shipment.pickup in left_out:
             continue
         reasons = one_per_type(problem, why(node)) if room > 0 else []
         room -= len(reasons)
@@ -321,7 +323,7 @@ def summary_reply(problem: Problem, solution: Solution, evaluation: Evaluation) 
         "customers": len(served) + len(left_out),
         "served": len(served),
         "must_unserved": sum([problem.must_be_served(problem.customer_at(node))
-                              for node in left_out]),
+                              for node in {*map(problem.unit_of, left_out)}]),
         "vehicles": len(solution.routes),
         "vehicles_lacking": vehicles_lacking(problem, len(solution.routes)),
         "trips": len(trips),

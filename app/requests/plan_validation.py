@@ -158,14 +158,10 @@ class _Checker:
             begun = _begun(trip, kind, self._now)
             served = {stop.id for stop in trip.stops} | {
                 visit.id for sortie in trip.sorties for visit in sortie.customers}
-            if begun and not self._names.shipment_ends.isdisjoint(served):
-                if begun.left < len(trip.stops) and route.vehicle in self._replan.unavailable:
-                    yield _error("SHIPMENTS_UNDER_WAY", here, "The trip has begun, and has "
-                                 "shipments that nobody else can take over yet: leave its vehicle "
-                                 "out of unavailable.")
-                begun = _as_whole(trip, begun)
-            elif (begun and kind is not None and (kind.breaks or kind.driving_rules)
-                  and route.vehicle not in self._replan.unavailable):
+            is_whole = not self._names.shipment_ends.isdisjoint(served) or (
+                kind is not None and (kind.breaks or kind.driving_rules))
+            if begun and is_whole and (route.vehicle not in self._replan.unavailable
+                                       or (kind is not None and kind.flies)):
                 begun = _as_whole(trip, begun)
             shape = list(self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)))
             yield from shape

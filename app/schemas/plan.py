@@ -195,11 +195,13 @@ class LeftOutInput(_Plan):
     parts: list[str] = Field([], description="Ids of the shipment's `pickups`, if it has several.")
     reasons: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
 
-    def ends(self) -> "list[LeftOutInput]":
-        """Return a shipment's ends as the customers that they are."""
-        return [LeftOutInput(id=name) for name in (
-            *[end_name(self.id, "pickup", part) for part in self.parts or (None,)],
-            end_name(self.id, "delivery"))]
+    def ends_but(self, served: frozenset[str]) -> "list[LeftOutInput]":
+        """Return a shipment's ends as the customers that they are, but for pickups made already."""
+        delivery = end_name(self.id, "delivery")
+        pickups = [end_name(self.id, "pickup", part) for part in self.parts or (None,)]
+        if served.issuperset(pickups) and delivery not in served:
+            pickups = []
+        return [LeftOutInput(id=name) for name in (*pickups, delivery)]
 
 
 class FoundInput(_Plan):
@@ -244,10 +246,22 @@ class PlanInput(_Plan):
 
     @model_validator(mode="after")
     def _name_ends(self) -> Self:
-        """Name all ends of shipments left out as the customers that they are."""
+        """Name all ends of shipments left out as the customers that they are.
+
+        Of one that was fetched by a vehicle which broke down the delivery alone is left out.
+        """
         if any(left_out.kind == "shipment" for left_out in self.unassigned):
+            served = self._served()
             self.__dict__["unassigned"] = tuple(
                 each for left_out in self.unassigned for each in (
                     [left_out] if left_out.kind == "customer"
-                    else left_out.ends()))
+                    else left_out.ends_but(served)))
         return self
+
+    def _served(self) -> frozenset[str]:
+        """Return the names of whom routes serve."""
+        trips = [trip for route in self.routes for trip in route.trips]
+        return frozenset([
+            *(stop.id for trip in trips for stop in trip.stops if stop.kind == "customer"),
+            *(visit.id for trip in trips for sortie in trip.sorties
+              for visit in sortie.customers)])

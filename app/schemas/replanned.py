@@ -31,7 +31,7 @@ class SettledReply(_Reply):
 class ParcelReply(_Reply):
     """A parcel aboard a vehicle that does nothing more."""
 
-    id: str = Field(description="Id of its customer.")
+    id: str = Field(description="Id of its customer; of a shipment `s1/delivery`.")
     vehicle: str = Field(description="The vehicle in `unavailable` that has it aboard.")
     back: InstantReply = Field(description="When it is at the depots again.")
     depot: str | None = Field(

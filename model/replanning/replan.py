@@ -21,6 +21,7 @@ from model.replanning.driven_on import carried_through, driven_on
 from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import by_order, in_order, orders_of
+from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.rested import has_clock
 from model.replanning.workers import Worker, find_workers, vehicle_name
@@ -81,7 +82,12 @@ class Replanning:
             If that doesn't fit the problem.
         TooManyTypesError
             If more vehicles are under way than can be planned for.
+        PartlyFetchedError
+            If a vehicle breaks down with a part of a shipment.
         """
+        parted = {} if terms.now is None else parted_shipments(
+            problem, terms.plan, terms.now, terms.unavailable)
+        problem = with_parted(problem, parted)
         terms = replace(terms, plan=with_charging(problem, terms.plan))
         self._plan = terms.plan
         past = _past(problem, terms)
@@ -92,7 +98,11 @@ class Replanning:
         unreadable = [item for item in broken if item.code in UNREADABLE]
         if unreadable:
             raise SettledPartError(_as_given(terms.plan, self._settled, unreadable))
-        self.stranded = _stranded(problem, self._kept, terms)
+        on_the_way = {*past.carriers(), *(
+            node for kept in self._kept.values() for node in kept.served)}
+        self.stranded = {each.delivery: vehicle for each, vehicle in parted.items()
+                         if each.delivery not in on_the_way} | _stranded(
+                             problem, self._kept, terms)
         """Whose parcels vehicles have aboard that are unavailable, and which."""
         back = past.now if terms.parcels_back is None else terms.parcels_back
         self.past = replace(past, returned=dict.fromkeys(

@@ -6,7 +6,7 @@ import httpx
 import pytest
 
 from app.schemas.response import PlanReply
-from tests.app.plans.asking import judged
+from tests.app.plans.asking import judged, refused
 
 Request = dict[str, Any]
 
@@ -65,6 +65,62 @@ def test_reply_tells_from_where_parcels_of_a_broken_vehicle_come(searching: http
     alone = replanned(searching, street, TOUR, 150, unavailable=["van-1"])
     assert alone["replan"]["parcels"] == [
         {"id": name, "vehicle": "van-1", "back": 150, "depot": None, "by": None} for name in "bc"]
+
+
+@pytest.mark.parametrize("now", [30, 130, 200, 250, 310])
+def test_others_bring_a_shipment_that_a_broken_vehicle_has_fetched(
+        searching: httpx.Client, street: Request, now: float) -> None:
+    places = {name: {"location": [place, 0], "service_duration": 60}
+              for place, name in ((2, "pickup"), (3, "delivery"))}
+    street |= {"customers": street["customers"][:1],
+               "shipments": [{"id": "s1", "amount": [2], **places}]}
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("pickup", "s1", 180, 240),
+                   ("delivery", "s1", 300, 360), ("depot", "hub", 540, 540))
+    terms = {"unavailable": ["van-1"], "parcels_back": 800}
+    plan = replanned(searching, street, tour, now, **terms)
+    is_aboard = now in (200, 250)
+    parcel = {"vehicle": "van-1", "back": 800, "depot": "hub", "by": "van-2"}
+    assert plan["replan"].get("parcels", []) == [
+        {"id": name, **parcel} for name, aboard in (("a", now == 30), ("s1/delivery", is_aboard))
+        if aboard]
+    if is_aboard:
+        assert times(plan, "van-2") == [("hub", 800, 800), ("s1", 980, 1040), ("hub", 1220, 1220)]
+        for asked in {"shipment": "s1"}, {"customer": "s1/delivery"}:
+            for path in "/explain", "/fit":
+                replan = {"plan": tour, "freeze_before": now, **terms}
+                body = {"problem": street | {"replan": replan}, "plan": plan, **asked}
+                reply = searching.post(path, json=body)
+                assert reply.status_code == 200, reply.text
+                assert reply.json()["here"]["vehicle"] == "van-2"
+    for later in 700, 850, 1000, 1300:
+        again = replanned(searching, street, plan, later, **terms | {
+            "parcels_back": max(later, 800)})
+        assert again["routes"] == plan["routes"]
+    street["fleet"][0]["count"] = 1
+    alone = replanned(searching, street, tour, now, **terms)
+    left = [] if now == 310 else [("shipment", "s1")]
+    assert [(each.get("kind"), each["id"]) for each in alone["unassigned"]
+            if each["id"] != "a"] == left
+    assert alone["summary"]["must_unserved"] == len(alone["unassigned"])
+    replanned(searching, street, alone, later, **terms | {"parcels_back": later})
+
+
+def test_what_is_fetched_in_part_nobody_can_take_over(searching: httpx.Client,
+                                                      street: Request) -> None:
+    pickups = [{"id": name, "location": [place, 0], "amount": [1]}
+               for place, name in ((1, "x"), (2, "y"))]
+    street |= {"customers": [], "shipments": [
+        {"id": "s1", "delivery": {"location": [3, 0]}, "pickups": pickups}]}
+    tour = plan_of(("depot", "hub", 0, 0), ("pickup", "s1", 60, 60), ("pickup", "s1", 120, 120),
+                   ("delivery", "s1", 180, 180), ("depot", "hub", 360, 360))
+    stops = tour["routes"][0]["trips"][0]["stops"]
+    stops[1]["part"], stops[2]["part"] = "x", "y"
+    terms = {"plan": tour, "unavailable": ["van-1"]}
+    asked = street | {"replan": terms | {"freeze_before": 90}}
+    assert refused(searching, asked, "/plan") == [("SHIPMENTS_UNDER_WAY", "$.replan.unavailable")]
+    plan = replanned(searching, street, tour, 130, unavailable=["van-1"])
+    assert [each["id"] for each in plan["replan"]["parcels"]] == ["s1/delivery"]
+    assert times(plan, "van-2") == [("hub", 130, 130), ("s1", 310, 310), ("hub", 490, 490)]
 
 
 def test_reply_tells_of_parcels_of_a_trip_that_vanishes(searching: httpx.Client,
