@@ -8,6 +8,7 @@ from app.schemas.errors import InputError
 from app.schemas.request import PlanRequest
 
 _CUSTOMER = re.compile(r"\$\.customers\[(\d+)\](.*)", re.DOTALL)
+_PART = re.compile(r"\$\.shipments\[(\d+)\]\.pickups\[(\d+)\]\.id")
 _NAMED = re.compile(r"(customers\[\d+\])( has the same id)")
 
 OWN = frozenset(AlternativeInput.model_fields)
@@ -22,11 +23,20 @@ def stated_errors(request: PlanRequest, errors: Iterable[InputError]) -> list[In
     stated = {}
     for error in errors:
         path = stated_path(request, error.path)
-        message = _NAMED.sub(lambda match: stated_path(request, f"$.{match[1]}.id")[2:-3]
-                             + match[2], error.message)
+        message = _NAMED.sub(lambda match: _named(request, match[1]) + match[2], error.message)
         stated[error.code, path] = error.model_copy(
             update={"path": path, "message": message})
     return list(stated.values())
+
+
+def _named(request: PlanRequest, entry: str) -> str:
+    """Return where one is stated of those who count as customers; of a pickup which it is."""
+    path = stated_path(request, f"$.{entry}.id")
+    part = _PART.fullmatch(path)
+    if part is None:
+        return path[2:-3]
+    shipment = request.shipments[int(part[1])]
+    return f"Pickup {shipment.pickups[int(part[2])].id!r} of shipment {shipment.id!r}"
 
 
 def added_names(request: PlanRequest) -> Iterator[str]:

@@ -71,9 +71,9 @@ class FitPlaceReply(PlacedReply):
 class BestPlaceReply(FitPlaceReply):
     """One of the best places, and the vehicle's route with him."""
 
-    route: RouteReply = Field(
+    route: RouteReply | None = Field(
         description="The vehicle's work with it there, as `POST /plan` tells it: in "
-        "place of its route, or beside the others, it makes the plan.")
+        "place of its route, or beside the others, it makes the plan. Null: no way leads there.")
 
 
 class FitReply(BaseModel):

@@ -31,6 +31,29 @@ def prefer_vehicles(rng: random.Random, request: Data) -> None:
                 for name in rng.sample(names, rng.randint(1, min(3, len(names))))}
 
 
+def set_hours_apart(request: Data) -> None:
+    """Let hubs open at hours of their own that have few places to charge at. In place.
+
+    Drawn apart, of some requests: all else is as it is without.
+    """
+    rng = random.Random(f"hours apart {request['customers']}")
+    flyers = [kind for kind in request["fleet"] if kind.get("flies")]
+    if not flyers or rng.random() < 0.3:
+        return
+    for depot in request["depots"]:
+        opens = rng.choice((0, 0, 1800, 7200))
+        depot |= {"chargers": rng.choice((0, 1, 1, 2)), "time_window": {
+            "earliest": opens, "latest": rng.choice((None, opens + rng.choice((1800, 14400))))}}
+    for kind in flyers:
+        kind |= {"count": rng.choice((1, 2, 3)), "max_trips": rng.choice((2, 5)),
+                 "reload_duration": rng.choice((0, 0, 120)), "turnaround": {"charge_w": 300},
+                 "energy": {"battery_wh": rng.choice((60, 400)), "kg_per_unit": 0.1,
+                            "power": {"cruise_w": 250}}}
+        if rng.random() < 0.5:
+            kind["reload_depots"] = [depot["id"] for depot in request["depots"]
+                                     if depot["id"] != kind.get("depot")]
+
+
 def offer_places(rng: random.Random, request: Data) -> None:
     """Let some customers be served elsewhere instead. In place."""
     stated = [customer["location"] for customer in request["customers"]]

@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from benchmarks.fuzz.wild_choices import (
-    RICHEST, choose_vehicles, offer_places, places_of, prefer_vehicles, relate,
+    RICHEST, choose_vehicles, offer_places, places_of, prefer_vehicles, relate, set_hours_apart,
 )
 from benchmarks.fuzz.wild_rests import let_rest
 from benchmarks.fuzz.wild_shipments import add_shipments
@@ -66,6 +66,7 @@ def wild_request(rng: random.Random) -> Data:
         request["fairness"] = wild_fairness(rng)
     if rng.random() < 0.25:
         relate(rng, request)
+    set_hours_apart(request)
     if rng.random() < 0.5:
         _tame(rng, request, dimensions)
     return request

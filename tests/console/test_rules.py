@@ -46,6 +46,10 @@ def state_relations(page: Page) -> None:
     apart.get_by_label("Kind").select_option("apart")
     expect(apart.get_by_label("Min lag")).to_have_count(0)
     fill(apart.get_by_label("Customers"), "B, A")
+    panel.get_by_role("button", name="Add to goods kept apart").click()
+    goods = panel.locator("fieldset.list", has_text="Goods kept apart").locator(".entry").last
+    fill(goods.get_by_label("Goods"), "food, paint")
+    goods.get_by_label("Scope").select_option("vehicle")
 
 
 def state_customers(page: Page) -> None:
@@ -96,6 +100,7 @@ def state_fleet(page: Page) -> None:
 
 
 EXPECTED: dict[str, Any] = {
+    "incompatible_goods": [{"goods": ["food", "paint"], "scope": "vehicle"}],
     "relations": [
         {"kind": "together", "customers": ["A", "C"]},
         {"kind": "before", "customers": ["C", "A"], "min_lag": 5400, "max_lag": 7200},

@@ -7,6 +7,9 @@ from app.formats.sheets.cells import MisreadError, Raw, shown
 from app.formats.sheets.headings import simple, unit_named
 from app.formats.sheets.meanings import FAMILIES
 
+ENTRIES = re.compile(r"[;|\n]")
+"""Between what a cell lists."""
+
 _SPACES = re.compile(r"[\s'\u2019\u00a0\u202f\u2009]+")
 _NUMBER = re.compile(r"(?P<number>[-+]?\d[\d.,]*+|[-+]?[.,]\d++)(?P<unit>\D*+)")
 _TWO_WAYS = re.compile(r"[-+]?[1-9]\d{0,2}[.,]\d{3}")
@@ -26,6 +29,12 @@ def split_unit(text: str) -> tuple[str, str]:
     if found is None:
         raise MisreadError(f"{text!r} is no number")
     return found["number"].rstrip(",."), found["unit"]
+
+
+def stated_in(cell: str) -> list[str]:
+    """Return what may be numbers in a cell: all of it, and prices behind names (`van-1: 1,5`)."""
+    named = [part.rpartition(":") for part in ENTRIES.split(cell)] if ":" in cell else []
+    return [cell, *[price for name, _, price in named if any(map(str.isalpha, name))]]
 
 
 def reads_two_ways(text: str) -> bool:
@@ -58,6 +67,11 @@ def number(text: str, comma: bool) -> float:
         If it states none.
     """
     plain = _SPACES.sub("", text)
+    if "," in plain and "." in plain:
+        # The last sign stands before decimals, whatever others do; the other sets thousands apart.
+        comma = plain.rindex(",") > plain.rindex(".")
+        if not _grouped(plain, "." if comma else ","):
+            raise MisreadError(f"{text!r} is no number")
     if comma:
         plain = plain.replace(".", "").replace(",", ".") if "," in plain or _grouped(
             plain, ".") else plain

@@ -9,7 +9,7 @@ from app.formats.sheets.clocks import Style, clock, duration, read_date, window_
 from app.formats.sheets.headings import simple
 from app.formats.sheets.links import is_link, place_of
 from app.formats.sheets.meanings import Kind
-from app.formats.sheets.numbers import amount_of, number, number_of
+from app.formats.sheets.numbers import ENTRIES, amount_of, number, number_of
 from app.schemas.fields import MAX_INFO_LENGTH
 
 Reader = Callable[[Raw, str | None, Style], Any]
@@ -51,7 +51,6 @@ _PAIRS = (re.compile(r"(?<!\d)(-?\d++,\d++)[\s;,/]++(-?\d++,\d++)"),
           re.compile(r"(?<!\d)(-?\d++\.\d++)\s++(-?\d++\.\d++)"))
 """Two numbers with decimal commas, or with a blank between."""
 _NAMES = re.compile(r"[,;|]")
-_ENTRIES = re.compile(r"[;|\n]")
 """What stands between entries that may hold decimal commas."""
 
 
@@ -90,7 +89,7 @@ def _names(raw: Raw, unit: str | None, style: Style) -> list[str]:
 def _prices(raw: Raw, unit: str | None, style: Style) -> list[tuple[str, float]]:
     """Return names, each with a price behind a colon."""
     found = []
-    for part in filter(None, map(str.strip, _ENTRIES.split(shown(raw)))):
+    for part in filter(None, map(str.strip, ENTRIES.split(shown(raw)))):
         name, sign, price = part.rpartition(":")
         if not sign or not name.strip():
             raise MisreadError(f"{part!r} is no vehicle with a price: write one such as van-1: 5")

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from app.formats.sheets.cells import LONGEST_READ, Doubt, cell_name
 from app.formats.sheets.clocks import Style, date_parts, states_zone
 from app.formats.sheets.layout import Table
-from app.formats.sheets.numbers import reads_two_ways, uses_comma
+from app.formats.sheets.numbers import reads_two_ways, stated_in, uses_comma
 from app.formats.sheets.schemas import ImportSettings, day_of
 from app.formats.sheets.table import NotASheetError, SheetFile
 
@@ -19,10 +19,11 @@ def style_of(table: Table, file: SheetFile,
     doubts = []
     comma = None if mapping.decimals is None else mapping.decimals == ","
     if comma is None:
-        comma = uses_comma(raw for _, _, raw in cells)
+        comma = uses_comma(text for _, _, raw in cells for text in stated_in(raw))
     if comma is None:
         comma = file.delimiter == ";"
-        if open_cell := next((place for place in cells if reads_two_ways(place[2])), None):
+        if open_cell := next((place for place in cells if any(
+                map(reads_two_ways, stated_in(place[2])))), None):
             row, column, raw = open_cell
             name = cell_name(row, column)
             doubts.append(Doubt("DECIMALS_GUESSED", f"{name} ({raw}) may have decimals or "

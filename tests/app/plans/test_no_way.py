@@ -5,6 +5,8 @@ from typing import Any
 import httpx
 import pytest
 
+from app.schemas.fit import FitReply
+
 Request = dict[str, Any]
 
 
@@ -37,6 +39,10 @@ def test_legs_that_are_not_there_are_never_driven(client: httpx.Client, smallest
     plan = client.post("/plan", json=request).json()
     (trip,) = plan["routes"][0]["trips"]
     assert [stop["id"] for stop in trip["stops"][1:-1]] == ["c1", "c2"]
+    fits = client.post("/fit", json={"problem": request, "plan": plan, "customer": "c3"})
+    FitReply.model_validate(fits.json())
+    assert {(place["feasible"], place["route"]) for place in fits.json()["places"]} == {
+        (False, None)}
     (left,) = plan["unassigned"]
     assert [(reason["code"], "no leg to it" in reason["message"])
             for reason in left["reasons"]] == [("UNREACHABLE", True)]

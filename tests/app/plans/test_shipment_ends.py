@@ -27,6 +27,11 @@ def test_a_customer_called_as_a_pickup_is_told_so(searching: httpx.Client,
     assert [(error["code"], error["path"], error["message"]) for error in errors] == [
         ("DUPLICATE_ID", "$.shipments[0].pickups[0].id",
          "customers[0] has the same id: give each its own.")]
+    paired["customers"][0]["id"] = shipment["pickups"][1]["id"] = "p"
+    errors = searching.post("/plan", json=paired).json()["errors"]
+    assert [(error["path"], error["message"]) for error in errors] == [
+        ("$.shipments[0].pickups[1].id",
+         "Pickup 'p' of shipment 's1' has the same id: give each its own.")]
 
 
 @pytest.mark.parametrize("far", ["pickup", "delivery"])

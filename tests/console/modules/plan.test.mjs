@@ -10,7 +10,7 @@ import { flightLines, flownLines } from '../../../app/console/static/js/core/fli
 import { pictureOf, toSvg } from '../../../app/console/static/js/core/picture.js';
 import { contains, indexPlan, keysWithin, spanOf } from '../../../app/console/static/js/core/plan.js';
 import { playback } from '../../../app/console/static/js/core/playback.js';
-import { rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
+import { ACTIVITIES, rowWindows, timelineRows } from '../../../app/console/static/js/core/timeline.js';
 import { eventReader } from '../../../app/console/static/js/core/sse.js';
 
 const REQUEST = {
@@ -249,6 +249,16 @@ test('a vehicle that flies is drawn, told and played as what it is', () => {
   assert.equal(new Map(describe(request, flown, 'l:0/0/1').facts).get('Flown by'), 'van-1');
   const { features } = geoJson(flown, flownLines(request));
   assert.equal(features.find(({ properties }) => properties.kind === 'trip').properties.flies, true);
+});
+
+test('a vehicle that flies is charged before its trip, which is a bar of its own', () => {
+  const request = { ...REQUEST, fleet: [{ id: 'van', count: 1, capacity: [5], flies: true }] };
+  const trip = { ...PLAN.routes[0].trips[0], sorties: [], charging: [{ start: -90, end: -30 }] };
+  const [{ bars }] = timelineRows(indexPlan(request, {
+    ...PLAN, routes: [{ ...PLAN.routes[0], trips: [trip] }],
+  }));
+  assert.deepEqual([bars[0].kind, bars[0].from, bars[0].until], ['charge', -90, -30]);
+  assert.ok(ACTIVITIES.includes('charge'));
 });
 
 test('an own trip around an area is flown and drawn around it', () => {

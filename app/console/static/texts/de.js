@@ -417,6 +417,7 @@ export default {
     wait: 'Warten',
     handle: 'Starten und aufnehmen',
     reload: 'Nachladen',
+    charge: 'Akku laden',
     rest: 'Pause',
   },
   timeline: {
@@ -1523,6 +1524,10 @@ export default {
       measure: 'Was verglichen wird.',
       cost: 'Was jedes Quadrat des Abstands vom Mittel, geteilt durch das Mittel, kostet: je mehr, desto gleicher die Arbeit.',
     },
+    IncompatibleGoodsInput: {
+      goods: 'Namen der Güter, wie Kunden sie haben, mit Kommas dazwischen.',
+      scope: 'Ob zwei nicht auf eine Fahrt dürfen, oder den ganzen Tag in kein Fahrzeug.',
+    },
     RelationInput: {
       kind: 'Ob sie zusammen fahren, in dieser Reihenfolge bedient werden, oder keine zwei zusammen fahren.',
       customers: 'Ihre Namen, durch Kommas getrennt. Wer ausgelassen wird, bindet niemanden.',
@@ -1557,6 +1562,7 @@ export default {
       planar_unit: 'Meter je Einheit von x und y.',
       planar_rounding: 'Wie Strecken auf der Ebene gerundet werden.',
       launch_sites: 'Orte, an denen Fahrzeuge allein für ihre Drohnen halten dürfen.',
+      incompatible_goods: 'Namen von Gütern, von denen keine zwei auf eine Fahrt oder in ein Fahrzeug kommen.',
       relations: 'Wer zusammen, getrennt oder der Reihe nach fährt. Zusammen und getrennt geht auch mit den Häkchen der Tabelle.',
       unassigned_cost:
         'Was es kostet, einen Kunden auszulassen, der nichts anderes angibt. Leer: ' +

@@ -404,6 +404,7 @@ export default {
     wait: 'Wait',
     handle: 'Launch and recover',
     reload: 'Reload',
+    charge: 'Charge',
     rest: 'Break',
   },
   timeline: {
@@ -1500,6 +1501,10 @@ export default {
       measure: 'What of each vehicle is compared.',
       cost: 'How much each squared difference from the mean, divided by the mean, costs: the more, the more even the work.',
     },
+    IncompatibleGoodsInput: {
+      goods: 'Names of goods as customers have them, with commas between.',
+      scope: 'Whether two may not share one trip, or one vehicle all day.',
+    },
     RelationInput: {
       kind: 'Whether they go together, are served in this order, or no two of them go together.',
       customers: 'Their names, with commas between. Whoever is left out binds nobody.',
@@ -1534,6 +1539,7 @@ export default {
       planar_unit: 'Metres per unit of x and y.',
       planar_rounding: 'How distances on the plane are rounded.',
       launch_sites: 'Places where trucks may stop for their drones alone.',
+      incompatible_goods: 'Names of goods no two of which go on one trip, or by one vehicle.',
       relations: 'Who goes together, apart, or in an order. Together and apart can be said of those ticked in the table, too.',
       unassigned_cost:
         'What leaving out a customer costs who states nothing else. Empty: all must be ' +

@@ -152,6 +152,20 @@ def test_each_vehicle_has_the_price_that_a_row_states() -> None:
     assert [(error.code, error.cell) for error in wrong.errors] == [("MISREAD", "F2")]
 
 
+@pytest.mark.parametrize(("prices", "costs", "is_guessed"), [
+    ("vehicle-1: 1.234,5 | vehicle-2: 1,5", {"vehicle-1": 1234.5, "vehicle-2": 1.5}, False),
+    ("vehicle-1: 1,234.5", {"vehicle-1": 1234.5}, False),
+    ("vehicle-1: 1,5 | vehicle-2: 1.234", {"vehicle-1": 1.5, "vehicle-2": 1234}, False),
+    ("vehicle-1: 1.234", {"vehicle-1": 1.234}, True)])
+def test_prices_are_read_by_the_signs_that_tell(prices: str, costs: dict[str, float],
+                                                is_guessed: bool) -> None:
+    rows = "Name\tLat\tLon\tMenge\tCosts by vehicle", f"Anna\t48\t11\t5\t{prices}"
+    reply = import_file("\n".join(rows).encode(), ImportSettings(vehicles=2))
+    assert reply.request is not None
+    assert reply.request["customers"][0]["vehicle_costs"] == costs
+    assert told(reply, "DECIMALS_GUESSED") == (["E2"] if is_guessed else [])
+
+
 def test_a_price_below_nothing_is_refused_at_its_cell() -> None:
     reply = read("Preferred vehicle;Cost of other vehicle", "vehicle-2;-1", ";", ";", ";")
     assert [error.cell for error in reply.errors] == ["G2"]

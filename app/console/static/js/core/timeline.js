@@ -6,7 +6,7 @@ import { titleOfVehicle } from './vehicle-labels.js';
 import { isVisit } from './visits.js';
 
 /** What bars mean, in the order of the legend. */
-export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload', 'rest'];
+export const ACTIVITIES = ['drive', 'fly', 'serve', 'wait', 'handle', 'reload', 'charge', 'rest'];
 
 /**
  * Return one row per vehicle and per drone that flies, vehicles followed by their drones.
@@ -33,6 +33,9 @@ function vehicleBars(vehicle) {
     if (number > 0 && reload > 0) {
       const loaded = trip.stops[0].arrival;
       bars.push({ kind: 'reload', from: loaded - reload, until: loaded, key: trip.stops[0].key });
+    }
+    for (const { start, end } of trip.reply.charging ?? []) {
+      bars.push({ kind: 'charge', from: start, until: end, key: trip.stops[0].key });
     }
     trip.stops.forEach((halt, position) => {
       const before = trip.stops[position - 1];

@@ -207,8 +207,9 @@ function drawBar(context, row, bar, scale, view) {
   const x = scale.x(bar.from);
   const width = Math.max(scale.x(bar.until) - x, bar.kind === 'serve' ? 2 : 1);
   const box = boxOf(row, bar.kind);
-  if (['wait', 'reload', 'rest'].includes(bar.kind)) {
-    hatch(context, { x, width, ...box }, bar.kind === 'wait' ? colours.wait : colours.faint);
+  if (['wait', 'reload', 'charge', 'rest'].includes(bar.kind)) {
+    hatch(context, { x, width, ...box }, { wait: colours.wait, charge: colour }[bar.kind]
+      ?? colours.faint);
   } else {
     context.fillStyle = colour;
     context.globalAlpha *= { drive: 0.45, fly: 0.55, handle: 0.28, serve: 1 }[bar.kind];

@@ -107,8 +107,8 @@ function Place({ fit, place }) {
   return html`<li onMouseEnter=${() => hover(keyOf(place))} onMouseLeave=${() => hover(null)}>
     <span>${who} <span class="help">${[where, ...notesOn(fit, place)].join(', ')}</span></span>
     <strong class="number">${signed(place.cost.total, money)}</strong>
-    <button type="button" onClick=${() => takeFit(fit, place)}
-      aria-label=${t('hand.takeOf', { who, where })}>${t('hand.take')}</button>
+    ${place.route && html`<button type="button" onClick=${() => takeFit(fit, place)}
+      aria-label=${t('hand.takeOf', { who, where })}>${t('hand.take')}</button>`}
     ${!place.feasible && html`<span class="late-text">${
       rulesInWords(place.reasons).join(' ')}</span>`}</li>`;
 }

@@ -39,7 +39,7 @@ export const TABS = {
 
 /** Parts of a problem that the customers' tab has. */
 const OF_CUSTOMERS = new Set(['customers', 'shipments', 'depots', 'launch_sites', 'relations',
-  'coordinate_system', 'planar_unit', 'planar_rounding']);
+  'incompatible_goods', 'coordinate_system', 'planar_unit', 'planar_rounding']);
 
 /** Return the tab where a place of the request is edited. */
 export function tabOf(keys) {

@@ -27,14 +27,20 @@ export function Shipments({ request }) {
       onChange=${(changed) => edit(withShipments(request, changed))} /></div></details>`;
 }
 
-/** Who goes with whom, open where something is wrong with it. */
+/** What says who goes with whom. */
+const OF_COMPANY = ['relations', 'incompatible_goods'];
+
+/** Who goes with whom, and which goods, open where something is wrong with it. */
 export function Relations({ request }) {
-  const schemas = useStore((state) => state.schemas);
-  const isWrong = useStore((state) => state.errors).some(({ keys }) => keys[0] === 'relations');
+  const { properties } = useStore((state) => state.schemas).PlanRequest;
+  const isWrong = useStore((state) => state.errors).some(({ keys }) =>
+    OF_COMPANY.includes(keys[0]));
+  const count = OF_COMPANY.reduce((sum, name) => sum + (request[name]?.length ?? 0), 0);
   return html`<details class="card" open=${isWrong}><summary>${labelOf('relations')}
-      <span class="right">${number(request.relations?.length ?? 0, 0)}</span></summary>
-    <div class="inside"><${Field} name="relations" keys=${['relations']} request=${request}
-      schema=${schemas.PlanRequest.properties.relations} onChange=${edit} /></div></details>`;
+      <span class="right">${number(count, 0)}</span></summary>
+    <div class="inside">${OF_COMPANY.map((name) => html`<${Field} key=${name} name=${name}
+      keys=${[name]} request=${request} schema=${properties[name]} onChange=${edit} />`)}
+    </div></details>`;
 }
 
 /** Depots, launch sites and how places are stated. */
