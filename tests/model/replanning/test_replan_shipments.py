@@ -1,0 +1,67 @@
+"""Random problems with shipments, planned and planned on, also as vehicles break down with some."""
+
+import numpy as np
+import pytest
+
+from model.judge.past import Vehicle
+from model.planner import Planner
+from model.problem import Problem
+from model.replanning.parted import PartlyFetchedError
+from model.replanning.replan import Replanning, Terms
+from model.solution import Solution
+from tests.model.replanning.test_replan_random import (
+    OPTIONS, assert_unchanged, begun, instants, lost, nobody, replan_later, something_happens,
+)
+from tests.model.tiny import draw_tiny
+from tests.model.tiny_shipments import with_shipments
+
+
+def parts_of(problem: Problem, plan: Solution) -> dict[int, tuple[Vehicle, int]]:
+    """Return on which vehicle's trip ends of shipments are served."""
+    return {stop.node: (Vehicle(route.vehicle_type, route.vehicle), number)
+            for route in plan.routes for number, trip in enumerate(route.trips)
+            for stop in trip.stops if stop.node in problem.shipment_at}
+
+
+def fetched_at(problem: Problem, plan: Solution) -> int | None:
+    """Return when the first shipment that a plan brings has been fetched; None: it brings none."""
+    return min((stop.departure for route in plan.routes for trip in route.trips
+                for stop in trip.customer_stops if stop.node in problem.shipment_at), default=None)
+
+
+@pytest.mark.parametrize("seed", [
+    *range(0, 60, 2), 11, 17, 27, 53, 59, 93, 137, 183, 203, 213, 283, 295])
+def test_tiny_plans_with_shipments_go_on(planner: Planner, seed: int) -> None:
+    rng = np.random.default_rng((seed, 16))
+    problem = with_shipments(rng, draw_tiny(rng))
+    plan = planner.plan(problem, OPTIONS, start=nobody(problem)).solution
+    if not plan.routes:
+        return
+    times = instants(plan)
+    now = int(rng.choice(times))
+    problem = something_happens(rng, problem, max(times))
+    broken: frozenset[Vehicle] = frozenset()
+    if seed % 2:
+        now = fetched_at(problem, plan) or now
+        broken = frozenset(Vehicle(route.vehicle_type, route.vehicle) for route in plan.routes
+                           if rng.random() < 0.7)
+    terms = Terms(plan, now, unavailable=broken, grounded=lost(rng, problem))
+    try:
+        replanning = Replanning(problem, terms)
+    except PartlyFetchedError:
+        assert any(each.more for each in problem.shipments)
+        return
+    result = replanning.plan(planner, OPTIONS)
+    assert replanning.check(result.solution).violations == ()
+    assert_unchanged(problem, plan, result.solution, now, broken)
+    stays, before = parts_of(problem, result.solution), parts_of(problem, plan)
+    for route in plan.routes:
+        vehicle = Vehicle(route.vehicle_type, route.vehicle)
+        if vehicle in broken:
+            continue
+        for number, _, _ in begun(problem, route, now):
+            for node in (node for node, part in before.items() if part == (vehicle, number)):
+                assert stays[node] == (vehicle, number)
+    for node in result.solution.unassigned:
+        assert len(replanning.reasons(result.solution, node)) == len(problem.vehicle_types)
+    replan_later(planner, problem, result.solution, now + (max(times) - now) // 2, broken)
