@@ -19,6 +19,7 @@ from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
 from model.dialects.vroom.timing import COST_SCALE
 from model.planner import Planner, load_planner
+from tests.app.formats.vroom.by_turns import ENOUGH, ByTurns
 from tests.app.formats.vroom.judge import judge
 from tests.app.formats.vroom.reference import solve
 from tests.app.formats.vroom.sampling import sample_request
@@ -38,11 +39,11 @@ def planner() -> Planner:
 
 @pytest.fixture(scope="session")
 def ours(planner: Planner) -> Solve:
-    """Return a function that answers a request in some seconds."""
-    def solve_ours(request: Data, seconds: float = 0.2) -> Data:
-        settings = Settings(vroom_seconds=seconds)
+    """Return a function that answers a request by searches of some turns."""
+    def solve_ours(request: Data, turns: int = 1000) -> Data:
+        settings = Settings(vroom_seconds=ENOUGH)
         body = ReceivedBody(json.dumps(request).encode(), time.perf_counter())
-        reply: Data = json.loads(answer(planner, body, settings, lambda: False))
+        reply: Data = json.loads(answer(ByTurns(planner, turns), body, settings, lambda: False))
         return reply
 
     return solve_ours
@@ -56,14 +57,14 @@ def value(reply: Data) -> tuple[int, int]:
 @pytest.mark.parametrize("seed", range(60))
 def test_random_requests_get_sound_replies(ours: Solve, seed: int) -> None:
     request = sample_request(random.Random(1000 + seed))
-    judge(request, ours(request, 0.05))
+    judge(request, ours(request, 100))
 
 
 def test_small_requests_are_solved_about_as_well_as_by_vroom(ours: Solve) -> None:
     ratios, worse = [], 0
     for seed in range(40):
         request = sample_request(random.Random(seed), most_jobs=7)
-        theirs, reply = solve(request, exploration=5), ours(request, 0.15)
+        theirs, reply = solve(request, exploration=5), ours(request, 1000)
         judge(request, reply)
         if value(reply) == value(theirs) and theirs["summary"]["cost"]:
             ratios.append(reply["summary"]["cost"] / theirs["summary"]["cost"])

@@ -14,8 +14,8 @@ from app.formats.vroom.reading import MAX_ALL_WINDOWS, read_request
 from app.schemas.limits import DEFAULT_POLICY
 from app.serving.load.received import ReceivedBody
 from app.serving.settings import Settings
-from model.planner import Planner, PlanOptions, PlanResult, load_planner
-from model.problem import Problem
+from model.planner import Planner, load_planner
+from tests.app.formats.vroom.by_turns import ENOUGH, ByTurns
 from tests.app.formats.vroom.judge import judge
 from tests.app.formats.vroom.reference import solve
 
@@ -26,26 +26,14 @@ pytestmark = [pytest.mark.by_clock, pytest.mark.slow]
 DAY = 43_200
 
 
-class Watched(Planner):
-    """The planner, and the largest problem that it was given."""
-
-    def __init__(self, planner: Planner) -> None:
-        self._planner = planner
-        self.nodes = 0
-
-    @property
-    def policies(self) -> tuple[str, ...]:
-        return self._planner.policies
-
-    def plan(self, problem: Problem, options: PlanOptions, *args: Any, **named: Any) -> PlanResult:
-        self.nodes = max(self.nodes, problem.num_nodes)
-        return self._planner.plan(problem, options, *args, **named)
+TURNS = 3000
+"""Of a search."""
 
 
 @pytest.fixture(scope="module")
 def planner() -> Planner:
-    """Return the planner that the service has by default."""
-    return load_planner(Settings().weights_dir, (DEFAULT_POLICY,))
+    """Return the planner that the service has by default, by turns."""
+    return ByTurns(load_planner(Settings().weights_dir, (DEFAULT_POLICY,)), TURNS)
 
 
 def request_of(jobs: int, windows: int, vehicles: int, length: int | None = None,
@@ -71,7 +59,8 @@ def request_of(jobs: int, windows: int, vehicles: int, length: int | None = None
 
 def answered(planner: Planner, request: Data) -> Data:
     body = ReceivedBody(json.dumps(request).encode(), time.perf_counter())
-    reply: Data = json.loads(answer(planner, body, Settings(), lambda: False))
+    settings = Settings(vroom_seconds=ENOUGH)
+    reply: Data = json.loads(answer(planner, body, settings, lambda: False))
     judge(request, reply)
     return reply
 
@@ -83,10 +72,10 @@ def test_everyone_is_served_whom_vroom_serves(planner: Planner, jobs: int, windo
     request = request_of(jobs, windows, vehicles)
     theirs = solve(request, exploration=5)
     assert theirs["summary"]["unassigned"] == 0
-    watched = Watched(planner)
-    began = time.perf_counter()
+    watched = ByTurns(planner, TURNS)
+    began = time.process_time()
     reply = answered(watched, request)
-    assert time.perf_counter() - began < 5
+    assert time.process_time() - began < 5
     assert reply["summary"]["unassigned"] == 0
     assert reply["summary"]["cost"] <= 1.02 * theirs["summary"]["cost"]
     assert watched.nodes == 1 + jobs
