@@ -265,17 +265,20 @@ def searched(problem: Problem, start: Solution, config: SearchConfig, limit: flo
     return found, time.process_time() - began
 
 
+def nobody(problem: Problem) -> Solution:
+    """Return what comes back where a search is stopped before it began."""
+    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+
+
 def test_a_beginning_ends_at_the_deadline(endless: Problem, needed: float) -> None:
-    found, seconds = searched(endless, Solution((), ()), SearchConfig(), needed / 5)
+    found, seconds = searched(endless, nobody(endless), SearchConfig(), needed / 5)
     assert seconds < needed / 2
     assert not found.whole
     assert check(endless, found.solution).violations == ()
 
 
 def test_a_beginning_ends_once_the_caller_wants_no_more(endless: Problem, needed: float) -> None:
-    # Nobody served is what comes back where the search is stopped before it began.
-    nobody = Solution((), tuple(range(endless.num_depots, endless.num_nodes)))
-    found, seconds = searched(endless, nobody, SearchConfig(), 600.0, lambda: True)
+    found, seconds = searched(endless, nobody(endless), SearchConfig(), 600.0, lambda: True)
     assert seconds < needed / 2
     assert not found.whole
     assert check(endless, found.solution).violations == ()
