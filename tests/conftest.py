@@ -26,7 +26,7 @@ from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel
 
 MINUTE = 60_000
 
-PATIENCE, SOON = 60.0, 10.0
+PATIENCE, SOON = 60.0, 30.0
 """Seconds to wait for anything, and for what takes not long."""
 
 PAUSE, LONGEST_PAUSE = 0.01, 0.1

@@ -25,7 +25,7 @@ from model.planner import (
 )
 from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 
 READY_SECONDS = 60.0
 """How long a service may take until it plans."""
@@ -154,7 +154,7 @@ def serving(planner: Planner, settings: Settings | None = None) -> Iterator[http
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     address = f"http://127.0.0.1:{listener.getsockname()[1]}"
-    with httpx.Client(base_url=address, timeout=30, trust_env=False) as client:
+    with httpx.Client(base_url=address, timeout=PATIENCE, trust_env=False) as client:
         yield client
     server.should_exit = True
     thread.join()

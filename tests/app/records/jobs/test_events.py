@@ -9,7 +9,7 @@ import pytest
 from app.records.jobs.errors import JobsUnavailableError
 from app.records.jobs.events import Watcher, events
 from app.records.jobs.rows import JobRow
-from tests.conftest import complete
+from tests.conftest import PATIENCE, complete
 
 pytestmark = pytest.mark.slow
 
@@ -98,7 +98,7 @@ def test_nobody_is_looked_up_when_all_have_left() -> None:
         await anext(stream)
         await stream.aclose()
         tasks = asyncio.all_tasks() - {asyncio.current_task()}
-        await asyncio.wait(tasks, timeout=5)
+        await asyncio.wait(tasks, timeout=PATIENCE)
         assert all(task.done() for task in tasks)
         return len(jobs.asked)
 

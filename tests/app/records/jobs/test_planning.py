@@ -107,6 +107,7 @@ def test_a_job_whose_legs_take_longer_than_its_search_is_planned(
     assert desk.row(job).state == "done"
 
 
+@pytest.mark.by_clock
 def test_another_process_goes_on_from_the_best_plan(desk: Desk) -> None:
     limit, crashed = 2.5, desk.process(SteppingPlanner(comes_to=0.5))
     job = desk.job(limit)

@@ -17,6 +17,7 @@ from app.database.connections import FILE_NAME, database_url, make_engine
 from app.serving.access.keys import KeyStore, StoredKey, find_key
 from app.serving.settings import Settings
 from tests.app.conftest import opened
+from tests.conftest import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -176,7 +177,7 @@ def test_a_new_file_is_set_up_by_one_at_a_time(tmp_path: Path) -> None:
         with pytest.raises(TimeoutError):
             connecting.result(timeout=0.2)
         os.close(descriptor)
-        with connecting.result(timeout=10) as connection:
+        with connecting.result(PATIENCE) as connection:
             assert connection.exec_driver_sql("PRAGMA journal_mode").scalar() == "wal"
     engine.dispose()
 

@@ -12,7 +12,7 @@ import pytest
 from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner
 from tests.app.serving.load.waiting import WaitingPlanner
-from tests.conftest import soon
+from tests.conftest import PATIENCE, soon
 
 pytestmark = pytest.mark.slow
 
@@ -41,7 +41,7 @@ def head(length: int) -> bytes:
 
 def connect(client: httpx.Client) -> socket.socket:
     """Open a plain connection to a client's service."""
-    return socket.create_connection((client.base_url.host, client.base_url.port), timeout=20)
+    return socket.create_connection((client.base_url.host, client.base_url.port), timeout=PATIENCE)
 
 
 def test_what_slots_and_queue_cannot_hold_is_refused_at_once_and_the_rest_is_planned(

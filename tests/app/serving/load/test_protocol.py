@@ -13,7 +13,7 @@ from app.main import create_app
 from app.serving.load import protocol
 from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner
-from tests.conftest import soon
+from tests.conftest import PATIENCE, soon
 
 pytestmark = [pytest.mark.by_clock, pytest.mark.slow]
 
@@ -53,7 +53,7 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Listening]:
 
 def connect(server: Listening) -> socket.socket:
     """Open a connection."""
-    return socket.create_connection(server.address, timeout=10)
+    return socket.create_connection(server.address, timeout=PATIENCE)
 
 
 def read_to_end(connection: socket.socket) -> bytes:

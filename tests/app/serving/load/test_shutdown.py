@@ -60,7 +60,8 @@ def test_impatient_signals_end_the_process_at_once(signals: list[signal.Signals]
             process.send_signal(number)
             soon(lambda: process.poll() is not None
                  or status_of(client, "/health/ready") in (503, None))
-        process.wait(10)
+        # Half of what it would wait for without another signal.
+        process.wait(30)
 
 
 def children(process: subprocess.Popen[bytes]) -> set[int]:

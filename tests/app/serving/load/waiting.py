@@ -18,7 +18,7 @@ from app.serving.settings import Settings
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
 from model.problem import Problem
 from tests.app.conftest import FirstFitPlanner
-from tests.conftest import eventually, free_port
+from tests.conftest import PATIENCE, eventually, free_port
 
 ROOT = Path(__file__).parents[4]
 
@@ -49,7 +49,7 @@ def process_of_its_own(**settings: str) -> Iterator[tuple[Popen[bytes], httpx.Cl
     environment = {**os.environ, "PYTHONPATH": str(ROOT), **settings}
     with (Popen([sys.executable, "-m", "tests.app.serving.load.waiting", str(port)], cwd=ROOT,
                 env=environment) as process,
-          httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=20,
+          httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE,
                        trust_env=False) as client):
         try:
             eventually(lambda: process.poll() is None and status_of(client, "/health/ready") == 200)

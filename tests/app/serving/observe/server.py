@@ -19,7 +19,7 @@ from app.serving.settings import Settings
 from model.planner import PlanOptions, PlanResult
 from model.problem import Problem
 from tests.app.conftest import FirstFitPlanner
-from tests.conftest import eventually, free_port
+from tests.conftest import PATIENCE, eventually, free_port
 
 ROOT = Path(__file__).parents[4]
 
@@ -55,7 +55,7 @@ class Server:
     def stop(self) -> list[str]:
         """End the process in good order; return all that it logged."""
         self.process.terminate()
-        self.process.wait(20)
+        self.process.wait(PATIENCE)
         self.finish()
         return self.lines
 
@@ -71,7 +71,7 @@ def running(**settings: str) -> Iterator[Server]:
     environment = {**os.environ, "PYTHONPATH": str(ROOT), **settings}
     with (Popen([sys.executable, "-m", "tests.app.serving.observe.server", str(port)], cwd=ROOT,
                 env=environment, stderr=PIPE, text=True) as process,
-          httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=10,
+          httpx.Client(base_url=f"http://127.0.0.1:{port}", timeout=PATIENCE,
                        trust_env=False) as client):
         server = Server(client, process)
         try:
