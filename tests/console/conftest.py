@@ -7,14 +7,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
-from tests.console.serving import VIEWPORT, chromium, new_context, serving
+from tests.console.serving import VIEWPORT, WAIT_MS, chromium, new_context, serving
 from tests.console.steps import with_table1
 
 OF_A_PAGE = {"viewport", "color_scheme"}
 """What of a browser's context a page of another can be given."""
-
-WAIT_MS = 30_000
-"""For what a page does."""
 
 expect.set_options(timeout=WAIT_MS)
 

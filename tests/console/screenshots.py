@@ -11,13 +11,12 @@ from tempfile import TemporaryDirectory
 
 from playwright.sync_api import Browser, Page, expect
 
-from tests.console.serving import ROOT, chromium, new_context, serving
+from tests.console.serving import ROOT, WAIT_MS, chromium, new_context, serving
 from tests.console.steps import idle, open_example, open_tab, place_of, planned
 
 FOLDER = ROOT / "docs" / "screenshots"
 DESK = {"width": 1440, "height": 900}
 PHONE = {"width": 390, "height": 844}
-WAIT_MS = 60_000
 
 
 def overview(page: Page) -> None:

@@ -23,6 +23,9 @@ START_SECONDS = 120
 OPENING_MS = 120_000
 """For opening a page while other tests have all cores."""
 
+WAIT_MS = 60_000
+"""For what a page does, at most."""
+
 VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
 
 MODULES = """Object.defineProperty(window, 'modules', { get() {
@@ -95,6 +98,7 @@ def chromium() -> Iterator[Browser]:
 def new_context(browser: Browser, **options: Any) -> BrowserContext:
     """Return what stands for a visitor's own browser."""
     context = browser.new_context(**{"viewport": VIEWPORT} | options)
+    context.set_default_timeout(WAIT_MS)
     context.set_default_navigation_timeout(OPENING_MS)
     context.add_init_script(MODULES)
     return context
