@@ -8,11 +8,14 @@ import math
 import time
 from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 from typing import Literal
 
 from model.judge.bench import Bench, Draft, Trial
 from model.judge.clock import window_of
-from model.judge.group_moves import Unit, companions_of, move_together
+from model.judge.group_moves import (
+    EFFORTS, Unit, companions_of, move_together, without,
+)
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
@@ -108,13 +111,16 @@ def _all_moved(bench: Bench, companions: tuple[Unit, ...], vehicles: Iterable[Ve
                until: float) -> tuple[list[Alternative], bool]:
     """Return what it would cost if each vehicle served all who go together, and if all were tried.
     """
-    moved: list[Alternative] = []
-    for vehicle in vehicles:
-        trial = move_together(bench, companions, vehicle, until)
-        if trial is None:
-            return moved, False
-        moved.append(Alternative("vehicle", trial, companions))
-    return moved, True
+    left_out, best = without(bench, companions), dict[Vehicle, Trial]()
+    in_time = True
+    for effort, vehicle in product(EFFORTS, vehicles):
+        trial = move_together(bench, companions, left_out, vehicle, effort, until)
+        if trial is not None:
+            best[vehicle] = min(trial, best.get(vehicle, trial), key=lambda trial: trial.rank)
+        elif time.perf_counter() >= until:
+            in_time = False
+            break
+    return [Alternative("vehicle", trial, companions) for trial in best.values()], in_time
 
 
 def best_of(bench: Bench, kind: Kind, drafts: Sequence[Draft],

@@ -11,11 +11,15 @@ from model.judge.past import KnownTrip, Vehicle
 from model.judge.places import halts
 from model.problem import Shipment
 
-TRIES = 16
-"""Places of a vehicle that are tried for each of them, the likeliest ones."""
+class Effort(NamedTuple):
+    """How much is tried with a vehicle."""
 
-WIDTH = 12
-"""So many ways to place some of them are gone on with, the best ones."""
+    tries: int  # places for each of them, the likeliest ones
+    width: int  # ways to place some of them that are gone on with, the best ones
+
+
+EFFORTS = Effort(3, 1), Effort(16, 12)
+"""All vehicles are tried with the first, then with the next while there is time."""
 
 
 class Unit(NamedTuple):
@@ -31,7 +35,7 @@ class Unit(NamedTuple):
 
 
 @dataclass(frozen=True)
-class _Way:
+class Way:
     """A plan with some of them at places of a vehicle, and its routes as judged."""
 
     trial: Trial
@@ -64,27 +68,26 @@ def companions_of(bench: Bench) -> tuple[Unit, ...]:
     return () if begun & {*asked} else tuple(found.values())
 
 
-def move_together(bench: Bench, companions: tuple[Unit, ...], vehicle: Vehicle,
-                  until: float) -> Trial | None:
+def move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, vehicle: Vehicle,
+                  effort: Effort, until: float) -> Trial | None:
     """Return a plan in which a vehicle serves a customer with all who are bound to go with him.
 
     The best of those tried, one after another being placed; None: there was no time until an
     instant, on `time.perf_counter`, or the vehicle has no places.
     """
-    units = (Unit(bench.node, bench.shipment), *companions)
-    ways = [_without(bench, companions)]
-    for unit in units:
+    ways = [left_out]
+    for unit in (Unit(bench.node, bench.shipment), *companions):
         drafts: list[tuple[tuple[int, float], Bench, Draft]] = []
         for way in ways:
-            if time.perf_counter() >= until:
-                return None
             own = Bench(bench.problem, way.trial.solution, unit.node, bench.setting, way.judged,
                         unit.shipment)
             cost = way.trial.evaluation.cost.total
             drafts += [((len(draft.timed.judged.violations), cost + draft.added), own, draft)
-                       for draft in _drafts(own, vehicle)]
-        best = sorted(drafts, key=lambda each: each[0])[:WIDTH]
-        ways = [_Way(own.finish(draft), {**own.judged, draft.index: draft.timed.judged})
+                       for draft in _drafts(own, vehicle, effort.tries, until)]
+            if time.perf_counter() >= until:
+                return None
+        best = sorted(drafts, key=lambda each: each[0])[:effort.width]
+        ways = [Way(own.finish(draft), {**own.judged, draft.index: draft.timed.judged})
                 for _, own, draft in best]
     return min([way.trial for way in ways], key=lambda trial: trial.rank, default=None)
 
@@ -95,17 +98,19 @@ def _nodes_of(trip: KnownTrip) -> frozenset[int]:
     return trip.aboard.union([stop.node for stop in trip.stops], flown)
 
 
-def _without(bench: Bench, companions: tuple[Unit, ...]) -> _Way:
+def without(bench: Bench, companions: tuple[Unit, ...]) -> Way:
     """Return the plan that leaves all of them out."""
     trial, judged = bench.left_out, bench.judged
     for unit in companions:
         own = Bench(bench.problem, trial.solution, unit.node, bench.setting, judged, unit.shipment)
         trial, judged = own.left_out, own.judged
-    return _Way(trial, judged)
+    return Way(trial, judged)
 
 
-def _drafts(bench: Bench, vehicle: Vehicle) -> Iterator[Draft]:
+def _drafts(bench: Bench, vehicle: Vehicle, tries: int, until: float) -> Iterator[Draft]:
     """Yield routes of a vehicle with a customer or shipment at its likeliest places."""
-    guesses = [guess for some in bench.guesses(only=vehicle).values() for guess in some]
-    for guess in sorted(guesses, key=lambda guess: guess.rank)[:TRIES]:
-        yield bench.draft(guess.place)
+    guesses = [guess for some in bench.guesses(until=until, only=vehicle).values()
+               for guess in some]
+    for guess in sorted(guesses, key=lambda guess: guess.rank)[:tries]:
+        if time.perf_counter() < until:
+            yield bench.draft(guess.place)

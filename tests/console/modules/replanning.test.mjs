@@ -95,6 +95,9 @@ test('a broken vehicle keeps whom it has begun to serve, and loses the rest', ()
   assert.equal(choicesOf(request, 'A').mayCancel, false);
   assert.equal(choicesOf(request, 'G').isPlanned, false);
   assert.deepEqual(idleVehicles(request), ['van-3']);
+  request.replan.parcels_back = 300;
+  assert.deepEqual([200, 301].map((now) => goOnFrom(request, PLAN, now).replan.parcels_back),
+    [300, undefined]);
 });
 
 test('drones of trucks on their way can be lost', () => {

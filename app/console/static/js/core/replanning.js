@@ -19,6 +19,8 @@ export function goOnFrom(request, plan, now) {
     pinned: pinnedIn(plan, replan),
     pin_all: replan.pin_all,
     unavailable: replan.unavailable,
+    // What a broken vehicle had fetched isn't back any sooner.
+    parcels_back: replan.parcels_back >= now ? replan.parcels_back : undefined,
   };
   return { ...request, replan: { ...withoutUndefined(kept ?? {}), plan, freeze_before: now } };
 }
