@@ -92,7 +92,7 @@ def break_errors(draft: Draft) -> Errors:
 
 
 def driving_errors(draft: Draft) -> Errors:
-    """Say which driving rules lack a number, or can't be kept beside what else is stated."""
+    """Say which driving rules lack a number."""
     for path, kind in draft.vehicle_types():
         rules = kind.driving_rules
         if rules is None:
@@ -100,10 +100,6 @@ def driving_errors(draft: Draft) -> Errors:
         if rules.break_duration is None:
             yield error_at("MISSING_BREAK_DURATION", (*path, "driving_rules", "break_duration"),
                            "Nothing says how long a rest is: state break_duration, or a preset.")
-        if kind.speed_profile:
-            yield error_at("DRIVING_RULES_WITH", (*path, "speed_profile"),
-                           "Rests by driving_rules can't be planned beside it yet: leave "
-                           "speed_profile out, or driving_rules.")
 
 
 def depot_errors(draft: Draft) -> Errors:

@@ -103,8 +103,7 @@ def rest(rng: random.Random, request: Data) -> None:
 
 def keep_driving_rules(rng: random.Random, request: Data) -> None:
     """Have drivers of some types rest by rules. In place."""
-    free = [kind for kind in trucks_of(request) if not kind.get("speed_profile")]
-    for kind in some(rng, free, 0.7):
+    for kind in some(rng, trucks_of(request), 0.7):
         kind["driving_rules"] = rng.choice((
             {"preset": rng.choice(("eu-561", "eu-561+2002-15", "us-hos"))},
             {"preset": "eu-561", "driven_before": 15_000},

@@ -9,7 +9,7 @@ LONGEST = 10**9
 
 
 def let_rest(rng: random.Random, request: Data) -> None:
-    """Let drivers have breaks, or rest by rules, now and then beside what forbids it. In place."""
+    """Let drivers have breaks, or rest by rules. In place."""
     for kind in request["fleet"]:
         if kind.get("flies"):
             continue
@@ -19,8 +19,6 @@ def let_rest(rng: random.Random, request: Data) -> None:
             if rng.random() < 0.7:
                 continue
         kind["driving_rules"] = _rules(rng)
-        if rng.random() < 0.98:
-            kind.pop("speed_profile", None)
 
 
 def _break(rng: random.Random, number: int, dimensions: int) -> Data:

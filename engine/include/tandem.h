@@ -1519,7 +1519,8 @@ int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* sear
 int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot);
 /* Write when a driver who rests by rules stands for each break on a leg, when that begins, and when
    it ends; who has driven the leg then. */
-int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k, const tandem_broken_leg* leg,
+int tandem_rest_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
+                      const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,
                       tandem_driver* driver, const tandem_i64_2d* times);
 
 /* Write when a vehicle of a type stands for each break on a leg, when that begins, and when it

@@ -23,9 +23,19 @@ inline bool has_driving_rules(const VehicleType& type) { return type.must_rest =
 // Whether a driver may rest while drones are out.
 inline bool may_rest_in_flights(const VehicleType& type) { return type.rests_in_flights == 1; }
 
+// Whether times hang on where its driver has breaks and rests.
+inline bool rests_in_time(const VehicleType& type) {
+    return has_breaks(type) || (has_driving_rules(type) && !is_steady(type));
+}
+
 // Whether all that its driver rests lasts as long whenever it is, so that it is part of legs.
 inline bool rests_in_gaps(const VehicleType& type) {
-    return has_driving_rules(type) && !has_breaks(type);
+    return has_driving_rules(type) && !rests_in_time(type);
+}
+
+// Whether how far a driver comes before a rest has to be known to tell when a leg ends.
+inline bool follows_driver(const VehicleType& type) {
+    return has_driving_rules(type) && !is_steady(type);
 }
 
 // How long all breaks on a leg are.
@@ -118,27 +128,38 @@ inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, In
 // A leg that a driver who may have to rest has before him, on a route that begins at `begin`.
 class RestedLeg {
 public:
-    RestedLeg(const VehicleType& type, Int begin, Driver driver, Int leave, Int duration)
-        : type_(&type), begin_(begin), driver_(driver), time_(leave), left_(duration) {}
+    RestedLeg(const Speeds& speeds, Int begin, Driver driver, Int leave, Int duration)
+        : type_(&speeds.type),
+          begin_(begin),
+          driver_(driver),
+          time_(leave),
+          left_(speeds, duration) {}
 
     Int time() const { return time_; }
     Int stood() const { return stood_; }
-    Int left() const { return left_; }
     const Driver& driver() const { return driver_; }
 
+    // For how long it has been on the leg.
+    Int driven() const { return driven_; }
+
+    // How long the rest of the leg is at least.
+    Int left() const { return left_.least(); }
+
     // Whether the rest of the leg can't be driven at a stretch.
-    bool is_too_long() const { return may_drive(*type_, driver_, time_) < left_; }
+    bool is_too_long() const {
+        return may_drive(*type_, driver_, time_) < left_.end(time_) - time_;
+    }
 
     // Take a break, or a rest; returns when it begins, `none` if it can't then, or should have
     // begun before. `stood` is then since when the truck stands.
     Int take(Int number, RestPlace place) {
         if (place == RestPlace::arrival) {
-            drive(left_);
+            drive_until(left_.end(time_));
         } else if (place == RestPlace::way) {
             const Int most = is_stated(number)
                                  ? break_of(*type_, number, begin_).start(time_) - time_
                                  : may_drive(*type_, driver_, time_);
-            drive(std::clamp(most, Int{0}, left_));
+            drive_until(std::clamp(time_ + most, time_, left_.end(time_)));
         }
         Int begin = stood_ = time_;
         if (is_stated(number)) {
@@ -154,36 +175,35 @@ public:
 
     // Drive on to the end of the leg; false if that is too long.
     bool arrive() {
-        drive(left_);
+        drive_until(left_.end(time_));
         return may_drive(*type_, driver_, time_) >= 0;
     }
 
 private:
-    void drive(Int duration) {
-        driver_.driven += duration;
-        time_ += duration;
-        left_ -= duration;
+    void drive_until(Int time) {
+        left_.drive(time_, time);
+        driven_ += time - time_;
+        driver_.driven += time - time_;
+        time_ = time;
     }
 
     const VehicleType* type_;  // so that one can become another
     Int begin_;
     Driver driver_;
     Int time_;
-    Int left_;
+    LegLeft left_;
+    Int driven_ = 0;
     Int stood_ = 0;
 };
 
-// Let a driver drive a leg with breaks and rests, on a route that begins at `begin`. In place;
-// false if one lacks.
-inline bool drive_rested(const VehicleType& type, Rests rests, Int begin, Int leave, Int duration,
-                         Driver& driver) {
-    RestedLeg leg(type, begin, driver, leave, duration);
+// Let a driver take breaks and rests on a leg that is begun, and drive on to its end. In place;
+// false if one can't be taken.
+inline bool drive_with(RestedLeg& leg, Rests rests) {
     for (Int index = 0; index < rests.count(); ++index) {
         if (leg.take(rests.number(index), rests.place(index)) == none) return false;
     }
-    const bool done = leg.arrive();
-    driver = leg.driver();
-    return done;
+    leg.arrive();
+    return true;
 }
 
 // The rest that a driver takes who has to rest at once.

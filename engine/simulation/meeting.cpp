@@ -236,16 +236,19 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         Int driven = 0;
         const std::optional<Driver> driver = driver_of(setting, log, driven);
         if (!driver) return {-1, {}};
-        const RestedLeg leg(setting.type, begin, *driver, leave, setting.drive(here, to) - setup);
+        const Speeds speeds = speeds_of(setting);
+        const RestedLeg leg(speeds, begin, *driver, leave, travel_of(setting, here, to));
         const std::optional<Rests> rests =
             Unforeseeing(setting.type, leg, opens, leaves).run(vehicle.rested, heavy, begin);
         if (!rests || (attends && rests->any_unstated())) return {-1, {}};
-        return {come(setting, *rests, begin, here, to, leave), *rests};
+        Driver counted = *driver;
+        return {come(setting, {*rests, begin, here, to, leave}, counted), *rests};
     }
     const std::optional<Rests> rests =
         rests_on_leg(setting.type, vehicle.rested, heavy, begin, leave, travel, leaves, opens);
     if (!rests) return {-1, {}};
-    return {come(setting, *rests, begin, here, to, leave), *rests};
+    Driver nobody{};
+    return {come(setting, {*rests, begin, here, to, leave}, nobody), *rests};
 }
 
 // Tell whether a drone in flight reaches its customer too late for a hard window.

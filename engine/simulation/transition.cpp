@@ -299,7 +299,8 @@ bool drive(OpenVehicle& open, Int node) {
         if (place.too_late(ready)) return false;
     }
     // The start known so far kept what was behind it, not breaks that come later than a start does.
-    if (follow_departure(setting.type, rests) || limits_timed_travel(setting.type)) {
+    if (follow_departure(setting.type, rests) || limits_timed_travel(setting.type) ||
+        follows_driver(setting.type)) {
         vehicle.start_best = log.trip[0].start;
     }
     const Int there = is_customer ? arrival : let_in(setting.type, setting.node, node, arrival);

@@ -102,15 +102,23 @@ Charge charge_before(const Setting& setting, const VehicleLog& log, Int trip) {
     return charge;
 }
 
-// How long the truck is on legs of the first trips.
-Int travelled_on(const Setting& setting, const VehicleLog& log, Int trips) {
+// The leg that leads to a stop, as logged.
+BegunLeg leg_to(const VehicleLog& log, Int index) {
+    const LoggedStop& before = log.stop[index - 1];
+    return {Rests(before.rests), log.trip[0].start, before.node, log.stop[index].node,
+            before.leave};
+}
+
+// How long the truck is on legs of the first trips. In place: what is counted of its driver, where
+// that is followed.
+Int travelled_on(const Setting& setting, const VehicleLog& log, Int trips, Driver& driver) {
     Int travel = 0;
     for (Int trip = 0; trip < trips; ++trip) {
         const auto [first, behind] = stops_of(log, trip);
         for (Int index = first + 1; index < behind; ++index) {
-            const LoggedStop& before = log.stop[index - 1];
-            travel += driven_between(setting, Rests(before.rests), log.trip[0].start, before.node,
-                                     log.stop[index].node, before.leave);
+            const BegunLeg leg = leg_to(log, index);
+            travel += driven_between(setting, leg, driver);
+            if (follows_driver(setting.type)) come(setting, leg, driver);
         }
     }
     return travel;
@@ -141,8 +149,10 @@ public:
         op_ = log_.trip[first_trip].first_op;
         leave_ = start;
         begin_ = first_trip == 0 ? start : log_.trip[0].start;
+        const bool follows = follows_driver(setting_.type);
         const bool counts = limits_timed_travel(setting_.type);
-        travel_ = counts ? travelled_on(setting_, log_, first_trip) : 0;
+        if (follows) driver_ = driver_from(setting_.type, begin_);
+        travel_ = counts || follows ? travelled_on(setting_, log_, first_trip, driver_) : 0;
         for (Int trip = first_trip; trip < log_.count.trips; ++trip) {
             if (trip > first_trip) {
                 start = std::max(log_.trip[trip].release, leave_ + setting_.type.reload_duration);
@@ -151,6 +161,7 @@ public:
             if (bounds_trips(setting_.type) && !lasts(trip, start)) return false;
         }
         return lasting_ && (!counts || may_travel(setting_.type, travel_)) &&
+               (writes || !follows || may_still_work(setting_.type, driver_, leave_)) &&
                (writes || leave_ <= log_.stop[log_.count.stops - 1].leave) &&
                (setting_.lag.empty() || starts().keep_lags(setting_));
     }
@@ -200,16 +211,21 @@ private:
             Int arrival = start;
             if (index > first_) {
                 const LoggedStop& before = log_.stop[index - 1];
-                arrival = come(setting_, Rests(before.rests), begin_, before.node, node, leave_);
-                if (arrival < 0) return false;
+                const BegunLeg leg{Rests(before.rests), begin_, before.node, node, leave_};
                 if (limits_timed_travel(setting_.type)) {
-                    travel_ += driven_between(setting_, Rests(before.rests), begin_, before.node,
-                                              node, leave_);
+                    travel_ += driven_between(setting_, leg, driver_);
                 }
+                arrival = come(setting_, leg, driver_);
+                if (arrival < 0 || (!writes && lacks_rest(arrival))) return false;
             }
             if (!run_stop(index, arrival)) return false;
         }
         return true;
+    }
+
+    // Whether a driver who is followed has driven too long, or will have worked so by then.
+    bool lacks_rest(Int arrival) const {
+        return follows_driver(setting_.type) && may_drive(setting_.type, driver_, arrival) < 0;
     }
 
     bool run_stop(Int index, Int arrival) {
@@ -390,6 +406,7 @@ private:
     Int leave_ = 0;
     Int begin_ = 0;   // of the route
     Int travel_ = 0;  // on legs, where that hangs on when they are driven
+    Driver driver_{};
     bool lasting_ = true;
     // Of the trip: its first stop, the launches so far, the first instant at which any has left.
     Int first_ = 0;
@@ -489,27 +506,27 @@ Int excess_in_air(const Setting& setting, const VehicleLog& log) {
 
 std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, Int& driven) {
     const Int begin = log.trip[0].start;
+    const Speeds speeds = speeds_of(setting);
     Driver driver = driver_from(setting.type, begin);
     driven = 0;
     for (Int trip = 0; trip < log.count.trips; ++trip) {
         const Int behind = stops_of(log, trip).behind;
         for (Int index = log.trip[trip].first_stop + 1; index < behind; ++index) {
-            const LoggedStop& before = log.stop[index - 1];
-            const Int to = log.stop[index].node;
-            const Int duration = travel_of(setting, before.node, to);
-            if (!drive_rested(setting.type, Rests(before.rests), begin, before.leave, duration,
-                              driver)) {
-                return std::nullopt;
-            }
-            driven += duration;
+            const auto [rests, since, origin, to, leave] = leg_to(log, index);
+            RestedLeg leg(speeds, since, driver, leave, travel_of(setting, origin, to));
+            const bool done = drive_with(leg, rests);
+            driver = leg.driver();
+            if (!done || may_drive(setting.type, driver, leg.time()) < 0) return std::nullopt;
+            driven += leg.driven();
         }
     }
     return driver;
 }
 
 bool has_travelled_within(const Setting& setting, const VehicleLog& log) {
+    Driver driver = driver_from(setting.type, log.trip[0].start);
     return !limits_timed_travel(setting.type) ||
-           may_travel(setting.type, travelled_on(setting, log, log.count.trips));
+           may_travel(setting.type, travelled_on(setting, log, log.count.trips, driver));
 }
 
 bool has_rested(const Setting& setting, const VehicleLog& log) {

@@ -91,8 +91,32 @@ inline auto travel_without_setup(const Setting& setting, Int origin, Int to) {
     };
 }
 
-// As `travel_arrival`, with breaks on a route that begins at `begin`; -1 if one can't be taken.
-inline Int come(const Setting& setting, Rests rests, Int begin, Int origin, Int to, Int leave) {
+// How fast a truck drives.
+inline Speeds speeds_of(const Setting& setting) {
+    return {setting.type, setting.profile_time, setting.profile_factor};
+}
+
+// A leg with breaks that is begun at `leave`, on a route that begins at `begin`.
+struct BegunLeg {
+    Rests rests;
+    Int begin;
+    Int origin;
+    Int to;
+    Int leave;
+};
+
+// As `travel_arrival`, with breaks; -1 if one can't be taken.
+//
+// In place: what is counted of the driver, where that is followed.
+inline Int come(const Setting& setting, const BegunLeg& begun, Driver& driver) {
+    const auto& [rests, begin, origin, to, leave] = begun;
+    if (follows_driver(setting.type)) {
+        const Speeds speeds = speeds_of(setting);
+        RestedLeg leg(speeds, begin, driver, leave, travel_of(setting, origin, to));
+        if (!drive_with(leg, rests)) return -1;
+        driver = leg.driver();
+        return leg.time() + setup_after(setting.setup, origin, to);
+    }
     if (rests.count() == 0) return travel_arrival(setting, origin, to, leave);
     if (rests_in_gaps(setting.type)) {
         return travel_arrival(setting, origin, to, leave) + duration_of(setting.type, rests);
@@ -102,9 +126,15 @@ inline Int come(const Setting& setting, Rests rests, Int begin, Int origin, Int 
     return arrival ? *arrival + setup_after(setting.setup, origin, to) : -1;
 }
 
-// For how long the truck is on a leg with breaks that is begun at `leave`.
-inline Int driven_between(const Setting& setting, Rests rests, Int begin, Int origin, Int to,
-                          Int leave) {
+// For how long the truck is on a leg with breaks, by what is counted of its driver before.
+inline Int driven_between(const Setting& setting, const BegunLeg& begun, const Driver& driver) {
+    const auto& [rests, begin, origin, to, leave] = begun;
+    if (follows_driver(setting.type)) {
+        const Speeds speeds = speeds_of(setting);
+        RestedLeg leg(speeds, begin, driver, leave, travel_of(setting, origin, to));
+        drive_with(leg, rests);
+        return leg.driven();
+    }
     return driven_on_leg(setting.type, rests, begin, leave,
                          travel_without_setup(setting, origin, to));
 }

@@ -24,7 +24,7 @@ bool has(const RestLabels& labels, Int time) {
 }  // namespace
 
 TEST_CASE("where as many ways are kept as may be, the last goes for one that is sooner") {
-    RestLabels labels(2);
+    RestLabels labels(2, none);
     CHECK(labels.add(come_at(-30, 3)));
     CHECK(labels.add(come_at(-10, 1)));
     CHECK(labels.add(come_at(-20, 2)));

@@ -120,7 +120,8 @@ class BrokenRoute:
         leg.rests, leg.begin, leg.leave, leg.duration = rests, self._begin, leave, duration
         times = np.zeros((count, 3), np.int64)
         if kind.must_rest:
-            call("tandem_rest_times", self._types, self._k, leg, self._driver, times)
+            call("tandem_rest_times", self._types, *self._profile, self._k, leg, self._driver,
+                 times)
         else:
             call("tandem_break_times", self._types, *self._profile, self._k, leg, times)
         for index, (number, found) in enumerate(zip(_numbers(rests), times.tolist(), strict=True)):

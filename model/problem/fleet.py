@@ -195,9 +195,9 @@ class VehicleType:
                 self.max_trips)
 
     def _require_driving(self) -> None:
-        """Raise `ValueError` unless a driver may rest by rules beside what else is stated."""
-        alone = not (self.flies or self.speed_profile)
-        require(alone or self.driving is None, f"vehicle type {self.id} driving", self.driving)
+        """Raise `ValueError` unless it has a driver who may rest by rules, and be on legs."""
+        require(not self.flies or self.driving is None, f"vehicle type {self.id} driving",
+                self.driving)
         require(self.max_travel_duration is None or not self.flies,
                 f"vehicle type {self.id} max_travel_duration", self.max_travel_duration)
 

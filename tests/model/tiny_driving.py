@@ -29,7 +29,7 @@ def with_driving(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem most of whose drivers have to rest, where they may."""
     def drawn(kind: VehicleType) -> VehicleType:
         rules = drawn_rules(rng) if rng.random() < 0.8 else None
-        if kind.flies or kind.speed_profile:
+        if kind.flies:
             return kind
         travel = int(rng.integers(8, 40)) * MINUTE if rng.random() < 0.3 else None
         return replace(kind, driving=rules, max_travel_duration=travel)

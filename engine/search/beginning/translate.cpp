@@ -65,7 +65,7 @@ bool time_anew(const ProblemData& data, Fleet& fleet, Int slot) {
         keep_starts(data, route, stops);
         return drive_forward(data, route, stops, sorties);
     }
-    if (has_breaks(type) || limits_timed_travel(type)) {
+    if (rests_in_time(type) || limits_timed_travel(type)) {
         bool settled = false;
         return price_as_is(data, fleet, slot, no_bar, settled) &&
                (settled || settle(data, route, stops, trips, sorties));
@@ -201,14 +201,17 @@ extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem
     });
 }
 
-extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types, int64_t k,
+extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types,
+                                 const tandem_i64_2d* profile_time,
+                                 const tandem_i64_2d* profile_factor, int64_t k,
                                  const tandem_broken_leg* leg, tandem_driver* driver,
                                  const tandem_i64_2d* times) {
     return guarded([&] {
-        const VehicleType& type = View<VehicleType, 1>(*types)[k];
+        const Speeds speeds{View<VehicleType, 1>(*types)[k], View<Int, 2>(*profile_time)[k],
+                            View<Int, 2>(*profile_factor)[k]};
         const View<Int, 2> written(*times);
         const Rests rests(leg->rests);
-        RestedLeg rested(type, leg->begin, *driver, leg->leave, leg->duration);
+        RestedLeg rested(speeds, leg->begin, *driver, leg->leave, leg->duration);
         for (Int index = 0; index < rests.count(); ++index) {
             written(index, 1) = rested.take(rests.number(index), rests.place(index));
             written(index, 0) = rested.stood();

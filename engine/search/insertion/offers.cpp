@@ -4,6 +4,7 @@
 
 #include "randomness.h"
 #include "rules/breaks.h"
+#include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
@@ -67,8 +68,8 @@ struct LeastCost {
 
 // Returns how long a route could work longer at no cost.
 Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    return has_breaks(data.type[route.type]) ? route.working - least_working(data, route, stops)
-                                             : idle_time(route);
+    return rests_in_time(data.type[route.type]) ? route.working - least_working(data, route, stops)
+                                                : idle_time(route);
 }
 
 Stretch stretch_of(const Move& move) {

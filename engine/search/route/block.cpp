@@ -372,8 +372,8 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
         stop.gap = leg(legs, stop.node, next).duration;
         if (rests_in_gaps(type)) stop.gap += duration_of(type, Rests(stop.rests));
         TimeSegment there = truck.travel(stop.node, next, stop.gap, {d, c});
-        if (truck.resting && stop.rests != 0) {
-            there.c = truck.come(stop, next, c);
+        if (truck.pauses(stop)) {
+            there.c = truck.come(stop, next, c, sums.driver);
             if (there.c == far) return -1;
         }
         d = there.d;

@@ -8,6 +8,7 @@
 
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/driving.h"
 #include "rules/hours.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
@@ -31,6 +32,7 @@ struct BlockSums {
     Int launched = 0;      // on the trip so far
     Int first_sortie = 0;  // of the trip
     Int awaited = 0;       // on the route so far: how long launches wait for batteries
+    Driver driver{};       // as it is left, where that is followed
 };
 
 // A truck of a type, and what it meets on its way, looked up once for a route.
@@ -42,8 +44,10 @@ struct Truck {
           places(data_of_it.place.by_truck(type)),
           own(data_of_it.place[0]),
           drones(drone_data_at(data_of_it, first_drone_row(data_of_it.type, row))),
+          speeds{type, data_of_it.profile_time[row], data_of_it.profile_factor[row]},
           alike(!are_several(type)),
-          resting(has_breaks(type)),
+          resting(rests_in_time(type)),
+          follows(follows_driver(type)),
           steady(is_steady(type) && !resting) {}
 
     const ProblemData& data;
@@ -52,10 +56,12 @@ struct Truck {
     NodeTable places;  // as this type meets them
     NodeTable own;     // by the service durations that are customers' own
     DroneData drones;  // what its first drones meet
-    bool alike;        // all of them
-    bool resting;      // whether its driver has breaks
+    Speeds speeds;
+    bool alike;        // all of its drones
+    bool resting;      // whether times hang on where its driver pauses
+    bool follows;      // and on how far it has come before
     bool steady;       // whether all lasts as long at any time
-    Int begin = none;  // of the route, where the driver has breaks
+    Int begin = none;  // of the route, where times hang on pauses
 
     // Return what the drone of a sortie meets.
     DroneData drone_data(const Sortie& sortie) const {
@@ -70,25 +76,50 @@ struct Truck {
     // Return when a leg of `duration` at full speed ends, from `node` to another.
     TimeSegment travel(Int node, Int to, Int duration, TimeSegment leave) const {
         if (steady) return {leave.d + duration, leave.c + duration};
-        const Int arrival =
-            leg_end(type, data.profile_time[k], data.profile_factor[k], duration, leave.c);
+        const Int arrival = leg_end(type, speeds.times, speeds.factors, duration, leave.c);
         return {none, arrival + setup_beside(type, data.setup, node, to)};
+    }
+
+    // Return how long a leg from a stop to a node is, without rests in its gap and setup.
+    Int duration_of_leg(const Stop& from, Int to) const {
+        return from.gap - (is_steady(type) ? setup_after(data.setup, from.node, to) : 0);
     }
 
     // Return when a leg from a stop to a node ends, left at `leave`, without breaks and setup.
     auto legs_end(const Stop& from, Int to) const {
-        const bool holds_setup = is_steady(type);
-        const Int setup = holds_setup ? setup_after(data.setup, from.node, to) : 0;
-        return [this, duration = from.gap - setup](Int leave) {
-            return leg_end(type, data.profile_time[k], data.profile_factor[k], duration, leave);
+        return [this, duration = duration_of_leg(from, to)](Int leave) {
+            return leg_end(type, speeds.times, speeds.factors, duration, leave);
         };
     }
 
+    // Whether when a leg ends that begins at a stop hangs on pauses.
+    bool pauses(const Stop& from) const { return follows || (resting && from.rests != 0); }
+
     // Return when it comes from a stop to a node, with the breaks between; `far` if one can't be.
-    Int come(const Stop& from, Int to, Int leave) const {
+    //
+    // In place: what is counted of its driver, where that is followed.
+    Int come(const Stop& from, Int to, Int leave, Driver& driver) const {
+        const Int setup = setup_after(data.setup, from.node, to);
+        if (follows) {
+            RestedLeg leg(speeds, begin, driver, leave, duration_of_leg(from, to));
+            if (!drive_with(leg, Rests(from.rests))) return far;
+            driver = leg.driver();
+            return leg.time() + setup;
+        }
         const std::optional<Int> arrival =
             arrival_after(type, Rests(from.rests), begin, leave, legs_end(from, to));
-        return arrival ? *arrival + setup_after(data.setup, from.node, to) : far;
+        return arrival ? *arrival + setup : far;
+    }
+
+    // Return how long it is on a timed leg from a stop to a node. In place, as `come`.
+    Int drive(const Stop& from, Int to, Driver& driver) const {
+        if (follows) {
+            RestedLeg leg(speeds, begin, driver, from.leave, duration_of_leg(from, to));
+            drive_with(leg, Rests(from.rests));
+            driver = leg.driver();
+            return leg.driven();
+        }
+        return driven_on_leg(type, Rests(from.rests), begin, from.leave, legs_end(from, to));
     }
 
     // Return when what it does at a stop by itself ends.

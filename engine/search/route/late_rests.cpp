@@ -55,7 +55,7 @@ private:
         const Driver& driver = arriving.driver();
         const auto [waits, ends] = route_.stay_at(way.p + 1, arriving.time() + way.setup);
         const bool helps = manner_ == Manner::waiting && driver.driven > 0 &&
-                           may_need_rest(type_, driver, way.ahead.driving) &&
+                           route_.may_need_rest(driver, way.ahead) &&
                            rest_duration(type_, usual_rest(driver)) <= waits;
         if ((helps || !may_still_work(type_, driver, ends)) && !rest_at(RestPlace::arrival)) {
             return false;

@@ -6,6 +6,7 @@
 #include "randomness.h"
 #include "rules/breaks.h"
 #include "rules/clock.h"
+#include "rules/driving.h"
 #include "rules/hours.h"
 #include "rules/hub.h"
 #include "rules/load.h"
@@ -37,6 +38,9 @@ constexpr Int halvings_with_breaks = 20;
 
 // Attempts likewise, to the millisecond, where customers may then be served too soon behind others.
 constexpr Int halvings_with_lags = 40;
+
+// How many more instants are tried at most from which a route might better begin.
+constexpr Int most_begins = 16;
 
 // How often a trip with breaks is held back again since it has lost some.
 constexpr Int settled_again = 3;
@@ -88,9 +92,11 @@ Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> s
                 return leg_start(type, data.profile_time[k], data.profile_factor[k], before.gap,
                                  time);
             };
-            leave = has_breaks(type) ? departure_before(type, Rests(before.rests),
-                                                        begin_of(type, stops), arrival, back)
-                                     : back(arrival);
+            // Who leaves later may rest while it is slow, or needn't.
+            leave = follows_driver(type) ? arrival - before.gap
+                    : has_breaks(type)   ? departure_before(type, Rests(before.rests),
+                                                            begin_of(type, stops), arrival, back)
+                                         : back(arrival);
         }
     }
     return leave;
@@ -115,6 +121,27 @@ Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops
         hold = std::max(hold, latest_by_stops(data, route, stops, sorties, first));
     }
     return hold;
+}
+
+// Let a trip of a timed route whose driver is followed begin as late as `hold` at most, where it
+// ends no later. In place; false if a rule is broken.
+//
+// Later beginnings are tried with the rests that are placed, and that which is chosen with others.
+bool settle_followed(const ProblemData& data, Route& route, View<Stop, 1> stops, Stop& stop,
+                     View<Sortie, 1> sorties, Int hold) {
+    const Int end = route.end, before = stop.hold;
+    const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
+    Int found = before, failed = hold, tried = hold;
+    for (Int attempt = 0; attempt <= halvings_with_breaks && found != hold; ++attempt) {
+        stop.hold = tried;
+        const bool done = drive_as_placed(data, route, stops, sorties) && route.end <= end;
+        (done ? found : failed) = tried;
+        tried = (std::max(found, soonest) + failed) >> 1;
+    }
+    stop.hold = found;
+    if (drive_forward(data, route, stops, sorties) && route.end <= end) return true;
+    stop.hold = before;
+    return drive_forward(data, route, stops, sorties);
 }
 
 // Return when truck or drone first leaves the depot on a settled route.
@@ -223,7 +250,19 @@ bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& s
     return price_timed(data, fleet, slot, settled);
 }
 
-// As `price_loaded`, where a driver who begins later may have had breaks before.
+// Return the first instant later than `begin` at which a route had better begin, perhaps: once a
+// break is over, or the speed changes. `far`: there is none.
+Int next_begin(const ProblemData& data, Int k, Int begin) {
+    const VehicleType& type = data.type[k];
+    const Int later = later_begin(type, begin), changes = num_changes(type);
+    if (!limits_timed_travel(type) && !follows_driver(type)) return later;
+    const View<const Int, 1> times = data.profile_time[k];
+    const Int change = changes_until(times, changes, begin);
+    return change < changes ? std::min(later, times[change]) : later;
+}
+
+// As `price_loaded`, where a driver who begins later may have had breaks before, or may not have to
+// rest, or isn't on the way for so long.
 //
 // That is tried where time counts and the route may cost less, `least`, or nothing else goes.
 bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double least,
@@ -234,15 +273,18 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double l
     const Int release = stops[0].release;
     Int begin = std::max(release, type.shift_earliest), chosen = none;
     double best = 0.0;
-    while (true) {
+    bool may_gain = has_breaks(type);
+    for (Int tried = 0;; ++tried) {
         const bool possible = price_loaded(data, fleet, slot, settled);
         if (possible && (chosen == none || fleet.cost[slot] < best)) {
             chosen = begin;
             best = fleet.cost[slot];
+            may_gain = has_breaks(type) || any_rest(type, route);
         }
         const bool is_enough =
-            chosen != none && (!possible || best <= least || !data.evaluation[route.type].timed);
-        const Int later = later_begin(type, begin);
+            chosen != none && (!possible || !may_gain || best <= least ||
+                               !data.evaluation[route.type].timed || tried >= most_begins);
+        const Int later = next_begin(data, route.type, begin);
         if (is_enough || !may_end(type, later)) {
             if (chosen == none || (possible && chosen == begin)) return chosen != none;
             break;
@@ -251,22 +293,6 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double l
     }
     stops[0].release = chosen;
     return price_loaded(data, fleet, slot, settled);
-}
-
-// As `price_loaded`, later in the day if the vehicle would travel too long by slow legs.
-bool price_faster(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
-    if (price_loaded(data, fleet, slot, settled)) return true;
-    const Route& route = fleet.route[slot];
-    const VehicleType& type = data.type[route.type];
-    Stop& start = fleet.stop(slot, 0);
-    const Int release = start.release;
-    for (const Int change : data.profile_time[route.type].first(num_changes(type))) {
-        if (change <= std::max(release, type.shift_earliest)) continue;
-        start.release = change;
-        if (price_loaded(data, fleet, slot, settled)) return true;
-    }
-    start.release = release;
-    return false;
 }
 
 // Write all else that follows from when a route's trips begin, of one that has a price. In place.
@@ -366,9 +392,9 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
     if (may_rest(type)) {
         const double least = least_cost(data, fleet, slot);
         if (least >= bar) return false;
-        if (has_breaks(type)) return price_later(data, fleet, slot, least, settled);
+        if (rests_in_time(type)) return price_later(data, fleet, slot, least, settled);
     }
-    return limits_timed_travel(type) ? price_faster(data, fleet, slot, settled)
+    return limits_timed_travel(type) ? price_later(data, fleet, slot, no_bar, settled)
                                      : price_loaded(data, fleet, slot, settled);
 }
 
@@ -378,7 +404,7 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties) {
-    const bool resting = has_breaks(data.type[route.type]);
+    const bool resting = rests_in_time(data.type[route.type]);
     Int index = 0, again = resting ? settled_again : 0;
     const Int most = lags_count(data) ? halvings_with_lags
                      : resting        ? halvings_with_breaks
@@ -389,6 +415,12 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
         const Int hold = latest_hold(data, route, stops, sorties, trip.first);
         const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
         if (hold <= soonest) continue;
+        if (any_rest(data.type[route.type], route) && follows_driver(data.type[route.type])) {
+            const Int before = stop.hold;
+            if (!settle_followed(data, route, stops, stop, sorties, hold)) return false;
+            if (stop.hold > before && again-- > 0) --index;
+            continue;
+        }
         const Int end = route.end, before = stop.hold;
         Int found = before, failed = hold, tried = hold;
         for (Int attempt = 0; attempt <= most && found != hold; ++attempt) {

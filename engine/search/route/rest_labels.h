@@ -40,10 +40,14 @@ inline bool has_room(const RestLabel& label) {
 
 // Tell whether one is no worse than another, whatever comes. Of drones that are out, who left later
 // lasts longer, but is back later.
-inline bool is_no_worse(const RestLabel& one, const RestLabel& other) {
+//
+// While speeds still change, until `changing`, who is sooner may be on the way for longer, by no
+// more than that.
+inline bool is_no_worse(const RestLabel& one, const RestLabel& other, Int changing) {
+    const Int more = one.time < changing ? other.time - one.time : 0;
     return one.airborne == other.airborne && one.next == other.next && one.time <= other.time &&
            one.waited.excess <= other.waited.excess && one.cum <= other.cum &&
-           one.depart >= other.depart && one.driver.driven <= other.driver.driven &&
+           one.depart >= other.depart && one.driver.driven + more <= other.driver.driven &&
            one.driver.since >= other.driver.since &&
            one.driver.half_rested >= other.driver.half_rested;
 }
@@ -53,7 +57,8 @@ class RestLabels {
 public:
     static constexpr std::size_t all = 48;
 
-    explicit RestLabels(std::size_t most) : most_(most) {}
+    // So many at most, where speeds change until `changing`.
+    RestLabels(std::size_t most, Int changing) : most_(most), changing_(changing) {}
 
     const RestLabel* begin() const { return label_.data(); }
     const RestLabel* end() const { return label_.data() + count_; }
@@ -64,10 +69,10 @@ public:
     bool add(const RestLabel& label) {
         std::size_t kept = 0;
         for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label_[index], label)) return false;
+            if (is_no_worse(label_[index], label, changing_)) return false;
         }
         for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label, label_[index])) continue;
+            if (is_no_worse(label, label_[index], changing_)) continue;
             if (kept != index) label_[kept] = label_[index];
             ++kept;
         }
@@ -87,6 +92,7 @@ public:
 private:
     std::array<RestLabel, all> label_;
     std::size_t most_;
+    Int changing_;
     std::size_t count_ = 0;
 };
 

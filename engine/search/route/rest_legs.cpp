@@ -21,7 +21,7 @@ void RestLegs::ride(const RestLabel& label, const RestedLeg& leg, RestPlace plac
     arriving.arrive();
     come(label, arriving);
     // Who may drive on to the end needs no rest.
-    if (may_need_rest(type_, arriving.driver(), way_.ahead.driving)) {
+    if (route_.may_need_rest(arriving.driver(), way_.ahead)) {
         rest(label, leg, RestPlace::arrival);
     }
 }
@@ -63,7 +63,7 @@ void RestLegs::take(RestLabel next, const RestedLeg& leg, Int number, RestPlace 
         come(next, rested);
         take_break(next, rested, place);
         const bool may_again = number == first_part || is_stated(number);
-        if (may_again && may_need_rest(type_, rested.driver(), way_.ahead.driving)) {
+        if (may_again && route_.may_need_rest(rested.driver(), way_.ahead)) {
             rest(next, rested, place);
         }
     }

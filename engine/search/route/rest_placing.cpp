@@ -24,7 +24,8 @@ constexpr std::size_t few = 12;
 // Two rows of labels: where somebody is, and where that comes.
 class TwoRows {
 public:
-    explicit TwoRows(std::size_t most) : row_{RestLabels(most), RestLabels(most)} {}
+    TwoRows(std::size_t most, Int changing)
+        : row_{RestLabels(most, changing), RestLabels(most, changing)} {}
 
     RestLabels& there() { return row_[there_]; }
 
@@ -50,8 +51,8 @@ public:
           sorties_(route.sorties),
           best_(best),
           taken_(taken),
-          rows_(most),
-          inside_(most) {}
+          rows_(most, route.truck.speeds.last_change()),
+          inside_(most, route.truck.speeds.last_change()) {}
 
     // Follow all ways that may be best to the end.
     void run() {
@@ -167,6 +168,7 @@ private:
         sums.oldest = sortie_;
         sums.launched = launched_;
         sums.first_sortie = first_of_trip_;
+        sums.driver = reached.driver;
         const bool done = time_block(route_.truck, stops_, sorties_, first, sums) == last;
         return done || q < last ? stops_[q].leave : far;
     }
@@ -204,8 +206,9 @@ Int resting_in_gap(const VehicleType& type, const Stop& stop) {
 
 Int driving_from(const ProblemData& data, const VehicleType& type, View<const Stop, 1> stops,
                  Int p) {
-    return stops[p].gap - resting_in_gap(type, stops[p]) -
-           setup_after(data.setup, stops[p].node, stops[p + 1].node);
+    const Int setup =
+        is_steady(type) ? setup_after(data.setup, stops[p].node, stops[p + 1].node) : 0;
+    return stops[p].gap - resting_in_gap(type, stops[p]) - setup;
 }
 
 void forget_rests(const VehicleType& type, Stop& stop) {

@@ -67,7 +67,12 @@ public:
 
     // Return the leg for a driver who leaves so.
     RestedLeg leg_of(const RestLabel& label, const Way& way) const {
-        return {type, truck.begin, label.driver, label.time, way.duration};
+        return {truck.speeds, truck.begin, label.driver, label.time, way.duration};
+    }
+
+    // Whether a driver may have to rest again who has so much ahead.
+    bool may_need_rest(const Driver& driver, const Ahead& ahead) const {
+        return tandem::may_need_rest(type, driver, truck.speeds.most(ahead.driving, stops.size()));
     }
 
     // Write a stop without flights that is reached at an instant. In place; false if too late.

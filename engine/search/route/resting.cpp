@@ -71,13 +71,15 @@ Int slack_of_begin(const ProblemData& data, const Route& route, View<const Stop,
     return std::min(slack, waited);
 }
 
-// As `drive_by_rules`, of a driver who has breaks, too.
-bool drive_with_breaks(const ProblemData& data, Route& route, View<Stop, 1> stops,
+// As `drive_by_rules`, where times hang on where breaks and rests are.
+bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stops,
                        View<Sortie, 1> sorties) {
     const VehicleType& type = data.type[route.type];
+    route.driving = 0;
     const bool driven = drive_as_placed(data, route, stops, sorties);
     if (driven) {
-        const Int driving = driving_on(data, type, stops.first(route.length));
+        const Int driving =
+            follows_driver(type) ? route.travel : driving_on(data, type, stops.first(route.length));
         const Int begin = counted_begin(type, begin_of(type, stops));
         if (!any_break_due(type, route, stops) && needs_no_rest(type, driving, route.end - begin)) {
             route.driving = driving;
@@ -110,7 +112,7 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
                     View<Sortie, 1> sorties) {
     const VehicleType& type = data.type[route.type];
     clear_rests(type, stops.first(route.length));
-    if (has_breaks(type)) return drive_with_breaks(data, route, stops, sorties);
+    if (rests_in_time(type)) return drive_with_pauses(data, route, stops, sorties);
     if (!drive_as_placed(data, route, stops, sorties)) return false;
     const Int driving = driving_on(data, type, stops.first(route.length));
     const Int soonest = counted_begin(type, begin_of(type, stops));

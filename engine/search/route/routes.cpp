@@ -58,10 +58,10 @@ double vehicle_cost_on(const ProblemData& data, const Route& route, View<const S
 // Return how long the truck is on its legs, whose times are known.
 Int timed_travel(const Truck& truck, View<const Stop, 1> stops) {
     Int travel = 0;
+    Driver driver = driver_from(truck.type, truck.begin);
     for (Int p = 0; p + 1 < stops.size(); ++p) {
         if (stops[p].kind == end_stop) continue;
-        travel += driven_on_leg(truck.type, Rests(stops[p].rests), truck.begin, stops[p].leave,
-                                truck.legs_end(stops[p], stops[p + 1].node));
+        travel += truck.drive(stops[p], stops[p + 1].node, driver);
     }
     return travel;
 }
@@ -162,6 +162,8 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     sorties = sorties.first(count);
     Int time = truck.type.shift_earliest, cum = 0, depart = far;
     BlockSums sums;
+    sums.driver = driver_from(truck.type, truck.begin);
+    const bool rested = truck.follows && any_rest(truck.type, route);
     make_ready(truck, stops, sorties);
     Int p = 0, s = 0;
     while (p < length) {
@@ -204,9 +206,11 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
         } else {
             const Int next = stops[last + 1].node;
             time = truck.travel(behind.node, next, behind.gap, {none, leave}).c;
-            if (truck.resting && behind.rests != 0) {
-                time = truck.come(behind, next, leave);
-                if (time == far) return false;
+            if (truck.pauses(behind)) {
+                time = truck.come(behind, next, leave, sums.driver);
+                if (time == far || (rested && may_drive(truck.type, sums.driver, time) < 0)) {
+                    return false;
+                }
             }
         }
         cum += behind.gap;
@@ -216,7 +220,7 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     route.end = stops[length - 1].leave;
     route.cum = stops[length - 1].cum;
     route.awaited = sums.awaited;
-    if (!limits_timed_travel(truck.type)) return true;
+    if (!truck.follows && !limits_timed_travel(truck.type)) return true;
     route.travel = timed_travel(truck, stops);
     return may_travel(truck.type, route.travel);
 }

@@ -214,8 +214,9 @@ def _breaks(kind: Any, halts: Sequence[Stop], rows: Records, trip: tuple[int, in
     first, last = trip
     rests, taken = rows["rests"].tolist(), list[TakenBreak]()
     for place in range(first, last):
-        setup = halts[place + 1].setup if kind.speed_changes == NO_PROFILE else 0
-        duration = int(rows[place]["gap"]) - setup - resting_in_gap(kind, rests[place])
+        duration = int(rows[place]["gap"])
+        if kind.speed_changes == NO_PROFILE:
+            duration -= halts[place + 1].setup + resting_in_gap(kind, rests[place])
         taken += [TakenBreak(number, place - first, PLACES[where], arrival, start, end)
                   for number, where, arrival, start, end in broken.drive(
                       rests[place], halts[place].departure, duration)]

@@ -11,7 +11,9 @@ from model.engine.instance import pack
 from model.judge.breaks import BreakDecision, window_of
 from model.judge.check import check
 from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
-from model.problem import REST, UNLIMITED, DrivingRules, DroneType, Problem, VehicleType
+from model.problem import (
+    FULL_SPEED, REST, UNLIMITED, DrivingRules, DroneType, Problem, SpeedProfile, VehicleType,
+)
 from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
@@ -158,6 +160,30 @@ def test_search_finds_the_cheapest_plan_with_rests(seed: int, beside: bool) -> N
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
+def slowed(seed: int) -> Problem:
+    """Draw two customers and a truck whose driver has to rest, and drives slowly at times."""
+    rng = np.random.default_rng([seed, 5])
+    problem = short_day(rng, lambda truck: replace(truck, driving=replace(
+        drawn_rules(rng), split=(), half_rested_before=False)))
+    times = tuple((np.cumsum(rng.integers(2, 12, 2)) * MINUTE).tolist())
+    factors = tuple([FULL_SPEED // int(share) for share in rng.permutation([1, 2, 4])])
+    kind = replace(problem.vehicle_types[0], speed_profile=SpeedProfile(times, factors))
+    customers = problem.customers if seed % 2 else tuple([
+        replace(each, earliest=0, latest=UNLIMITED) for each in problem.customers])
+    return replace(problem, customers=customers, vehicle_types=(kind,))
+
+
+@pytest.mark.parametrize(("seed", "cheapest"), [
+    (7, 14.72), (11, 8.92), (20, 19.34), (34, 75.36), (38, 3.86)])
+def test_search_finds_when_to_leave_and_to_rest_by_slow_hours(seed: int, cheapest: float) -> None:
+    """Compare with the cheapest of all ways to rest twice that end first, begun at each minute."""
+    problem = slowed(seed)
+    found = improve(problem, pack([problem]), Solution((), (1, 2)),
+                    SearchConfig(turns=100)).solution
+    assert check(problem, found).cost.total <= cheapest + 1e-6
+    rests_by_law(problem, found)
+
+
 def with_a_drone(rng: np.random.Generator) -> Problem:
     """Draw a customer for a truck, whose driver has to rest, and one for its drone."""
     problem = short_day(rng, lambda truck: replace(truck, driving=drawn_rules(rng)))
@@ -238,7 +264,7 @@ def rests_by_law(problem: Problem, plan: Solution) -> int:
 
 
 def test_rollouts_and_search_keep_driving_rules() -> None:
-    rolled = searched = flown = 0
+    rolled = searched = flown = slow = 0
     for seed in range(120):
         problem = mixed(seed)
         instance, nodes = pack([problem]), range(problem.num_depots, problem.num_nodes)
@@ -250,8 +276,12 @@ def test_rollouts_and_search_keep_driving_rules() -> None:
                         SearchConfig(turns=100)).solution
         searched += rests_by_law(problem, found)
         flown += inside_flights(found)
+        slow += sum(taken.number == REST for each in (plan, found) for route in each.routes
+                    if problem.vehicle_types[route.vehicle_type].speed_profile
+                    for trip in route.trips for taken in trip.breaks)
     assert rolled > 30
     assert searched > 15
+    assert slow > 5
     assert flown > 3
 
 

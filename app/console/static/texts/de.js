@@ -1669,7 +1669,6 @@ export default {
     TOO_FEW_VEHICLES: 'Es sollen mehr Fahrzeuge fahren, als es gibt.',
     RELATION_WITH: 'Das geht nicht mit einer Reihenfolge, oder sagt ohne eine nichts.',
     UNKNOWN_BREAK: 'Diese Pause hat niemand.',
-    DRIVING_RULES_WITH: 'Das lässt sich neben Lenkzeitregeln noch nicht planen.',
     MISSING_BREAK_DURATION: 'Wie lang eine Pause ist, steht nicht da.',
     LOCATION_OFF_GLOBE:
       'Diesen Ort gibt es nicht: Die Länge ist höchstens 180, die Breite höchstens 90 Grad.',

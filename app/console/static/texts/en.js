@@ -1644,7 +1644,6 @@ export default {
     TOO_FEW_VEHICLES: 'More vehicles are to be used than there are.',
     RELATION_WITH: 'This can’t be combined with an order of customers, or says nothing without one.',
     UNKNOWN_BREAK: 'No driver has this break.',
-    DRIVING_RULES_WITH: 'This can’t be planned beside driving rules yet.',
     MISSING_BREAK_DURATION: 'How long a rest is isn’t stated.',
     LOCATION_OFF_GLOBE:
       'This place is not on the globe: longitude is at most 180, latitude at most 90 degrees.',
