@@ -1488,6 +1488,9 @@ int tandem_give_up_route(const tandem_problem_data* data, const tandem_searcher*
    were, or the best. */
 int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t rounds,
                  int64_t* made, int64_t* done);
+/* Move or exchange so many shipments at random, where all are served and rules are kept. */
+int tandem_move_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,
+                          int64_t moves);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */

@@ -9,7 +9,10 @@ ejection search for the pickup and delivery problem with time windows, EURO Jour
 Transportation and Logistics 7:151-192.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+
+import numpy as np
 
 from model.engine.alarm import Alarm
 from model.engine.library import call
@@ -17,7 +20,19 @@ from model.problem import UNLIMITED
 from model.search.limits import Span
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
+from model.search.sharing import go_on_from_best
 from model.search.worker import Worker
+
+MOST_STARTS, TURNS_A_START, STARTS_UNTIL = 5, 25, 0.9
+"""How often the rest of a search begins from the plan by the fewest vehicles, its shipments moved
+at random; turns for each customer of one; and the share of the search until which it does. Where
+vehicles are few no turn leads from some plans to others."""
+
+HOT_OF_STARTS = 3.0
+"""First temperature of each by the cost of a leg."""
+
+MOVES = 20
+"""Random moves before each but the first, by customers."""
 
 MOST_ROUNDS = 10**9
 """More than there is time for."""
@@ -60,3 +75,25 @@ def by_ejection(data: ProblemData, searcher: Searcher, workers: list[Worker],
         return bool(done)
 
     return eject if can_eject(data) else None
+
+
+def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) -> Iterator[Span]:
+    """Yield the parts of the rest of a search, each going on from the best plan. In place."""
+    first, limits = workers[0], workers[0].limits
+    share, number = limits.share(first.turns), 0
+    if can_eject(data):
+        number = min(MOST_STARTS, int((STARTS_UNTIL - share) * first.expected() / TURNS_A_START))
+    if number > 1:
+        for worker in workers:
+            worker.heat = replace(worker.heat, hot=worker.heat.hot or HOT_OF_STARTS)
+        for end in np.linspace(share, STARTS_UNTIL, number + 1)[1:].tolist():
+            span = Span(limits.share(first.turns), end, 1.0)
+            if limits.over(first.turns, span):
+                continue
+            if span.begin > share:
+                go_on_from_best(data, searcher)
+                call("tandem_move_shipments", data, searcher, MOVES * data.num_nodes)
+            yield span
+        go_on_from_best(data, searcher)
+    if not limits.over(first.turns):
+        yield Span(limits.share(first.turns), 1.0, 1.0)

@@ -18,7 +18,7 @@ from model.search.beginning.packing import (
     comes_by_trips, packed_anew, packed_plan, timed, with_single_trips,
 )
 from model.search.beginning.translate import best_plan, make_searcher
-from model.search.ejection import by_ejection
+from model.search.ejection import by_ejection, spans_of_rest
 from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
@@ -358,8 +358,8 @@ def _search_by_fewer(team: _Team, data: ProblemData, crew: Crew) -> None:
     if not team.over(span):
         search_fewer(data, team.whole, lambda: team.search(crew, span, rounds=1),
                      lambda: team.over(span), by_ejection(data, team.whole, team.workers, span))
-    if not team.over():
-        team.search(crew, Span(team.limits.share(first.turns), 1.0, 1.0))
+    for rest in spans_of_rest(data, team.whole, team.workers):
+        team.search(crew, rest)
 
 
 def _trucks_come_first(problem: Problem, moves: Moves) -> bool:

@@ -50,6 +50,13 @@ public:
         return pool_.empty() && write();
     }
 
+    // Moves so many shipments at random, as far as the search may go on. False if that fails.
+    bool shuffle(Int moves) {
+        if (slots_.empty() || !pool_.empty() || !read()) return false;
+        for (Int moved = 0; moved < moves && !data_.deadline.passed(); ++moved) move_any();
+        return write();
+    }
+
     // How many rounds there were.
     Int made() const { return made_; }
 
@@ -135,7 +142,7 @@ private:
         for (const Int node : row.node) {
             if (node >= data_.num_depots && data_.pair[node].unit == node) pickups.push_back(node);
         }
-        shuffle(pickups);
+        mix(pickups);
         ranked_.clear();
         for (const Int pickup : pickups) {
             ranked_.push_back({trouble_[std::size_t(pickup)], Int(ranked_.size()), pickup});
@@ -146,7 +153,7 @@ private:
     }
 
     template <class T>
-    void shuffle(std::vector<T>& items) const {
+    void mix(std::vector<T>& items) const {
         for (Int index = Int(items.size()) - 1; index > 0; --index) {
             std::swap(items[std::size_t(index)],
                       items[std::size_t(below(searcher_.rng, index + 1))]);
@@ -159,7 +166,7 @@ private:
         best.trouble = trouble_[std::size_t(pickup)];
         order_.resize(row_.size());
         std::iota(order_.begin(), order_.end(), Int{0});
-        shuffle(order_);
+        mix(order_);
         for (const Int index : order_) {
             const PairRow& row = row_[std::size_t(index)];
             list_pickups(row, pickups_);
@@ -301,5 +308,14 @@ extern "C" int tandem_eject(const tandem_problem_data* data, const tandem_search
         Ejection ejection(problem, working);
         *done = ejection.run(rounds) ? 1 : 0;
         *made = ejection.made();
+    });
+}
+
+extern "C" int tandem_move_shipments(const tandem_problem_data* data,
+                                     const tandem_searcher* searcher, int64_t moves) {
+    return guarded([&] {
+        const ProblemData problem = data_of(*data);
+        Searcher working = searcher_of(*searcher);
+        Ejection(problem, working).shuffle(moves);
     });
 }

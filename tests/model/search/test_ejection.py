@@ -13,6 +13,7 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import best_plan, make_searcher
 from model.search.ejection import can_eject
 from model.search.problem_data import make_data
+from model.search.route.engine import ANY, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.solution import Solution
@@ -66,6 +67,19 @@ def test_routes_stay_where_not_all_can_be_served() -> None:
     assert not call("tandem_eject", data, searcher, 50)[1]
     assert (searcher.now.route["length"] == routes).all()
     assert int(searcher.count.missing) == missing
+
+
+def test_shipments_are_moved_at_random_within_rules() -> None:
+    problem = planted(2, 4, True)
+    data, searcher = begun(problem)
+    before, best = float(searcher.value.cost), float(searcher.value.best)
+    call("tandem_move_shipments", data, searcher, 200)
+    assert float(searcher.value.cost) != before
+    assert int(searcher.count.missing) == 0
+    assert float(searcher.value.best) <= best
+    anneal(data, searcher, 50, ANY)
+    plan = best_plan(data, searcher, range(data.num_nodes))
+    assert check(problem, plan).violations == ()
 
 
 def _truck(problem: Problem, **changes: object) -> VehicleType:
