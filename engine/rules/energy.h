@@ -55,6 +55,11 @@ inline Int time_charged(const VehicleType& type, Int kept, Int since, Int left) 
     return since + (missing + type.charge - 1) / type.charge;
 }
 
+// How long it takes to have so much more, charged at full power while less is taken at another.
+inline Int time_to_gain(const VehicleType& type, Int missing, Int saved) {
+    return missing > 0 ? (missing + type.charge + saved - 1) / (type.charge + saved) : 0;
+}
+
 // A power with so much aboard, rounded down.
 inline Int power_at(const VehicleType& type, const Int* powers, Int weight) {
     const Int* weights = type.weights;

@@ -83,6 +83,14 @@ public:
         return over > 0 ? (over + strongest_ - 1) / strongest_ : 0;
     }
 
+    // By how much later it has to begin at least than at `start` for a battery that is charged
+    // since `before`, at most 0 if it needn't: it then waits less, too.
+    Int excess_of_charge(const Charge& before, Int start) const {
+        if (left() < 0) return 0;
+        const Int there = charged(type_, before.kept, before.since, start);
+        return time_to_gain(type_, battery_of(type_) - left() - there, strongest_);
+    }
+
 private:
     static constexpr Int endless = Int{1} << 60;  // more than any battery holds
 

@@ -89,6 +89,15 @@ public:
         return as_late(arrival);
     }
 
+    // The first arrival after `arrival` that meets another window; `far` if none does.
+    Int next_closing(Int arrival) const {
+        for (Int gap = 1; gap < rows_.size(); ++gap) {
+            const Int closes = rows_[gap].window_latest;
+            if (arrival <= closes) return closes == far ? far : closes + 1;
+        }
+        return far;
+    }
+
     // The last arrival that starts by `start`, which is no earlier than the first opening. Who
     // would come between two windows has to come while the one before is open.
     Int no_later_than(Int start) const {

@@ -7,6 +7,7 @@
 #include "rules/driving.h"
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/holding.h"
 #include "rules/hours.h"
 #include "rules/load.h"
 #include "rules/shift.h"
@@ -136,13 +137,14 @@ void note_times(OpenVehicle& open) {
     }
 }
 
-// Let the trip begin no earlier than `release`; false if it can't be held so long.
-bool hold_trip(OpenVehicle& open, Int release) {
+// Let the trip begin no earlier than `release`.
+Retimed hold_trip(OpenVehicle& open, Int release) {
     auto& [setting, vehicle, log, drones] = open;
     LoggedTrip& trip = log.trip[log.count.trips - 1];
     trip.release = std::max(trip.release, release);
-    if (trip.start >= release) return true;
-    if (!retime(setting, log, log.count.trips - 1, release)) return false;
+    if (trip.start >= release) return Retimed::kept;
+    const Retimed held = retime(setting, log, log.count.trips - 1, release);
+    if (held != Retimed::kept) return held;
     note_charges(setting, log, drones);
     note_times(open);
     for (Drone& drone : drones) {
@@ -151,24 +153,23 @@ bool hold_trip(OpenVehicle& open, Int release) {
         drone.ready = log.sortie[drone.sortie].ready;
     }
     if (log.count.trips == 1) vehicle.start_best = std::max(vehicle.start_best, release);
-    return true;
+    return Retimed::kept;
 }
 
 // Hold the trip until nothing lasts too long, and no storm is met; false if that can't be.
 bool keep_fresh(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
     if (!holds_count(setting)) return true;
-    bool held = true;
-    Int excess = most_excess(setting, log);
+    Retimed held = Retimed::kept;
+    Holding holding;
     while (true) {
-        const Int wait = excess > 0 ? excess : waits_for_calm(setting, log);
-        if (wait == 0) return held;
-        if (wait == far) return false;
+        const Int excess = most_excess(setting, log);
+        const Int wait = excess > 0 ? holding.wait(excess, time_to_turn(setting, log))
+                                    : waits_for_calm(setting, log);
+        if (wait == 0) return held == Retimed::kept;
+        if (wait == far || held == Retimed::too_late) return false;
         // Drones that don't last then may do if the trip is held even longer.
         held = hold_trip(open, log.trip[log.count.trips - 1].start + wait);
-        const Int left = most_excess(setting, log);
-        if (excess > 0 && left >= excess) return false;
-        excess = left;
     }
 }
 
@@ -234,7 +235,7 @@ bool launch(OpenVehicle& open, Int node) {
     if (vehicle.idle != 0) {
         begin_trip(open, release);
         note_charges(setting, log, drones);
-    } else if (!hold_trip(open, release)) {
+    } else if (hold_trip(open, release) != Retimed::kept) {
         return false;
     }
     const Int chosen = next_drone(setting, log, vehicle, drones, node);
@@ -275,7 +276,7 @@ bool drive(OpenVehicle& open, Int node) {
     const Windows place = setting.node[node];
     if (vehicle.idle != 0) {
         begin_trip(open, release_of(place));
-    } else if (is_customer && !hold_trip(open, release_of(place))) {
+    } else if (is_customer && hold_trip(open, release_of(place)) != Retimed::kept) {
         return false;
     }
     const auto [left, arrival, free, rests] = leave_for(setting, log, vehicle, drones, node);

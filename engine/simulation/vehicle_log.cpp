@@ -7,6 +7,7 @@
 #include "rules/drone_types.h"
 #include "rules/energy.h"
 #include "rules/flight.h"
+#include "rules/holding.h"
 #include "rules/hours.h"
 #include "rules/load.h"
 #include "rules/shift.h"
@@ -64,10 +65,15 @@ Stops stops_of(const VehicleLog& log, Int trip) {
     return {log.trip[trip].first_stop, is_last ? log.count.stops : log.trip[trip + 1].first_stop};
 }
 
-// What a trip takes of who flies by itself, whose stops are reached when `arrival_at` says.
-template <class ArrivalAt>
+// How long a vehicle waits at a stop, for a window or for others, by the log.
+Int waiting_at(const VehicleLog& log, Int index) {
+    return log.stop[index].start - log.stop[index].arrival;
+}
+
+// What a trip takes of who flies by itself, and waits at stops as long as `waiting` says.
+template <class Waiting>
 FlownTrip follow_trip(const Setting& setting, const VehicleLog& log, Int trip,
-                      const ArrivalAt& arrival_at) {
+                      const Waiting& waiting) {
     const auto [first, behind] = stops_of(log, trip);
     const auto served = [&](Int index) { return log.stop[index].node >= setting.num_depots; };
     Int weight = 0;
@@ -80,7 +86,7 @@ FlownTrip follow_trip(const Setting& setting, const VehicleLog& log, Int trip,
         const Int duration = setting.drive(log.stop[index - 1].node, node);
         if (served(index)) {
             const Windows place = setting.node_by_air[node];
-            flown.fly_to(place, duration, index == first + 1, place.waiting(arrival_at(index)));
+            flown.fly_to(place, duration, index == first + 1, waiting(index));
         } else {
             flown.fly_home(duration, index == first + 1);
         }
@@ -95,7 +101,7 @@ Charge charge_before(const Setting& setting, const VehicleLog& log, Int trip) {
     for (Int before = 0; before < trip; ++before) {
         const auto [first, behind] = stops_of(log, before);
         const FlownTrip flown =
-            follow_trip(setting, log, before, [&](Int index) { return log.stop[index].arrival; });
+            follow_trip(setting, log, before, [&](Int index) { return waiting_at(log, index); });
         const Int there = charged(type, charge.kept, charge.since, log.stop[first].leave);
         charge = {there - (battery_of(type) - flown.left()), log.stop[behind - 1].leave};
     }
@@ -141,7 +147,7 @@ public:
             }
         }
         if (bounds_trips(setting.type)) {
-            arrivals_.resize(static_cast<std::size_t>(log.count.stops));
+            waits_.resize(static_cast<std::size_t>(log.count.stops));
         }
     }
 
@@ -160,11 +166,15 @@ public:
             if (!run_trip(trip, start)) return false;
             if (bounds_trips(setting_.type) && !lasts(trip, start)) return false;
         }
+        in_time_ = true;
         return lasting_ && (!counts || may_travel(setting_.type, travel_)) &&
                (writes || !follows || may_still_work(setting_.type, driver_, leave_)) &&
                (writes || leave_ <= log_.stop[log_.count.stops - 1].leave) &&
                (setting_.lag.empty() || starts().keep_lags(setting_));
     }
+
+    // Whether nobody came too late, once it has run.
+    bool in_time() const { return in_time_; }
 
 private:
     // When service begins, as tried.
@@ -180,7 +190,7 @@ private:
     bool lasts(Int trip, Int start) {
         const VehicleType& type = setting_.type;
         const FlownTrip flown = follow_trip(setting_, log_, trip, [&](Int index) {
-            return arrivals_[static_cast<std::size_t>(index)];
+            return waits_[static_cast<std::size_t>(index)];
         });
         // In the calm that is known, if that counts, so that all between is allowed as well.
         const Int known = writes ? start : log_.trip[trip].start;
@@ -230,7 +240,6 @@ private:
 
     bool run_stop(Int index, Int arrival) {
         LoggedStop& stop = log_.stop[index];
-        if (!arrivals_.empty()) arrivals_[static_cast<std::size_t>(index)] = arrival;
         const bool is_depot = stop.node < setting_.num_depots;
         const bool comes_back = is_depot && index > first_;
         const Int there =
@@ -245,6 +254,7 @@ private:
                 before = stop.start;
             }
             service_start = place.start_of_service(ready);
+            if (!waits_.empty()) waits_[static_cast<std::size_t>(index)] = service_start - arrival;
             if (!is_allowed(place, ready, before)) return false;
             if (!writes && aboard_too_long(stop.node, departure_, service_start)) return false;
             leave_ = place.end_of_service(ready);
@@ -407,13 +417,13 @@ private:
     Int begin_ = 0;   // of the route
     Int travel_ = 0;  // on legs, where that hangs on when they are driven
     Driver driver_{};
-    bool lasting_ = true;
+    bool lasting_ = true, in_time_ = false;
     // Of the trip: its first stop, the launches so far, the first instant at which any has left.
     Int first_ = 0;
     Int launched_ = 0;
     Int departure_ = far;
-    // Of who flies by itself: when each stop is reached, and how the battery is after a trip.
-    std::vector<Int> arrivals_;
+    // Of who flies by itself: how long each stop is waited at, and how the battery is after a trip.
+    std::vector<Int> waits_;
     std::vector<Int> served_;  // (stop,) where shipments may be under way for so long
     std::optional<Charge> charge_;
     std::vector<Int> starts_;  // (stop,) where lags count
@@ -425,8 +435,10 @@ private:
 
 }  // namespace
 
-bool retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start) {
-    return Replay<true>(setting, log).run(first_trip, start);
+Retimed retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start) {
+    Replay<true> replay(setting, log);
+    if (replay.run(first_trip, start)) return Retimed::kept;
+    return replay.in_time() ? Retimed::too_long : Retimed::too_late;
 }
 
 bool costs_nothing(const Setting& setting, VehicleLog& log, Int first_trip, Int start) {
@@ -493,11 +505,10 @@ Int excess_in_air(const Setting& setting, const VehicleLog& log) {
     Int most = log.stop[behind - 1].leave - start - longest_in_air(type);
     if (!is_limited(type)) return most;
     const FlownTrip flown =
-        follow_trip(setting, log, trip, [&](Int index) { return log.stop[index].arrival; });
+        follow_trip(setting, log, trip, [&](Int index) { return waiting_at(log, index); });
     most = std::max(most, flown.excess());
-    if (charges_between_trips(type) && flown.left() >= 0) {
-        const Charge before = charge_before(setting, log, trip);
-        most = std::max(most, time_charged(type, before.kept, before.since, flown.left()) - start);
+    if (charges_between_trips(type)) {
+        most = std::max(most, flown.excess_of_charge(charge_before(setting, log, trip), start));
     }
     return most;
 }
@@ -552,6 +563,27 @@ Int most_excess(const Setting& setting, const VehicleLog& log) {
     }
     if (bounds_trips(setting.type)) most = std::max(most, excess_in_air(setting, log));
     return most;
+}
+
+Int time_to_turn(const Setting& setting, const VehicleLog& log) {
+    const Int first = log.trip[log.count.trips - 1].first_stop;
+    Int soonest = far;
+    for (Int index = first + 1; index < log.count.stops; ++index) {
+        const LoggedStop& before = log.stop[index - 1];
+        const auto& [node, arrival, start, leave, rests] = log.stop[index];
+        const Int driven = arrival - setup_beside(setting.type, setting.setup, before.node, node);
+        soonest = std::min(soonest,
+                           time_to_turn(setting.type, setting.profile_time, before.leave, driven));
+        if (node < setting.num_depots) continue;
+        const Int open = setting.across.empty() ? none : span_of(setting, node).soonest;
+        soonest = std::min(soonest, time_to_turn(setting.node[node], arrival, open));
+    }
+    for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
+        if (sortie.launch_stop < first) continue;
+        const Windows place = drone_kind_of(setting, sortie.row).node[sortie.node];
+        soonest = std::min(soonest, time_to_turn(place, sortie.arrival, none));
+    }
+    return soonest;
 }
 
 Int latest_start(const Setting& setting, VehicleLog& log, Int trip, Int known) {

@@ -159,11 +159,14 @@ inline Int unpaid_in(const Setting& setting, const VehicleLog& log) {
     return unpaid;
 }
 
+// Whether all rules hold of trips timed anew: who comes too late won't be sooner if they begin
+// later; what lasts too long may do less.
+enum class Retimed { kept, too_late, too_long };
+
 // Time the trips from `first_trip` on, the first begun at `start`, all else without delay.
 //
-// The log takes new times, void if a hard window doesn't hold; the result tells whether endurance
-// holds, too.
-bool retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
+// The log takes new times, void if somebody comes too late.
+Retimed retime(const Setting& setting, VehicleLog& log, Int first_trip, Int start);
 
 // Tell whether a later start of `first_trip` costs nothing: no more lateness, no longer sortie, no
 // later end than logged, and no parcel too long aboard. Writes trial times of sorties alone.
@@ -178,6 +181,9 @@ inline bool holds_count(const Setting& setting) {
 // By how much later the last trip has to begin, so that no parcel is too long aboard, and nobody
 // who flies by itself too long in the air; at most 0 if it needn't, `far` if that doesn't help.
 Int most_excess(const Setting& setting, const VehicleLog& log);
+
+// In how much time the last trip, begun later, meets other windows or speeds; `far` if never.
+Int time_to_turn(const Setting& setting, const VehicleLog& log);
 
 // How much later the last trip of who flies by itself has to begin for calm; 0 if it needn't, `far`
 // if that doesn't help.

@@ -168,10 +168,11 @@ def _fleet_violations(problem: Problem, solution: Solution) -> Iterator[Violatio
             continue
         vehicle_type = problem.vehicle_types[route.vehicle_type]
         if not 0 <= route.vehicle < vehicle_type.count:
-            message = f"vehicle {route.vehicle} of {vehicle_type.count} of {vehicle_type.id}"
+            message = (f"there is no {vehicle_type.vehicle_name(route.vehicle)}: "
+                       f"{vehicle_type.id} has {vehicle_type.count}")
             yield Violation("COUNT", message, f"routes[{index}]")
         if (route.vehicle_type, route.vehicle) in used:
-            message = f"vehicle {route.vehicle} of {vehicle_type.id} has another route"
+            message = f"{vehicle_type.vehicle_name(route.vehicle)} has another route"
             yield Violation("COUNT", message, f"routes[{index}]")
         used.add((route.vehicle_type, route.vehicle))
         if len(route.trips) > vehicle_type.max_trips:
@@ -216,9 +217,10 @@ def _unreadable_stops(problem: Problem, trip: Trip, path: str) -> Iterator[Viola
         if not 0 <= node < end:
             yield Violation("UNKNOWN_NODE", f"no node {node}", stop_path)
         elif node < first:
-            yield Violation("DEPOT", f"depot {node} amid a trip", stop_path)
+            yield Violation("DEPOT", f"{problem.place_at(node).id} amid a trip", stop_path)
         else:
-            yield Violation("DEPOT", f"node {node} is no depot to begin or end at", stop_path)
+            message = f"{problem.place_at(node).id} is no depot to begin or end at"
+            yield Violation("DEPOT", message, stop_path)
 
 
 def _unreadable_breaks(vehicle_type: VehicleType, trip: Trip, path: str) -> Iterator[Violation]:
@@ -256,10 +258,11 @@ def _unreachable(problem: Problem, flyer: DroneType | VehicleType,
     for leg in legs:
         if not all(0 <= node < problem.num_nodes for node in leg):
             return
+        places = " to ".join(problem.place_at(node).id for node in leg)
         if UNREACHABLE in (travel.duration.item(*leg), travel.distance.item(*leg)):
-            yield Violation("UNREACHABLE", f"no flight from node {leg[0]} to {leg[1]}", path)
+            yield Violation("UNREACHABLE", f"no flight from {places}", path)
         elif drives and travel.duration.item(*leg) >= MAX_QUANTITY:
-            yield Violation("UNREACHABLE", f"no way from node {leg[0]} to {leg[1]}", path)
+            yield Violation("UNREACHABLE", f"no way from {places}", path)
 
 
 def _mismatches(stated: Trip, timed: Trip, path: str) -> Iterator[Violation]:

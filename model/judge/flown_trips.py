@@ -89,8 +89,8 @@ def excess_in_air(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     if energy is None or energy.lands:
         return excess
     over = (trip_energy(problem, kind, trip) or 0) - energy.available
-    most = power_at(energy, energy.hover, max(weights_aboard(
-        problem, energy, [stop.node for stop in trip.stops[1:-1]])))
+    most = max(power_at(energy, energy.hover, weight) for weight in weights_aboard(
+        problem, energy, [stop.node for stop in trip.stops[1:-1]]))
     return max(excess, -(-over // most)) if most else excess
 
 

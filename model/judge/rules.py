@@ -207,7 +207,7 @@ def _drone_busy(timed: TimedTrip) -> Iterator[Violation]:
                 flying.discard(drone)
             elif drone in flying:
                 path = f"{timed.path}.sorties[{index}]"
-                yield Violation("DRONE_BUSY", f"drone {drone} is still on a sortie", path)
+                yield Violation("DRONE_BUSY", f"drone-{drone + 1} is still on a sortie", path)
             else:
                 flying.add(drone)
 
@@ -237,7 +237,7 @@ def _sortie_violations(
     vehicle_type = problem.vehicle_types[kind]
     drones, count = vehicle_type.drone_type(sortie.drone), vehicle_type.num_drones
     if not 0 <= sortie.drone < count:
-        yield Violation("COUNT", f"drone {sortie.drone} of {count}", path)
+        yield Violation("COUNT", f"there is no drone-{sortie.drone + 1}: it has {count}", path)
     if not 1 <= len(sortie.visits) <= drones.max_customers_per_sortie:
         message = f"{len(sortie.visits)} customers, 1 to {drones.max_customers_per_sortie} allowed"
         yield Violation("SORTIE_SIZE", message, path)
@@ -318,7 +318,7 @@ def airborne_duration(problem: Problem, drones: DroneType, trip: Trip, sortie: S
     return last.departure + homeward - sortie.launch_time
 
 
-def _place_violations(vehicle_type: VehicleType, trips: list[TimedTrip],
+def _place_violations(problem: Problem, vehicle_type: VehicleType, trips: list[TimedTrip],
                       has_begun: bool) -> Iterator[Violation]:
     """Each trip begins where the one before ended, at a depot; the outer ends have places.
 
@@ -331,10 +331,12 @@ def _place_violations(vehicle_type: VehicleType, trips: list[TimedTrip],
         if index == len(trips) - 1:
             ends = [vehicle_type.ends_at, *(ends if has_begun else ())]
         if first != begin:
-            message = f"{vehicle_type.id} begins the trip at depot {begin}, not {first}"
+            message = (f"{vehicle_type.id} begins the trip at {problem.place_at(begin).id}, not "
+                       f"{problem.place_at(first).id}")
             yield Violation("DEPOT", message, f"{timed.path}.stops[0]")
         if last not in ends:
-            message = f"{vehicle_type.id} ends the trip at depot {ends[0]}, not {last}"
+            message = (f"{vehicle_type.id} ends the trip at {problem.place_at(ends[0]).id}, not "
+                       f"{problem.place_at(last).id}")
             yield Violation("DEPOT", message, f"{timed.path}.stops[{len(timed.trip.stops) - 1}]")
         begin = last
 
@@ -350,7 +352,7 @@ def route_violations(
         if taken is not None and taken > charge:
             yield _energy_violation(taken, charge, timed.path)
     yield from _goods_violations(problem, trips, "vehicle", path)
-    yield from _place_violations(vehicle_type, trips, has_begun)
+    yield from _place_violations(problem, vehicle_type, trips, has_begun)
     ready, over = vehicle_type.earliest, allowed_overtime(vehicle_type)
     more = f", with {seconds(over)} of overtime" if 0 < over < UNLIMITED else ""
     for index, timed in enumerate(trips):

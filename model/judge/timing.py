@@ -12,7 +12,8 @@ from typing import NamedTuple
 from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
-from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
+from model.judge.flown_trips import charged_start, excess_of
+from model.judge.holding import held
 from model.judge.lags import Awaited, awaited, waits_of
 from model.judge.launches import launch_begins, launch_duration
 from model.judge.past import KnownTrip, resumed_service
@@ -273,15 +274,10 @@ def schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDec
             problem.limits_time_aboard or problem.limits_time_between or problem.lags
             or vehicle_type.flies):
         return trip
-    excess = excess_of(problem, vehicle_type, trip)
-    while wait := excess or wait_for_calm(vehicle_type, trip):
-        later = replace(decision, start=trip.stops[0].arrival + wait)
-        held = _schedule_trip(problem, vehicle_type, later, ready, before)
-        left = excess_of(problem, vehicle_type, held)
-        if 0 < excess <= left:
-            break
-        trip, excess = held, left
-    return trip
+    return held(
+        problem, vehicle_type, trip, lambda start: _schedule_trip(
+            problem, vehicle_type, replace(decision, start=start), ready, before),
+        lambda timed: excess_of(problem, vehicle_type, timed))[0]
 
 
 def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,

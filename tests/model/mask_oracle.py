@@ -12,7 +12,8 @@ from itertools import permutations
 from model.judge.check import Evaluation, check
 from model.judge.clock import opening
 from model.judge.energy import Rest, charges, first_rest, sortie_energy
-from model.judge.flown_trips import charged_start, excess_of, wait_for_calm
+from model.judge.flown_trips import excess_of
+from model.judge.holding import held
 from model.judge.launches import launch_duration
 from model.judge.takeoff import charged_launch, held_takeoff
 from model.judge.timing import Operation
@@ -22,8 +23,8 @@ from model.solution import Route, Solution, Stop, Trip, Visit
 from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
-    MOST_TIMED, Flight, OpenTrip, back_at, cannot_be_flown, drained, drones_of, in_storm,
-    keeps_lags, lasts, preferred, timed_trips,
+    MOST_TIMED, Flight, OpenTrip, back_at, cannot_be_flown, drained, drones_of, excess_of_charge,
+    in_storm, keeps_lags, lasts, preferred, timed_trips,
 )
 from tests.model.tiny_company import companions
 from tests.model.tiny_hours import keeps_day
@@ -76,25 +77,18 @@ def _timed_route(problem: Problem, vehicle: Vehicle, start: int | None = None) -
 
 def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
     """Return the vehicle with its trip held until no parcel is too long aboard, if that helps."""
-    trip = vehicle.trips[-1]
-    kind = problem.vehicle_types[vehicle.kind]
+    trip, kind = vehicle.trips[-1], problem.vehicle_types[vehicle.kind]
 
     def excess_of_last(timed: Trip) -> int:
         before = _timed_route(problem, replace(vehicle, trips=vehicle.trips[:-1])).trips
-        nodes = [stop.node for stop in timed.stops]
-        return max(excess_of(problem, kind, timed),
-                   charged_start(problem, kind, before, nodes) - timed.stops[0].arrival)
+        return max(excess_of(problem, kind, timed), excess_of_charge(problem, kind, before, timed))
 
-    excess = excess_of_last(timed)
-    while wait := max(0, excess) or wait_for_calm(kind, timed):
-        trip = replace(trip, begins=timed.stops[0].arrival + wait)
-        vehicle = replace(vehicle, trips=(*vehicle.trips[:-1], trip))
-        timed = _timed(problem, vehicle, trip)
-        left = excess_of_last(timed)
-        if 0 < excess <= left:
-            return None
-        excess = left
-    return vehicle
+    later, helps = held(problem, kind, timed, lambda start: _timed(
+        problem, vehicle, replace(trip, begins=start)), excess_of_last)
+    if not helps:
+        return None
+    trip = trip if later is timed else replace(trip, begins=later.stops[0].arrival)
+    return replace(vehicle, trips=(*vehicle.trips[:-1], trip))
 
 
 def _rest(problem: Problem, kind: VehicleType, trip: Trip, drone: int, stop: int) -> Rest | None:
@@ -342,7 +336,8 @@ def _can_go_home(problem: Problem, busy: Vehicle, any_start: bool) -> bool:
         return True
     if broken != {"WORKING_DURATION"} and not any_start:
         return False
-    for start in range(soon.trips[0].stops[0].arrival, soon.trips[-1].stops[-1].departure, MINUTE):
+    begin = soon.trips[0].stops[0].arrival
+    for start in range(begin - begin % MINUTE, soon.trips[-1].stops[-1].departure, MINUTE):
         if not any_start:
             late = _timed_route(problem, vehicle, start)
             if _end(late) > _end(soon):  # and what begins later still doesn't end sooner

@@ -4,7 +4,10 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 
 from model.judge.clock import opening
-from model.judge.energy import charges, hover_energy, leg_energy, sortie_energy, weights_aboard
+from model.judge.energy import (
+    charges, hover_energy, leg_energy, power_at, sortie_energy, weights_aboard,
+)
+from model.judge.flown_trips import charged_between, trip_energy
 from model.judge.lags import halts_of, starts_of
 from model.judge.pairs import flown_back, flown_out
 from model.judge.rules import airborne_duration
@@ -165,6 +168,21 @@ def drained(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool
     return drones.energy is not None and sortie_energy(
         problem, drones, drones.energy, trip, trip.sorties[index]) > charges(
         problem, kind, trip)[index]
+
+
+def excess_of_charge(problem: Problem, kind: VehicleType, before: tuple[Trip, ...],
+                     timed: Trip) -> int:
+    """Return by how much later a trip has to begin at least to be charged for all it takes."""
+    energy, needed = kind.energy, trip_energy(problem, kind, timed) or 0
+    if energy is None or not (kind.flies and energy.charge):
+        return 0
+    there, = charged_between(problem, kind, before, timed.stops[0].arrival)
+    if not there < needed <= energy.available:
+        return 0
+    hover = 0 if energy.lands else max(
+        power_at(energy, energy.hover, weight) for weight in weights_aboard(
+            problem, energy, [stop.node for stop in timed.stops[1:-1]]))
+    return -((there - needed) // (energy.charge + hover))
 
 
 def in_storm(kind: VehicleType, launched: Sortie, recovered: Sortie) -> bool:

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "search/route/lags.h"
 #include "search/route/routes.h"
 
 namespace tandem {
@@ -37,7 +38,9 @@ FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops,
             trip.fly_home(gap, from_depot);
         } else {
             const Windows place = places[stops[p + 1].node];
-            trip.fly_to(place, gap, from_depot, waits ? place.waiting(stops[p + 1].arrival) : 0);
+            const Stop& stop = stops[p + 1];
+            const Int start = waits ? place.start_of_service(as_if_reached(data, stop)) : 0;
+            trip.fly_to(place, gap, from_depot, waits ? start - stop.arrival : 0);
         }
     }
     return trip;
@@ -73,10 +76,9 @@ Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop,
 
 Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                      const Trip& trip, const Charge& before) {
-    const Int left = left_behind(data, route, stops, trip);
-    if (left < 0) return far;
-    return time_charged(data.type[route.type], before.kept, before.since, left) -
-           start_of(stops, trip);
+    const FlownTrip flown =
+        follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true);
+    return flown.left() < 0 ? far : flown.excess_of_charge(before, start_of(stops, trip));
 }
 
 Charge charge_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,

@@ -96,6 +96,32 @@ Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1>
     return most;
 }
 
+Int time_to_turn(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                 const Trip& trip, View<const Sortie, 1> sorties) {
+    const VehicleType& type = data.type[route.type];
+    const NodeTable places = data.place.by_truck(type);
+    Int soonest = far;
+    for (Int p = trip.first + 1; p <= trip.last; ++p) {
+        const Stop& stop = stops[p];
+        const Stop& before = stops[p - 1];
+        const Int driven = stop.arrival - setup_beside(type, data.setup, before.node, stop.node);
+        soonest = std::min(soonest,
+                           time_to_turn(type, data.profile_time[route.type], before.leave, driven));
+        if (!has_window(stop)) continue;
+        const Int open = orders_cross(data) ? data.span[stop.node].soonest : none;
+        soonest = std::min(soonest, time_to_turn(places[stop.node], stop.arrival, open));
+    }
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
+        const Int row = row_of_drone(data.type, route.type, sortie.drone);
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            const Windows place = data.place.by_air(data.type[row])[sortie.nodes[visit]];
+            soonest = std::min(soonest, time_to_turn(place, sortie.arrivals[visit], none));
+        }
+    }
+    return soonest;
+}
+
 Int departure_of(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                  View<const Sortie, 1> sorties, Int first) {
     Int departure = far;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "rules/holding.h"
 #include "search/route/flown_trips.h"
 #include "search/route/layout.h"
 #include "search/route/routes.h"
@@ -27,6 +28,10 @@ bool any_too_long(const ProblemData& data, const Route& route, View<const Stop, 
 Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 const Trip& trip, View<const Sortie, 1> sorties);
 
+// Return in how much time a timed trip, begun later, meets other windows or speeds; `far` if never.
+Int time_to_turn(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                 const Trip& trip, View<const Sortie, 1> sorties);
+
 // Let a trip of a timed route begin as soon as nothing lasts too long, and its battery is charged.
 //
 // `wait_for_charge` returns how much later it has to begin for that; at most 0 if it needn't, `far`
@@ -34,18 +39,18 @@ Int most_excess(const ProblemData& data, const Route& route, View<const Stop, 1>
 template <class WaitForCharge>
 bool hold_trip(const ProblemData& data, Route& route, View<Stop, 1> stops, const Trip& trip,
                View<Sortie, 1> sorties, const WaitForCharge& wait_for_charge) {
-    Int excess = most_excess(data, route, stops, trip, sorties);
+    Holding holding;
     while (true) {
-        Int wait = excess > 0 ? excess : waits_for_calm(data, route, stops, trip);
+        const Int excess = most_excess(data, route, stops, trip, sorties);
+        Int wait = excess > 0
+                       ? holding.wait(excess, time_to_turn(data, route, stops, trip, sorties))
+                       : waits_for_calm(data, route, stops, trip);
         if (wait == 0) wait = wait_for_charge();
         if (wait <= 0) return true;
         if (wait == far) return false;
         Stop& stop = stops[trip.first];
         stop.release = std::max(stop.arrival, stop.release) + wait;
         if (!drive_forward(data, route, stops, sorties)) return false;
-        const Int left = most_excess(data, route, stops, trip, sorties);
-        if (excess > 0 && left >= excess) return false;
-        excess = left;
     }
 }
 
