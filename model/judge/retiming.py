@@ -47,7 +47,7 @@ def read_route(problem: Problem, route: Route) -> RouteDecision:
 def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:
     """Return a route with the times that the judge finds best of those tried.
 
-    What is known of its trips must be in the decision as it is.
+    What is known of a trip holds if the decision has it; else all of it is timed anew.
     """
     best = _best_timed(problem, decision, path, past)
     if any(violation.code in ("BREAK", "DRIVING") for violation in best.judged.violations) or (
@@ -68,6 +68,16 @@ def _best_timed(problem: Problem, decision: RouteDecision, path: str, past: Past
     if best is None:
         raise ValueError(f"route trips: {decision.trips!r} is not allowed")
     return best
+
+
+def _has(trip: TripDecision, known: KnownTrip) -> bool:
+    """Tell whether a trip makes the stops and flights that are known, at first."""
+    nodes = tuple([stop.node for stop in known.stops])
+    end = len(trip.nodes) if known.rest == "nothing" else len(nodes)
+    return trip.nodes[:end] == nodes and len(trip.sorties) >= len(known.sorties) and all(
+        (sortie.drone, sortie.launch_stop) == (flown.drone, flown.launch_stop)
+        and sortie.nodes == tuple([visit.node for visit in flown.visits])
+        for sortie, flown in zip(trip.sorties, known.sorties, strict=False))
 
 
 class _Timer:
@@ -114,7 +124,8 @@ class _Timer:
         return timed
 
     def _known_trip(self, number: int) -> KnownTrip | None:
-        return self._known[number] if number < len(self._known) else None
+        known = self._known[number] if number < len(self._known) else None
+        return known if known and _has(self._decision.trips[number], known) else None
 
     def _from(self, trip: TripDecision, begin: int, is_chosen: bool = True,
               before: Sequence[Trip] = ()) -> Trip:

@@ -5,10 +5,11 @@ from dataclasses import replace
 
 import pytest
 
+from model.judge.bench import Bench, Setting
 from model.judge.check import check
 from model.judge.past import KnownStop, Past, known_trips
-from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import Customer, Problem, VehicleType
+from model.judge.timing import RouteDecision, SortieDecision, TripDecision, schedule
+from model.problem import Customer, DroneType, Problem, VehicleType
 from model.solution import Route, Solution, Stop
 from tests.model.street import MINUTE, ONE, TWO, A, B, C, D, planned
 
@@ -69,3 +70,26 @@ def test_checker_holds_a_plan_against_the_past(street: Problem) -> None:
         Stop(stop.node, stop.arrival + 10 * MINUTE, stop.service_start + 10 * MINUTE,
              stop.departure + 10 * MINUTE) for stop in stolen.routes[1].trips[0].stops))
     assert codes(Solution((stolen.routes[0], Route(0, 1, (late,))), (D,))) == {"ABOARD"}
+
+
+@pytest.mark.parametrize("node", [A, C])
+def test_who_was_served_or_flown_to_is_left_out_for_what_he_costs(
+        tiny_problem: Callable[..., Problem], customers: tuple[Customer, ...], truck: VehicleType,
+        drones: DroneType, node: int) -> None:
+    problem = tiny_problem(*customers, truck=replace(
+        truck, cost_per_km=1.0, drones=replace(drones, cost_per_km=1.0)))
+    trip = TripDecision((0, A, B, 0), (SortieDecision((C,), 0, 1), SortieDecision((D,), 1, 2)),
+                        start=0)
+    plan = Solution((schedule(problem, RouteDecision(0, 0, (trip,))),))
+    assert check(problem, plan).violations == ()
+    now = plan.routes[0].trips[0].sorties[0].launch_time
+    known = known_trips(problem, plan, now, frozenset())
+    assert len(known[ONE][0].sorties) == 1
+    bench = Bench(problem, plan, node, Setting(Past(now, known)))
+    left_out, = bench.left_out.solution.routes
+    served = {stop.node for stop in left_out.trips[0].stops} | {
+        visit.node for sortie in left_out.trips[0].sorties for visit in sortie.visits}
+    assert served == {0, A, B, C, D} - {node}
+    assert bench.left_out.evaluation.cost.unassigned == problem.unassigned_cost
+    assert {"FROZEN", "MISSING"} & {
+        violation.code for violation in bench.left_out.evaluation.violations}
