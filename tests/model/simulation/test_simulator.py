@@ -204,16 +204,6 @@ def test_a_trip_is_held_until_its_drones_last_again() -> None:
     assert_exact(problem, rng, 924)
 
 
-@pytest.mark.parametrize(("change", "seed"), [
-    (few_at_hubs_among_all, 1073),  # what lasts too long does so again in the next window
-    (fliers_among_all, 1149), (fliers_among_all, 1376),  # who is lighter hovers at more
-    (fliers_among_all, 1478),  # who waits for others hovers
-])
-def test_a_trip_is_held_until_nothing_turns_what_lasts_too_long(change: Change, seed: int) -> None:
-    rng = np.random.default_rng(seed)
-    assert_exact(change(rng, draw_tiny(rng)), rng, seed)
-
-
 def test_an_order_bounds_how_late_a_vehicle_may_leave() -> None:
     rng = np.random.default_rng(143)
     assert_exact(with_order(rng, draw_tiny(rng)), rng, 143)
