@@ -16,9 +16,7 @@ from playwright.sync_api import Browser, BrowserContext, ViewportSize, sync_play
 
 ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-             "--disable-background-networking", "--disable-component-update", "--disable-sync",
-             # A page in a process that has shown one before takes a sixth less of the processor.
-             "--renderer-process-limit=1", "--disable-site-isolation-trials", "--in-process-gpu")
+             "--disable-background-networking", "--disable-component-update", "--disable-sync")
 START_SECONDS = 120
 OPENING_MS = 120_000
 """For opening a page while other tests have all cores."""
