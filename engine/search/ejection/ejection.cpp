@@ -173,6 +173,7 @@ private:
             for (std::size_t first = 0; first < pickups_.size(); ++first) {
                 const Int one = pickups_[first];
                 if (trouble_[std::size_t(one)] >= best.trouble) break;
+                if (data_.deadline.passed()) return false;
                 try_without(index, pair, one, nowhere, best);
                 for (std::size_t second = 0; second < first; ++second) {
                     const Int other = pickups_[second];
