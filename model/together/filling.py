@@ -193,7 +193,8 @@ class Filling:
     def _goes(self, part: Part) -> bool:
         """Tell whether a vehicle has no route without a part."""
         route = self._decision(part.vehicle)
-        return len(route.trips) == 1 and len(part.nodes(route)) == len(route.trips[0].nodes) - 2
+        return (part.trip < len(route.trips) == 1
+                and len(part.nodes(route)) == len(route.trips[0].nodes) - 2)
 
     def _cost(self, vehicle: Vehicle) -> float:
         return self._routes[vehicle].judged.cost.total if vehicle in self._routes else 0.0
