@@ -58,9 +58,15 @@ class RoutePool:
         self._alone = packed(instance), packed(reset(instance, np.zeros(1, np.int64)))
         self._routes: dict[tuple[int, bytes], Route] = {}
         self._by_actions: dict[bytes, tuple[int, bytes]] = {}
+        goods = instance.goods
+        # What hangs on other vehicles can't be made alone.
+        self._are_apart = not (instance.hub.shape[1] or instance.across.shape[1]
+                               or goods["kept_on_trip"].any() or goods["kept_on_vehicle"].any())
 
     def add(self, actions: IntArray) -> None:
         """Add the routes of a plan, given the codes of all its actions. In place."""
+        if not self._are_apart:
+            return
         new = [codes for codes in _split(actions) if codes.tobytes() not in self._by_actions]
         if not new:
             return
@@ -91,9 +97,7 @@ class RoutePool:
             Setting of an alarm at which the best so far is returned.
         """
         alarm = Alarm().setting if alarm is None else alarm
-        company = self._instance.goods
-        if (self._instance.hub.shape[1] or self._instance.across.shape[1]
-                or company["kept_on_trip"].any() or company["kept_on_vehicle"].any()):
+        if not self._are_apart:
             return best
         self._forget(best)
         for _ in range(-(-int(self._instance.size[0].customers) // REGION)):

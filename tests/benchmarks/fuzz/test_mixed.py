@@ -24,12 +24,13 @@ Data = dict[str, Any]
 PROBLEMS = 12
 
 ONCE_BROKEN = (1643, 2975, 3118, 5114, 9086, 9436, 2_000_112,
-               2_000_496, 2_000_997, 2_001_223, 2_109_296)
+               2_000_496, 2_000_997, 2_001_223, 2_109_296, 2_109_391)
 """Seeds of problems that once were answered with 500, or whose plans were refused: a damaged plan
 without stops, or with a drone launched at a break; an open route that ends at a launch site; breaks
-that follow the departure; shipments whose pickup has no way home; and a lag between routes whose
-driver rests while drones fly; a break at a stop behind a rest on the way; and shipments that were
-brought, asked about; and a truck that stays at its depot for its drones, which lost them."""
+that follow the departure; shipments whose pickup has no way home; a lag between routes whose
+driver rests while drones fly; a break at a stop behind a rest on the way; shipments that were
+brought, asked about; a truck that stays at its depot for its drones, which lost them; and routes
+with a lag between them, priced one by one."""
 
 
 def test_problems_that_mix_all_rules_are_planned_soundly(client: httpx.Client) -> None:
