@@ -270,8 +270,9 @@ class VehicleType:
         return self.id if self.part_of is None else self.part_of
 
     def vehicle_name(self, vehicle: int) -> str:
-        """Return the name of a vehicle, such as `truck-1`."""
-        return f"{self.type_id}-{(self.numbers[vehicle] if self.numbers else vehicle) + 1}"
+        """Return the name of a vehicle, such as `truck-1`, also of one that there isn't."""
+        is_known = 0 <= vehicle < len(self.numbers)
+        return f"{self.type_id}-{(self.numbers[vehicle] if is_known else vehicle) + 1}"
 
     @property
     def begins_at(self) -> int:
