@@ -31,5 +31,6 @@ def growth_of(work: Callable[[int], Callable[[], object]], size: int, factor: in
 
     `work` makes what is counted for a size.
     """
-    work(size)()  # what happens once
+    for each in (size, size * factor):
+        work(each)()  # what happens once, also for large ones alone
     return calls_of(work(size * factor)) / calls_of(work(size))
