@@ -21,7 +21,6 @@ from model.judge.screening import share_over
 SPARE = 8
 """So many more places than asked for are judged with the whole plan if these break rules there."""
 
-
 TRYING_SHARE = 0.9
 """Share of the time in which routes are tried, before plans with the best ones are judged."""
 

@@ -11,6 +11,7 @@ from model.judge.past import KnownTrip, Vehicle
 from model.judge.places import halts
 from model.problem import Shipment
 
+
 class Effort(NamedTuple):
     """How much is tried with a vehicle."""
 
