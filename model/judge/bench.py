@@ -132,17 +132,14 @@ class Bench:
             kind = self.problem.vehicle_types[decision.vehicle_type]
             ways = [way if len(way.trips) == len(decision.trips)
                     else replace(way, trips=with_ends(kind, way.trips)) for way in ways]
-            # What has happened otherwise can't be gone on from.
-            past = self.setting.past if self.done_by is None else EVERYTHING_OPEN
-            timed = self._best(self.problem, ways, index, past)
+            timed = self._best(self.problem, ways, index)
             plan = changed(solution, index, timed.route, unassigned)
             judged = {**judged, index: timed.judged}
         return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
 
-    def _best(self, problem: Problem, ways: Sequence[RouteDecision], index: int,
-              past: Past) -> TimedRoute:
+    def _best(self, problem: Problem, ways: Sequence[RouteDecision], index: int) -> TimedRoute:
         """Return the best of several ways to go on with a route."""
-        return min([time_route(problem, way, f"routes[{index}]", past)
+        return min([time_route(problem, way, f"routes[{index}]", self.setting.past)
                     for way in ways], key=lambda timed: timed.rank)
 
     @property
@@ -191,7 +188,7 @@ class Bench:
                 decision = replace(decision, trips=tuple([
                     replace(trip, awaited=(*trip.awaited, Awaited(node, until)))
                     for trip in decision.trips]))
-        timed = self._best(problem, [decision], index, self.setting.past)
+        timed = self._best(problem, [decision], index)
         return Draft(place, index, timed, timed.judged.cost.total - before)
 
     def finish(self, draft: "Draft", problem: Problem | None = None,

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from model.judge.bench import Bench, Draft, Trial
 from model.judge.check import JudgedRoute
-from model.judge.past import KnownTrip, Vehicle
+from model.judge.past import Vehicle
 from model.judge.places import halts
 from model.problem import Shipment
 
@@ -55,7 +55,7 @@ def companions_of(bench: Bench) -> tuple[Unit, ...]:
     served = [halt.node for route in solution.routes for trip in route.trips
               for halt in halts(trip)]
     begun = {node for trips in bench.setting.past.trips.values() for trip in trips
-             for node in _nodes_of(trip)}
+             for node in trip.aboard | trip.served}
     found, asked = dict[int, Unit](), [*bench.nodes]
     for node in asked:
         bound = {other for relation in problem.relations
@@ -91,12 +91,6 @@ def move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, veh
         ways = [Way(own.finish(draft), {**own.judged, draft.index: draft.timed.judged})
                 for _, own, draft in best]
     return min([way.trial for way in ways], key=lambda trial: trial.rank, default=None)
-
-
-def _nodes_of(trip: KnownTrip) -> frozenset[int]:
-    """Return all who are served on a trip that has begun, as far as is known."""
-    flown = [visit.node for sortie in trip.sorties for visit in sortie.visits]
-    return trip.aboard.union([stop.node for stop in trip.stops], flown)
 
 
 def without(bench: Bench, companions: tuple[Unit, ...]) -> Way:

@@ -8,7 +8,6 @@ the end.
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import chain
 from typing import Literal, NamedTuple
 
 from model.judge.clock import service_start
@@ -59,6 +58,12 @@ class KnownTrip:
     rest: Literal["nothing", "home", "anything"]
     breaks: tuple[TakenBreak, ...] = ()  # before the stops that are known
 
+    @property
+    def served(self) -> frozenset[int]:
+        """The stops and visits that have happened, or will as planned."""
+        flown = [visit.node for sortie in self.sorties for visit in sortie.visits]
+        return frozenset([*(stop.node for stop in self.stops), *flown])
+
 
 @dataclass(frozen=True)
 class Past:
@@ -85,10 +90,8 @@ class Past:
 
     def served(self) -> frozenset[int]:
         """Return the stops and visits that have happened, or will as planned."""
-        return frozenset(chain.from_iterable(
-            chain([stop.node for stop in trip.stops],
-                  [visit.node for sortie in trip.sorties for visit in sortie.visits])
-            for trips in self.trips.values() for trip in trips))
+        return frozenset[int]().union(*(
+            trip.served for trips in self.trips.values() for trip in trips))
 
     def carriers(self) -> dict[int, Vehicle]:
         """Return who has the parcels that are on their way, customers served by now included."""

@@ -31,9 +31,7 @@ def parted_shipments(problem: Problem, plan: Solution, now: int,
     routes = tuple(route for route in plan.routes
                    if (route.vehicle_type, route.vehicle) in unavailable)
     for vehicle, trips in known_trips(problem, Solution(routes), now, unavailable).items():
-        served = {stop.node for trip in trips for stop in trip.stops}
-        served.update(visit.node for trip in trips for sortie in trip.sorties
-                      for visit in sortie.visits)
+        served = frozenset[int]().union(*(trip.served for trip in trips))
         for shipment in problem.shipments:
             fetched = served.intersection(shipment.pickups)
             if not fetched or shipment.delivery in served:
