@@ -4,9 +4,11 @@ import json
 import logging
 import socket
 import threading
+import time
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -166,6 +168,15 @@ def serve() -> Iterator[Callable[..., httpx.Client]]:
     """Return a function that serves a planner, until the test ends, and returns a client."""
     with ExitStack() as stack:
         yield lambda planner, settings=None: stack.enter_context(serving(planner, settings))
+
+
+@pytest.fixture
+def same_minute(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Stop the clock of the rate limits, whose counts slide wherever a minute begins."""
+    stopped = time.time()
+    clock = SimpleNamespace(time=lambda: stopped)
+    for module in ("limits.storage.memory", "limits.strategies", "app.serving.access.limits"):
+        monkeypatch.setattr(f"{module}.time", clock)
 
 
 @pytest.fixture(scope="session")

@@ -311,6 +311,7 @@ def test_what_is_wrong_with_a_plan_is_named(service: httpx.Client, body: Data,
     assert error in {(item["code"], item["path"]) for item in reply.json()["errors"]}
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_drivers_need_no_key_and_owners_see_their_own_alone(serve: Serve, tmp_path: Path) -> None:
     settings = Settings(data_dir=tmp_path, access="keys", drain_seconds=0,
                         max_dispatches_per_client=1, driver_requests_per_minute=2)

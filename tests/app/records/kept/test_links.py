@@ -93,6 +93,7 @@ def test_tokens_are_in_neither_logs_nor_the_database(
     assert token[-64:] not in str(rows)
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_guessing_tokens_is_slowed_down(keeping: Callable[..., httpx.Client]) -> None:
     client = keeping(wrong_keys_per_minute=3)
     client.put("/plans/p", json=content())

@@ -189,6 +189,7 @@ def test_plans_expire_if_the_settings_say_so(
     assert client.put("/plans/old", json=content("anew")).status_code == 201
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_keeping_counts_towards_the_rate_of_plans(keeping: Keeping) -> None:
     client = keeping(plans_per_minute=2)
     replies = [client.put(f"/plans/{number}", json=content()) for number in range(3)]

@@ -36,6 +36,7 @@ def headers_of(limits: Limits, host: str, key: str | None = None) -> dict[str, s
     return headers
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_plans_beyond_the_rate_are_refused_and_replies_count_down(
         serve: Serve, smallest: dict[str, Any]) -> None:
     client = ready(serve(FirstFitPlanner(), Settings(plans_per_minute=3)))
@@ -55,6 +56,7 @@ def test_without_a_rate_nothing_is_counted(client: httpx.Client, smallest: dict[
     assert "ratelimit-limit" not in client.post("/plan", json=smallest).headers
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_each_key_has_its_own_rate(
         serve: Serve, smallest: dict[str, Any], tmp_path: Path) -> None:
     settings = Settings(access="keys", data_dir=tmp_path, plans_per_minute=1)
@@ -66,6 +68,7 @@ def test_each_key_has_its_own_rate(
     assert statuses == [200, 200, 429, 429]
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_wrong_keys_are_slowed_down_and_the_right_one_is_let_in_all_the_same(
         serve: Serve, smallest: dict[str, Any], tmp_path: Path) -> None:
     settings = Settings(access="keys", data_dir=tmp_path, wrong_keys_per_minute=5)
@@ -79,6 +82,7 @@ def test_wrong_keys_are_slowed_down_and_the_right_one_is_let_in_all_the_same(
     assert client.post("/plan", json=smallest, headers={"X-API-Key": key}).status_code == 200
 
 
+@pytest.mark.usefixtures("same_minute")
 def test_addresses_are_counted_apart_and_ipv6_networks_together() -> None:
     limits = Limits(Rates(plans=1))
     for host in ("10.0.0.1", "10.0.0.2", "2001:db8::1", "2001:db8:0:1::1"):
