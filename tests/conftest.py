@@ -3,13 +3,14 @@
 import asyncio
 import gc
 import os
+import secrets
 import socket
 import threading
 import time
 from collections import defaultdict
 from collections.abc import Callable, Coroutine, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from copy import deepcopy
 from heapq import nlargest
 from inspect import signature
@@ -26,8 +27,9 @@ from model.problem import MM_PER_KM, Customer, Depot, DroneType, Problem, Travel
 
 MINUTE = 60_000
 
-PATIENCE, SOON = 60.0, 30.0
-"""Seconds to wait for anything, and for what takes not long."""
+PATIENCE, SOON = 180.0, 90.0
+"""Seconds to wait for anything, and for what takes not long, on a machine that has much else to do.
+"""
 
 PAUSE, LONGEST_PAUSE = 0.01, 0.1
 """Seconds between the first two looks at something, and between later ones at most: whoever asks a
@@ -156,10 +158,16 @@ def soon(happens: Callable[[], Any]) -> Any:
 
 
 def free_port() -> int:
-    """Return a port of this machine that nobody listens on."""
-    with socket.socket() as probe:
-        probe.bind(("127.0.0.1", 0))
-        return int(probe.getsockname()[1])
+    """Return a port of this machine that nobody listens on.
+
+    It is none of those that systems give to whoever names no port, as anybody might get it then
+    before it is used.
+    """
+    while True:
+        port = 10_000 + secrets.randbelow(20_000)
+        with socket.socket() as probe, suppress(OSError):
+            probe.bind(("127.0.0.1", port))
+            return port
 
 
 def apart(function: Callable[..., Result], *given: Any) -> Result:

@@ -2,7 +2,6 @@
 
 import os
 import shutil
-import socket
 import subprocess
 import sys
 import time
@@ -14,6 +13,8 @@ from typing import Any
 import httpx
 from playwright.sync_api import Browser, BrowserContext, ViewportSize, sync_playwright
 
+from tests.conftest import free_port
+
 ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync")
@@ -21,7 +22,7 @@ START_SECONDS = 120
 OPENING_MS = 120_000
 """For opening a page while other tests have all cores."""
 
-WAIT_MS = 60_000
+WAIT_MS = 120_000
 """For what a page does, at most."""
 
 VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
@@ -45,9 +46,7 @@ def serving(folder: Path, module: str = "app.cli", **settings: str) -> Iterator[
     settings
         Variables of the environment besides.
     """
-    with socket.socket() as listener:
-        listener.bind(("127.0.0.1", 0))
-        port = listener.getsockname()[1]
+    port = free_port()
     environment = {name: value for name, value in os.environ.items()
                    if not name.startswith("TANDEM_")}
     environment |= {"PYTHONPATH": str(ROOT), "TANDEM_DATA_DIR": str(folder),

@@ -103,7 +103,7 @@ def run(command: list[str], script: str, folder: Path, visitor: Visitor) -> str:
     environment = {name: value for name, value in os.environ.items() if name != "TANDEM_KEY"}
     key = {} if visitor.key is None else {"TANDEM_KEY": visitor.key}
     done = subprocess.run(command, input=script.replace(GUIDE_URL, url), cwd=folder, text=True,
-                          capture_output=True, timeout=60, check=False,
+                          capture_output=True, timeout=300, check=False,
                           env={**environment, "NO_PROXY": "*", **key})
     assert done.returncode == 0, done.stderr
     return done.stdout

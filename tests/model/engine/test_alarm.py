@@ -5,6 +5,7 @@ import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -33,8 +34,8 @@ MOST_SECONDS = 1.0
 MOST_LATE = 0.02
 """Seconds after which whatever the engine does has ended that is told to."""
 
-TRIES = 5
-"""Of which the soonest counts, since other processes take their time as well."""
+TRIES = 50
+"""Of which one has to end so soon, since other processes take their time as well."""
 
 VARIANTS = ("cvrp", "soft", "drone", "mixed", "multitrip")
 
@@ -56,25 +57,29 @@ def begun(problem: Problem) -> tuple[Searcher, np.ndarray]:
     return searcher, setting
 
 
+def ends_soon(late: Callable[[], float]) -> bool:
+    """Tell whether what returns how late it ended ends soon, if the machine lets it."""
+    return any(0.0 <= late() < MOST_LATE for _ in range(TRIES))
+
+
 def late_after_cancelling(setting: IntArray, wait: float, work: Callable[[], object]) -> float:
-    """Return how many seconds after another thread cancels it work ends, at best."""
-    late = []
-    for _ in range(TRIES):
-        setting[CANCELLED] = 0
-        cancelled: list[float] = []
+    """Return how many seconds after another thread cancels it work ends.
 
-        def cancel(at: list[float] = cancelled) -> None:
-            at.append(time.perf_counter())
-            setting[CANCELLED] = 1
+    Below zero where it had ended by itself, since that thread got no turn.
+    """
+    setting[CANCELLED] = 0
+    cancelled: list[float] = []
 
-        timer = threading.Timer(wait, cancel)
-        timer.start()
-        work()
-        ended = time.perf_counter()
-        timer.join()
-        late.append(ended - cancelled[0])
-    assert min(late) > 0.0  # it had not ended by itself
-    return min(late)
+    def cancel() -> None:
+        cancelled.append(time.perf_counter())
+        setting[CANCELLED] = 1
+
+    timer = threading.Timer(wait, cancel)
+    timer.start()
+    work()
+    ended = time.perf_counter()
+    timer.join()
+    return ended - cancelled[0]
 
 
 def test_rings_at_its_deadline_and_not_before() -> None:
@@ -109,12 +114,13 @@ def test_another_alarm_rings_sooner_and_never_later() -> None:
 
 
 def test_no_thread_asks_where_nobody_answers() -> None:
-    before = threading.active_count()
+    # Of services that other tests left, threads may end meanwhile.
+    before = set(threading.enumerate())
     with Alarm(time.perf_counter() + 60.0):
-        assert threading.active_count() == before
+        assert set(threading.enumerate()) <= before
     with Alarm(math.inf, lambda: False):
-        assert threading.active_count() == before + 1
-    assert threading.active_count() == before
+        assert len(set(threading.enumerate()) - before) == 1
+    assert set(threading.enumerate()) <= before
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -126,9 +132,11 @@ def test_the_engine_ends_turns_by_its_own_clock(variant: str) -> None:
         deadline = time.perf_counter() + 0.02
         data = make_data(problem, pack([problem]), deadline=Alarm(deadline).setting)
         anneal(data, searcher, NEVER, ANY)
-        return time.perf_counter() - deadline
+        seconds = time.perf_counter() - deadline
+        assert seconds >= 0.0
+        return seconds
 
-    assert 0.0 <= min(late() for _ in range(TRIES)) < MOST_LATE
+    assert ends_soon(late)
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
@@ -136,8 +144,8 @@ def test_turns_end_soon_after_another_thread_cancels(variant: str) -> None:
     problem = problem_of(variant)
     searcher, setting = begun(problem)
     data = make_data(problem, pack([problem]), deadline=setting)
-    assert late_after_cancelling(
-        setting, 0.02, lambda: anneal(data, searcher, NEVER, ANY)) < MOST_LATE
+    assert ends_soon(partial(late_after_cancelling, setting, 0.02,
+                             lambda: anneal(data, searcher, NEVER, ANY)))
 
 
 def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
@@ -151,7 +159,7 @@ def test_an_insertion_into_a_long_trip_ends_soon_after_another_thread_cancels(
         insert_missing(data, searcher, BY_FAR)
 
     # Quick machines have inserted all after a tenth of a second.
-    assert late_after_cancelling(setting, 0.04, insert) < MOST_LATE
+    assert ends_soon(partial(late_after_cancelling, setting, 0.04, insert))
     assert searcher.count.missing > 0
 
 

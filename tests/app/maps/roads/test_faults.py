@@ -254,6 +254,7 @@ def test_no_plan_has_a_wrong_leg(tools: Tools, prepared_build: Build) -> None:
         assert any(outcome in name for name in found), found
 
 
+@pytest.mark.by_clock
 @pytest.mark.parametrize(("planned", "words", "is_late"), [
     ((faults.status(503), faults.delay(1_000)), "failed: status 503", False),
     ((faults.delay(1_000),), "in time", True)])

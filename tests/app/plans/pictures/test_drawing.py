@@ -293,9 +293,9 @@ def thousand_customers() -> tuple[Request, Request]:
 
 def test_a_thousand_customers_are_drawn_in_seconds() -> None:
     scene = scene_of(*thousand_customers())
-    began = time.perf_counter()
+    began = time.process_time()
     texts, groups = shown(draw_svg(scene))
-    assert time.perf_counter() - began < 20
+    assert time.process_time() - began < 20
     assert len(named(groups, "trip")) == 20
     assert {"hub", "truck-20"} <= set(texts)
     assert "c500" not in texts

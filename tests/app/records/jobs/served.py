@@ -28,6 +28,11 @@ def stepping(port: int) -> None:
     uvicorn.run(create_app(Settings(), SteppingPlanner()), port=port)
 
 
+def halfway(port: int) -> None:
+    """Serve that planner, which ends no search by itself."""
+    uvicorn.run(create_app(Settings(), SteppingPlanner(comes_to=0.5)), port=port)
+
+
 def truly(port: int) -> None:
     """Serve as the command does."""
     sys.argv[1:] = ["serve", "--port", str(port)]
@@ -41,7 +46,7 @@ class Served:
                  **settings: object) -> None:
         self.port = free_port()
         self._log = log
-        self._serve = serve
+        self.serve = serve
         stated = {f"TANDEM_{name.upper()}": str(value) for name, value in settings.items()}
         self._environment = {**os.environ, "TANDEM_ROLE": "all", **stated}
         self.client = httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE,
@@ -51,7 +56,7 @@ class Served:
     def start(self) -> None:
         """Start the process and wait until it is ready."""
         self.process = FORKING.Process(
-            target=_run, args=(self._serve, self.port, self._log, self._environment))
+            target=_run, args=(self.serve, self.port, self._log, self._environment))
         self.process.start()
         eventually(self._is_ready)
 

@@ -69,6 +69,8 @@ class SteppingPlanner:
         listener.on_progress(Progress(first_cost, 0, lambda: plan))
         while not listener.should_stop() and (share := self._share(options, began, turns)) < 1:
             threading.Event().wait(PAUSE)
+            if share == self._comes_to:
+                continue
             turns += 1
             plan = partial_plan(problem, round(fewest + share * (problem.num_customers - fewest)))
             listener.on_progress(Progress(cost_of(problem, plan), turns, partial(self._same, plan)))

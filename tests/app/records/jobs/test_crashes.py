@@ -12,7 +12,7 @@ from sqlalchemy import create_engine, text
 from app.records.jobs.housekeeping import PATIENCE as RESCUED
 from app.serving.settings import Settings
 from tests.app.records.jobs.conftest import Postgres
-from tests.app.records.jobs.served import Served, truly
+from tests.app.records.jobs.served import Served, halfway, stepping, truly
 from tests.app.records.jobs.stepping import NUM_CUSTOMERS, ended, read, request_of, submit
 from tests.conftest import eventually
 
@@ -51,14 +51,15 @@ def progressing(client: httpx.Client, job: str, below: float = 1000.0) -> dict[s
 
 
 def test_killed_jobs_go_on_from_their_best_plans(settings: Settings, tmp_path: Path) -> None:
-    with served(tmp_path, **stated(settings)) as process:
-        jobs = [submit(process.client, request_of(2.0)) for _ in range(2)]
+    with served(tmp_path, serve=halfway, **stated(settings)) as process:
+        jobs = [submit(process.client, request_of(600, search_iterations=50)) for _ in range(2)]
         grid = {"unassigned_cost": [50, 60, 70, 80]}
         sweep = submit(process.client, {"base": request_of(0.5), "grid": grid}, "/sweep")
         key = {"Idempotency-Key": "k"}
         jobs.append(submit(process.client, request_of(0.5), headers=key))
         before = [progressing(process.client, job) for job in jobs[:2]]
         process.kill()
+        process.serve = stepping
         process.start()
         for name, seen in zip(jobs, before, strict=False):
             assert read(process.client, name)["cost"] <= seen["cost"]
@@ -158,6 +159,7 @@ def test_two_workers_share_a_queue_each_job_done_once(postgres: Postgres, tmp_pa
     assert sum(number for _, number in workers) == NUM_JOBS
 
 
+@pytest.mark.by_clock
 def test_true_planner_goes_on_after_a_kill(tmp_path: Path, with_drones: dict[str, Any]) -> None:
     limit = 4.0
     request = with_drones | {"options": {"time_limit": limit}}

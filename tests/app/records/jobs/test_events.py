@@ -79,7 +79,7 @@ def test_unforeseen_error_ends_the_stream_and_the_next_one_goes_on() -> None:
         async def follow(seen: int) -> list[str]:
             return [f"{event.id} {event.event}" async for event in events(watcher, ROW, seen)]
 
-        async with asyncio.timeout(30):
+        async with asyncio.timeout(PATIENCE):
             first, = {tuple(told) for told in await asyncio.gather(follow(0), follow(0))}
             return list(first), await follow(5)
 

@@ -15,7 +15,7 @@ from app.records.jobs.webhook import (
 from app.schemas.errors import InvalidRequestError
 from app.serving.settings import Settings
 from tests.app.records.jobs.receiving import Receiver, drip
-from tests.conftest import apart
+from tests.conftest import SOON, apart
 
 pytestmark = pytest.mark.slow
 
@@ -74,17 +74,17 @@ def test_call_of_a_receiver_that_drips_ends_in_time() -> None:
         began = time.monotonic()
         with pytest.raises(UnreachableError, match=r"more than 0\.5 s"):
             apart(caller.call, f"http://127.0.0.1:{receiver.port}", "m", "{}")
-        assert time.monotonic() - began < 3
+        assert time.monotonic() - began < SOON  # it drips for ever
 
 
 def test_name_that_is_slow_to_be_found_ends_in_time(monkeypatch: pytest.MonkeyPatch) -> None:
     is_over = threading.Event()
-    monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: is_over.wait(30))
+    monkeypatch.setattr(socket, "getaddrinfo", lambda *_, **__: is_over.wait(2 * SOON))
     caller = Caller(SecretStr(SECRET), may_call_private=True, patience=0.2)
     began = time.monotonic()
     with pytest.raises(UnreachableError, match="more than"):
         apart(caller.call, "http://a.example", "m", "{}")
-    assert time.monotonic() - began < 5
+    assert time.monotonic() - began < SOON
     is_over.set()
 
 

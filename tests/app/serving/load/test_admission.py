@@ -7,14 +7,14 @@ from collections.abc import Callable
 import pytest
 
 from app.serving.load.admission import Admission, OverloadedError
-from tests.conftest import complete
+from tests.conftest import PATIENCE, complete
 
 pytestmark = pytest.mark.slow
 
 
 async def settle(condition: Callable[[], bool]) -> None:
     """Let other tasks run until a condition holds."""
-    async with asyncio.timeout(10):
+    async with asyncio.timeout(PATIENCE):
         while not condition():
             await asyncio.sleep(0)
 

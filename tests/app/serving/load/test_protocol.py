@@ -119,6 +119,6 @@ def test_requests_in_progress_are_waited_for(server: Listening) -> None:
         connection.settimeout(0.5)
         with pytest.raises(TimeoutError):
             connection.recv(1000)
-        connection.settimeout(10)
+        connection.settimeout(PATIENCE)
         connection.sendall(body[1:])
         assert connection.recv(1000).startswith(b"HTTP/1.1 422")

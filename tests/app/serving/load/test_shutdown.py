@@ -17,14 +17,14 @@ import pytest
 from app.cli.serving import run_server
 from app.serving.settings import Settings
 from tests.app.serving.load.waiting import ROOT, process_of_its_own, status_of
-from tests.conftest import eventually, free_port, soon
+from tests.conftest import PATIENCE, eventually, free_port, soon
 
 pytestmark = pytest.mark.slow
 
 Request = dict[str, Any]
 
-DRAIN = 3.0
-"""Seconds for which a process that ends sends requests elsewhere; enough for one that stalls."""
+DRAIN = 300.0
+"""Seconds for which a process that ends sends requests elsewhere; more than anybody waits here."""
 
 
 def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Request) -> None:
@@ -32,10 +32,8 @@ def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Re
           ThreadPoolExecutor(1) as pool):
         running = pool.submit(client.post, "/plan", json=smallest)
         soon(lambda: "tandem_planner_running 1.0" in client.get("/metrics").text)
-        began = time.perf_counter()
         process.send_signal(signal.SIGTERM)
-        reply = running.result()
-        assert time.perf_counter() - began < DRAIN
+        reply = running.result(PATIENCE)
         assert reply.status_code == 200
         assert reply.json()["summary"]["served"] == 2
         refused = client.post("/plan", json=smallest)
@@ -48,20 +46,23 @@ def test_running_plans_are_returned_and_new_requests_sent_elsewhere(smallest: Re
         assert ready.json()["status"] == "stopping"
         assert ready.headers["connection"] == "close"
         assert client.get("/health/live").status_code == 200
-        assert process.wait(10) in (0, -signal.SIGTERM)
-        assert DRAIN < time.perf_counter() - began < DRAIN + 5
+        # Who asks again waits for nothing more.
+        process.send_signal(signal.SIGTERM)
+        process.wait(PATIENCE)
 
 
-@pytest.mark.parametrize("signals", [
-    [signal.SIGINT], [signal.SIGTERM, signal.SIGTERM]])
-def test_impatient_signals_end_the_process_at_once(signals: list[signal.Signals]) -> None:
-    with process_of_its_own(TANDEM_DRAIN_SECONDS="60") as (process, client):
-        for number in signals:
-            process.send_signal(number)
-            soon(lambda: process.poll() is not None
-                 or status_of(client, "/health/ready") in (503, None))
-        # Half of what it would wait for without another signal.
-        process.wait(30)
+def test_interrupted_process_ends_at_once() -> None:
+    with process_of_its_own(TANDEM_DRAIN_SECONDS=f"{DRAIN:g}") as (process, _):
+        process.send_signal(signal.SIGINT)
+        process.wait(PATIENCE)
+
+
+def test_process_ends_by_itself_after_its_time() -> None:
+    with process_of_its_own(TANDEM_DRAIN_SECONDS="1.5") as (process, _):
+        began = time.perf_counter()
+        process.send_signal(signal.SIGTERM)
+        assert process.wait(PATIENCE) in (0, -signal.SIGTERM)
+        assert time.perf_counter() - began > 1.5
 
 
 def children(process: subprocess.Popen[bytes]) -> set[int]:
@@ -89,7 +90,7 @@ def serving(data_dir: Path) -> Iterator[subprocess.Popen[bytes]]:
                 "TMPDIR": str(data_dir)}) as process,
           httpx.Client(base_url=f"http://127.0.0.1:{port}", trust_env=False) as client):
         try:
-            eventually(lambda: status_of(client, "/health/live") == 200, 120)
+            eventually(lambda: status_of(client, "/health/live") == 200)
             yield process
         finally:
             process.kill()
@@ -105,7 +106,7 @@ def test_processes_that_share_a_port_are_replaced_and_end_with_the_one_that_star
         eventually(lambda: len(children(process) - first) == 1)
         workers = children(process)
         process.kill()
-        process.wait(60)
+        process.wait(PATIENCE)
         eventually(lambda: not any(command_of(pid) for pid in workers))
 
 
