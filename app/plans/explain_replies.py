@@ -1,6 +1,6 @@
 """Why a customer is served where he is -> plain data (see `app.schemas.explain`)."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 
 from app.plans.replies import (
     Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
@@ -12,6 +12,7 @@ from model.judge.bench import Bench, Trial
 from model.judge.binding import Binding, Limit
 from model.judge.clock import window_of
 from model.judge.explain import Reason
+from model.judge.group_moves import Unit
 from model.judge.idle_drones import Idle
 from model.judge.places import Found, find_place, halts
 from model.judge.rules import Violation
@@ -73,22 +74,26 @@ def more_than_without(bench: Bench, trial: Trial) -> dict[str, float]:
 
 def _alternative(bench: Bench, each: Alternative) -> Data:
     trial = each.trial
-    placed = placed_reply(bench, trial)
+    placed = placed_reply(bench, trial, each.companions)
     if each.window is not None:
         placed["window"] = each.window
         if bench.shipment is not None and each.node is not None:
             placed["window_at"] = bench.problem.customer_at(each.node).id
-    if each.companions:
-        placed["companions"] = [
-            bench.problem.customer_at(bench.problem.first_place(unit.node)).id
-            if unit.shipment is None else unit.shipment.id for unit in each.companions]
     return {
         "kind": each.kind,
         **placed,
+        **companions_reply(bench.problem, each.companions),
         "cost": difference(trial.evaluation.cost, bench.plan.evaluation.cost),
         "feasible": trial.evaluation.is_feasible,
         "reasons": rules_reply(trial.evaluation.violations),
     }
+
+
+def companions_reply(problem: Problem, companions: Sequence[Unit]) -> Data:
+    """Return who goes along, if anybody does."""
+    names = [problem.customer_at(problem.first_place(unit.node)).id
+             if unit.shipment is None else unit.shipment.id for unit in companions]
+    return {"companions": names} if names else {}
 
 
 def rules_reply(violations: Sequence[Violation]) -> list[Data]:
@@ -97,8 +102,9 @@ def rules_reply(violations: Sequence[Violation]) -> list[Data]:
         (item.code, item.message) for item in telling(violations))]
 
 
-def placed_reply(bench: Bench, trial: Trial) -> Data:
+def placed_reply(bench: Bench, trial: Trial, companions: Sequence[Unit] = ()) -> Data:
     """Return who serves the customer where and when in a plan, or all ends of the shipment."""
+    moved = {*bench.nodes, *(node for unit in companions for node in unit.nodes)}
     placed = [(node, found, halt) for node in bench.nodes
               if (found := find_place(trial.solution, node)) is not None
               and (halt := halt_of(trial, node)) is not None]
@@ -107,20 +113,24 @@ def placed_reply(bench: Bench, trial: Trial) -> Data:
                 "service_start": None}
     placed.sort(key=lambda each: each[2].service_start)
     problem = bench.problem
-    ends = [{**place_reply(problem, node), **_at_place(bench, trial, node, found, halt),
+    ends = [{**place_reply(problem, node), **_at_place(problem, trial, (node, found, halt), moved),
              "arrival": whole(halt.arrival)} for node, found, halt in placed]
-    node, found, halt = placed[0]
+    _, found, _ = placed[0]
     reply = {"vehicle": vehicle_name(problem, trial.solution.routes[found.route]),
-             **_at_place(bench, trial, node, found, halt)}
+             **_at_place(problem, trial, placed[0], moved)}
     if bench.shipment is None:
         return reply
     by = "drone" if any(end["by"] == "drone" for end in ends) else "truck"
     return reply | {"by": by, "ends": ends}
 
 
-def _at_place(bench: Bench, trial: Trial, node: int, found: Found, halt: Stop | Visit) -> Data:
-    """Return who comes to a node, in which window, where in the vehicle's work and when."""
-    problem, place = bench.problem, found.place
+def _at_place(problem: Problem, trial: Trial, placed: tuple[int, Found, Stop | Visit],
+              moved: Collection[int]) -> Data:
+    """Return who comes to a node, in which window, where in the vehicle's work and when.
+
+    `moved` are all who were put there.
+    """
+    (node, found, halt), place = placed, placed[1].place
     trip = trial.solution.routes[found.route].trips[place.trip]
     stops, by_drone = trip.stops, place.by == "drone"
     return {
@@ -128,7 +138,7 @@ def _at_place(bench: Bench, trial: Trial, node: int, found: Found, halt: Stop | 
         "window": window_of(problem.customer_at(node), halt.service_start),
         "position": {
             "trip": place.trip,
-            "own_trip": {each.node for each in halts(trip)} <= {*bench.nodes},
+            "own_trip": {each.node for each in halts(trip)} <= {*moved},
             "stop": place.stop,
             "after": _name(problem, stops[place.stop - (not by_drone)].node),
             "recovery_stop": place.recovery if by_drone else None,

@@ -9,7 +9,7 @@ from pydantic_core import to_json
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.checking import PLAN, PROBLEM, illegal_plan, read_about_plan
 from app.plans.explain_replies import (
-    here_reply, more_than_without, placed_reply, rules_reply, subject_reply,
+    companions_reply, here_reply, more_than_without, placed_reply, rules_reply, subject_reply,
 )
 from app.plans.explaining import (
     LEAST_TRYING, node_named, preparing_within, require_known, require_shipment, require_within,
@@ -24,14 +24,14 @@ from app.schemas.fit import FitReply, FitRequest
 from app.serving.load.received import ReceivedBody
 from model.judge.bench import Bench, Trial
 from model.judge.check import Evaluation, JudgedRoute
-from model.judge.fitting import find_fits, new_violations, spot_of, vehicle_of
+from model.judge.fitting import Fit, find_fits, new_violations, spot_of, vehicle_of
 from model.judge.places import find_place, used_place
 from model.solution import Solution
 
 SUBJECTS = "customer", "new_customer", "shipment", "new_shipment"
 """Fields one of which says for whom a place is sought."""
 
-TRYING_SHARE = 0.9
+ANSWERING_SHARE = 0.9
 """Share of the time limit after which no more places are tried."""
 
 
@@ -55,16 +55,16 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
     _require_readable(evaluation)
     bench = _bench(task, request, solution, judged)
     now, limit = time.perf_counter(), request.options.time_limit
-    until = max(body.received_at + TRYING_SHARE * limit, now + LEAST_TRYING * limit)
+    until = max(body.received_at + ANSWERING_SHARE * limit, now + LEAST_TRYING * limit)
     fits = find_fits(bench, request.count, until,
                      vehicle_of if request.one_per_vehicle else spot_of)
     reply: Data = {
         **subject_reply(bench),
         "cost": cost_reply(evaluation.cost),
         "here": here_reply(bench),
-        "places": [_place_reply(bench, trial) | {"route": _route(task, bench, trial)}
-                   for trial in fits.places],
-        "others": [_place_reply(bench, trial) for trial in fits.others],
+        "places": [_place_reply(bench, fit) | {"route": _route(task, bench, fit.trial)}
+                   for fit in fits.places],
+        "others": [_place_reply(bench, fit) for fit in fits.others],
         "complete": fits.is_complete,
         "warnings": warning_replies(
             warning._replace(path=request.path_of(warning.path))
@@ -120,11 +120,12 @@ def _with_nodes(solution: Solution, nodes: Iterable[int]) -> Solution:
     return replace(solution, unassigned=(*solution.unassigned, *lacking))
 
 
-def _place_reply(bench: Bench, trial: Trial) -> Data:
-    broken = new_violations(bench, trial)
+def _place_reply(bench: Bench, fit: Fit) -> Data:
+    broken = new_violations(bench, fit.trial)
     return {
-        **placed_reply(bench, trial),
-        "cost": more_than_without(bench, trial),
+        **placed_reply(bench, fit.trial, fit.companions),
+        **companions_reply(bench.problem, fit.companions),
+        "cost": more_than_without(bench, fit.trial),
         "feasible": not broken,
         "reasons": rules_reply(broken),
     }

@@ -86,6 +86,9 @@ class PlacedReply(_Reply):
         description="Start of service. Null: there is none.")
     ends: list[EndPlacedReply] = Field(
         [], description="All ends of a shipment, in the order of visits. Left out of customers.")
+    companions: list[str] = Field(
+        [], description="Ids of customers and shipments who are served by the vehicle then, too, "
+        "since relations bind them to be served by one. Left out where there is none.")
 
 
 class HereReply(PlacedReply):
@@ -110,9 +113,6 @@ class AlternativeReply(PlacedReply):
         description="`place`: elsewhere with the same vehicle, in the same way. `by`: by drone "
         "instead of truck, or the other way round, with any vehicle. `window`: in this window "
         "alone. `vehicle`: with this other vehicle. `unassigned`: not at all.")
-    companions: list[str] = Field(
-        [], description="Ids of customers and shipments who go along to the `vehicle`, since "
-        "relations bind them to be served by one. Left out where there is none.")
     window_at: str | None = Field(
         None, description="Of a shipment's `window`: the end whose it is, as `s1/delivery`.")
     cost: CostReply = Field(

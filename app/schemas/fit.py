@@ -6,7 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.check import CheckRequest
 from app.schemas.customer import CustomerInput
-from app.schemas.explain import OTHERS_STAY, ExplainOptions, HereReply, PlacedReply, RuleReply
+from app.schemas.explain import ExplainOptions, HereReply, PlacedReply, RuleReply
 from app.schemas.request import PlanRequest
 from app.schemas.response import WARNINGS_TEXT, CostReply, RouteReply, WarningReply
 from app.schemas.shipment import ShipmentInput
@@ -62,7 +62,8 @@ class FitPlaceReply(PlacedReply):
 
     cost: CostReply = Field(
         description="What the plan costs more than without him, by term; nothing is counted for "
-        f"leaving him out. {OTHERS_STAY} Where it is not feasible: the cost with the rule broken.")
+        "leaving him or his `companions` out. All others stay with their vehicles, in their order. "
+        "Where it is not feasible: the cost with the rule broken.")
     feasible: bool = Field(
         description="Whether no rule is broken but those that the plan breaks without him.")
     reasons: list[RuleReply] = Field(description="Rules that forbid it.")

@@ -6,16 +6,13 @@ cheapest of its kind is true of those tried.
 
 import math
 import time
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import product
 from typing import Literal
 
 from model.judge.bench import Bench, Draft, Trial
 from model.judge.clock import window_of
-from model.judge.group_moves import (
-    EFFORTS, Unit, companions_of, move_together, without,
-)
+from model.judge.group_moves import Unit, companions_of, move_all
 from model.judge.past import Vehicle
 from model.judge.places import Means, Place, halts
 from model.judge.retiming import read_route
@@ -95,7 +92,8 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
         if found is None or vehicle != found.place.vehicle:
             vehicles.setdefault(vehicle, []).extend(drafts)
     if companions:
-        others, in_time = _all_moved(bench, companions, vehicles, until)
+        moved, in_time = move_all(bench, dict.fromkeys(vehicles, companions), until)
+        others = [Alternative("vehicle", trial, companions) for trial in moved.values()]
         is_complete &= in_time
     else:
         others = [each for some in vehicles.values() for each in best_of(bench, "vehicle", some)]
@@ -105,22 +103,6 @@ def find_alternatives(bench: Bench, until: float = math.inf) -> Findings:
     return Findings(tuple(alternatives),
                     tuple([draft for drafts in by_group.values() for draft in drafts]),
                     is_complete and all_windows)
-
-
-def _all_moved(bench: Bench, companions: tuple[Unit, ...], vehicles: Iterable[Vehicle],
-               until: float) -> tuple[list[Alternative], bool]:
-    """Return what it would cost if each vehicle served all who go together, and if all were tried.
-    """
-    left_out, best = without(bench, companions), dict[Vehicle, Trial]()
-    in_time = True
-    for effort, vehicle in product(EFFORTS, vehicles):
-        trial = move_together(bench, companions, left_out, vehicle, effort, until)
-        if trial is not None:
-            best[vehicle] = min(trial, best.get(vehicle, trial), key=lambda trial: trial.rank)
-        elif time.perf_counter() >= until:
-            in_time = False
-            break
-    return [Alternative("vehicle", trial, companions) for trial in best.values()], in_time
 
 
 def best_of(bench: Bench, kind: Kind, drafts: Sequence[Draft],

@@ -7,21 +7,22 @@ of each vehicle's likeliest, by truck and by drone.
 import math
 import time
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
-from itertools import takewhile
+from dataclasses import dataclass, replace
+from itertools import chain, takewhile
 
 from model.judge.alternatives import best_of, try_places
 from model.judge.bench import Bench, Draft, Trial
+from model.judge.group_moves import Unit, companions_to, move_all, not_with
 from model.judge.past import Vehicle
 from model.judge.past_rules import PAST_RULES
-from model.judge.places import Place
+from model.judge.places import Place, find_place
 from model.judge.rules import Violation
 from model.judge.screening import share_over
 
 SPARE = 8
 """So many more places than asked for are judged with the whole plan if these break rules there."""
 
-TRYING_SHARE = 0.9
+ROUTES_SHARE = 0.9
 """Share of the time in which routes are tried, before plans with the best ones are judged."""
 
 
@@ -36,12 +37,30 @@ def vehicle_of(place: Place) -> tuple[object, ...]:
     return (place.vehicle,)
 
 
+ALONE_SHARE = 0.5
+"""Share of the time in which a customer is put alone, before those who go with him are, too."""
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A plan with the customer or shipment, and who is served by that vehicle, too, by relations.
+    """
+
+    trial: Trial
+    companions: tuple[Unit, ...] = ()
+
+    @property
+    def rank(self) -> tuple[int, float]:
+        """What is smaller for a better one."""
+        return self.trial.rank
+
+
 @dataclass(frozen=True)
 class Fits:
     """What was found by trying."""
 
-    places: tuple[Trial, ...]  # the best first
-    others: tuple[Trial, ...]  # the best of each vehicle that has none of these, the best first
+    places: tuple[Fit, ...]  # the best first
+    others: tuple[Fit, ...]  # the best of each vehicle that has none of these, the best first
     is_complete: bool  # no clock cut it short
 
 
@@ -52,19 +71,56 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
     `until` is on `time.perf_counter`; of places that are one `spot`, the best counts. Of what was
     tried by then, one place is told in any case.
     """
-    by_group, is_complete = try_places(bench, share_over(TRYING_SHARE, until))
+    companions = companions_to(bench)
+    fits, vehicles = _alone(bench, count, share_over(ALONE_SHARE, until) if companions else until,
+                            spot)
+    if not companions:
+        return fits
+    along = {vehicle: not_with(bench, companions, vehicle) for vehicle in vehicles}
+    moved, in_time = move_all(bench, {vehicle: units for vehicle, units in along.items() if units},
+                              until)
+    together = [Fit(trial, along[vehicle]) for vehicle, trial in moved.items()]
+    is_complete = fits.is_complete and in_time
+    if all(find_place(bench.plan.solution, unit.node) for unit in companions):
+        return _joined([*together, *fits.places, *fits.others], bench, count, is_complete)
+    if any(not new_violations(bench, each.trial) for each in together):
+        return _joined(together, bench, count, is_complete)
+    return replace(fits, is_complete=is_complete)
+
+
+def _joined(fits: Iterable[Fit], bench: Bench, count: int, is_complete: bool) -> Fits:
+    """Return the best of some fits, and the best of each vehicle that has none of these."""
+    ranked = sorted(fits, key=lambda fit: fit.rank)
+    allowed = [fit for fit in ranked if not new_violations(bench, fit.trial)]
+    places = (allowed or ranked)[:count]
+    seen = {_vehicle(fit) for fit in places}
+    others: dict[Vehicle | None, Fit] = {}
+    for fit in ranked:
+        if _vehicle(fit) not in seen:
+            others.setdefault(_vehicle(fit), fit)
+    return Fits(tuple(places), tuple(others.values()), is_complete)
+
+
+def _vehicle(fit: Fit) -> Vehicle | None:
+    return None if fit.trial.place is None else fit.trial.place.vehicle
+
+
+def _alone(bench: Bench, count: int, until: float,
+           spot: Callable[[Place], tuple[object, ...]]) -> tuple[Fits, list[Vehicle]]:
+    """Return the best places with all others staying, and all vehicles that were tried."""
+    by_group, is_complete = try_places(bench, share_over(ROUTES_SHARE, until))
     drafts = [draft for some in by_group.values() for draft in some]
     places = _best(bench, sorted(drafts, key=lambda draft: draft.rank), count, spot, until)
     chosen = {trial.place.vehicle for trial in places if trial.place is not None}
     vehicles: dict[Vehicle, list[Draft]] = {}
     for draft in drafts:
-        if draft.place.vehicle not in chosen:
-            vehicles.setdefault(draft.place.vehicle, []).append(draft)
-    others = [each.trial for some in takewhile(lambda _: time.perf_counter() < until,
-                                               vehicles.values())
-              for each in best_of(bench, "vehicle", some)]
-    return Fits(tuple(places), tuple(sorted(others, key=lambda trial: trial.rank)),
-                is_complete and time.perf_counter() < until)
+        vehicles.setdefault(draft.place.vehicle, []).append(draft)
+    some = takewhile(lambda _: time.perf_counter() < until,
+                     [some for vehicle, some in vehicles.items() if vehicle not in chosen])
+    others = [Fit(each.trial) for each in chain.from_iterable(
+        best_of(bench, "vehicle", drafts) for drafts in some)]
+    return Fits(tuple(map(Fit, places)), tuple(sorted(others, key=lambda fit: fit.rank)),
+                is_complete and time.perf_counter() < until), [*vehicles]
 
 
 def new_violations(bench: Bench, trial: Trial) -> list[Violation]:

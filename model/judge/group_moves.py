@@ -1,14 +1,15 @@
 """Customers whom relations keep together, all moved to another vehicle at once, by way of trial."""
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from itertools import product
 from typing import NamedTuple
 
 from model.judge.bench import Bench, Draft, Trial
 from model.judge.check import JudgedRoute
 from model.judge.past import Vehicle
-from model.judge.places import halts
+from model.judge.places import find_place, halts
 from model.problem import Shipment
 
 
@@ -49,28 +50,77 @@ def companions_of(bench: Bench) -> tuple[Unit, ...]:
     Nobody goes along with one end of a shipment, which the other binds, nor where one of them is
     on a trip that has begun.
     """
-    problem, solution = bench.problem, bench.plan.solution
+    found = _bound_to(bench, _served(bench))
+    moved = {*bench.nodes, *(node for unit in found for node in unit.nodes)}
+    return () if _begun(bench) & moved else found
+
+
+def companions_to(bench: Bench) -> tuple[Unit, ...]:
+    """Return the same of those left out, too; but for whoever is on a trip that has begun."""
+    problem, served, begun = bench.problem, _served(bench), _begun(bench)
+    places = problem.all_places(served)
+    left_out = [node for node in range(problem.num_depots, problem.num_nodes)
+                if node == problem.first_place(node) and node not in places]
+    return tuple([unit for unit in _bound_to(bench, [*served, *left_out])
+                  if begun.isdisjoint((*bench.nodes, *unit.nodes))])
+
+
+def not_with(bench: Bench, companions: tuple[Unit, ...], vehicle: Vehicle) -> tuple[Unit, ...]:
+    """Return those whom a vehicle doesn't serve."""
+    own = [find_place(bench.plan.solution, unit.node) for unit in companions]
+    return tuple([unit for unit, found in zip(companions, own, strict=True)
+                  if found is None or found.place.vehicle != vehicle])
+
+
+def _served(bench: Bench) -> list[int]:
+    """Return the nodes that a plan serves."""
+    return [halt.node for route in bench.plan.solution.routes for trip in route.trips
+            for halt in halts(trip)]
+
+
+def _begun(bench: Bench) -> set[int]:
+    """Return the nodes of trips that have begun."""
+    return {node for trips in bench.setting.past.trips.values() for trip in trips
+            for node in trip.aboard | trip.served}
+
+
+def _bound_to(bench: Bench, among: Iterable[int]) -> tuple[Unit, ...]:
+    """Return who of some nodes has to be served by the vehicle that serves a customer."""
+    problem, known = bench.problem, [*among]
     if not problem.keeps_together or (bench.shipment is None and bench.node in problem.shipment_at):
         return ()
-    served = [halt.node for route in solution.routes for trip in route.trips
-              for halt in halts(trip)]
-    begun = {node for trips in bench.setting.past.trips.values() for trip in trips
-             for node in trip.aboard | trip.served}
     found, asked = dict[int, Unit](), [*bench.nodes]
     for node in asked:
         bound = {other for relation in problem.relations
                  if relation.keeps_together and node in relation.nodes for other in relation.nodes}
-        for other in served:
+        for other in known:
             if other in bound and other not in bench.nodes and problem.unit_of(other) not in found:
                 shipment = problem.shipment_at.get(other)
                 unit = Unit(problem.unit_of(other), shipment)
                 found[unit.node] = unit
                 asked += unit.nodes
-    return () if begun & {*asked} else tuple(found.values())
+    return tuple(found.values())
 
 
-def move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, vehicle: Vehicle,
-                  effort: Effort, until: float) -> Trial | None:
+def move_all(bench: Bench, along: Mapping[Vehicle, tuple[Unit, ...]], until: float
+             ) -> tuple[dict[Vehicle, Trial], bool]:
+    """Return what is found by an instant if each vehicle serves a customer and who goes along.
+
+    And whether all of them were tried.
+    """
+    left_out = {companions: _without(bench, companions) for companions in {*along.values()}}
+    best = dict[Vehicle, Trial]()
+    for effort, (vehicle, companions) in product(EFFORTS, along.items()):
+        trial = _move_together(bench, companions, left_out[companions], vehicle, effort, until)
+        if trial is not None:
+            best[vehicle] = min(trial, best.get(vehicle, trial), key=lambda trial: trial.rank)
+        elif time.perf_counter() >= until:
+            return best, False
+    return best, True
+
+
+def _move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, vehicle: Vehicle,
+                   effort: Effort, until: float) -> Trial | None:
     """Return a plan in which a vehicle serves a customer with all who are bound to go with him.
 
     The best of those tried, one after another being placed; None: there was no time until an
@@ -93,7 +143,7 @@ def move_together(bench: Bench, companions: tuple[Unit, ...], left_out: Way, veh
     return min([way.trial for way in ways], key=lambda trial: trial.rank, default=None)
 
 
-def without(bench: Bench, companions: tuple[Unit, ...]) -> Way:
+def _without(bench: Bench, companions: tuple[Unit, ...]) -> Way:
     """Return the plan that leaves all of them out."""
     trial, judged = bench.left_out, bench.judged
     for unit in companions:

@@ -7,6 +7,7 @@ import httpx
 import pytest
 
 from app.schemas.explain import ExplainReply
+from app.schemas.fit import FitReply
 from app.schemas.response import PlanReply
 
 Request = dict[str, Any]
@@ -47,6 +48,59 @@ def test_customers_go_with_whom_relations_say(service: httpx.Client, related: Re
                              "customers": ["A", "C"] if len(relations) == 1 else ["A", "D"]}]
     checked = service.post("/check", json={"problem": related, "plan": plan}).json()
     assert [each["code"] for each in checked["violations"]] == ["RELATION"]
+
+
+def half_planned(related: Request) -> Request:
+    """Return what is asked where A goes with C, truck-1 serves B, and nobody all others."""
+    related["relations"] = [{"kind": "together", "customers": ["A", "C"]}]
+    related["customers"][1] |= {"vehicles": {"allowed": ["truck-1"]}}
+    hub = {"kind": "depot", "id": related["depots"][0]["id"]}
+    new = related["customers"].pop(0)
+    return {"problem": related, "new_customer": new, "plan": {
+        "routes": [{"vehicle": "truck-1", "type": "truck", "trips": [
+            {"stops": [hub, {"kind": "customer", "id": "B"}, hub], "sorties": []}]}],
+        "unassigned": [{"id": "D"}]}}
+
+
+def test_who_is_left_out_fits_with_all_who_go_along(service: httpx.Client, related: Request
+                                                    ) -> None:
+    asked = half_planned(related)
+    told = service.post("/fit", json=asked).json()
+    FitReply.model_validate(told)
+    # truck-1 has room for one of both, whom relations bind to be served by one vehicle.
+    best, = told["places"]
+    assert (best["vehicle"], best["companions"], best["cost"]["unassigned"]) == (
+        "truck-2", ["C"], 0)
+    assert best["cost"]["total"] == pytest.approx(34)
+    assert vehicle_of({"routes": [best["route"]]}) == {"A": "truck-2", "C": "truck-2"}
+    other, = told["others"]
+    assert (other["vehicle"], other["companions"]) == ("truck-1", ["C"])
+    assert [each["code"] for each in other["reasons"]] == ["CAPACITY"]
+    # Nobody can be served with whom no vehicle has room for: then he fits alone.
+    related["customers"][1]["demand"] = [3]
+    told = service.post("/fit", json=asked).json()
+    assert all(each["feasible"] and "companions" not in each for each in told["places"])
+
+
+def test_who_is_served_goes_along_where_another_vehicle_serves_the_new_one(
+        service: httpx.Client, related: Request) -> None:
+    asked = half_planned(related)
+    best, = service.post("/fit", json=asked).json()["places"]
+    plan = asked["plan"]
+    plan["routes"].append(best["route"])
+    trip = best["route"]["trips"][0]
+    trip["stops"] = [stop for stop in trip["stops"] if stop["id"] != "A"]
+    told = service.post("/fit", json=asked | {"count": 9}).json()
+    assert {(each["vehicle"], *each.get("companions", [])) for each in told["places"]} == {
+        ("truck-2",)}
+    related["fleet"][0]["count"] += 1
+    plan["unassigned"].clear()
+    trip["stops"].insert(1, {"kind": "customer", "id": "D"})
+    for stop in trip["stops"]:
+        stop.pop("arrival", None)
+    best, = service.post("/fit", json=asked).json()["places"]
+    assert (best["vehicle"], best["companions"], best["cost"]["total"]) == (
+        "truck-3", ["C"], pytest.approx(34))
 
 
 def test_other_vehicles_are_told_of_with_all_who_go_together(service: httpx.Client,

@@ -16,6 +16,7 @@ import {
 } from '../../../app/console/static/js/core/moving.js';
 import { indexPlan } from '../../../app/console/static/js/core/plan.js';
 import { furtherFrom } from '../../../app/console/static/js/core/replanning.js';
+import { visitNamesOf } from '../../../app/console/static/js/core/visits.js';
 
 const REQUEST = {
   depots: [{ id: 'hub', location: [0, 0] }],
@@ -143,6 +144,12 @@ test('changes, places and rules are told in words', () => {
   assert.deepEqual(placeInWords({ vehicle: 'van-1', by: 'drone', service_start: 3600,
     position: { own_trip: false, after: 'A', recovered_at: 'B' } }),
   ['a drone of van-1', 'from A, back at B, 1:00']);
+  assert.deepEqual(placeInWords({ vehicle: 'van-1', by: 'truck', service_start: 3600,
+    position: { own_trip: false, after: 'A', recovered_at: null }, companions: ['C', 's1'] }),
+  ['van-1 with C, s1', 'after A, 1:00']);
+  assert.deepEqual(visitNamesOf({ customers: [{ id: 'C' }], shipments: [
+    { id: 's1', amount: [1], pickup: {}, delivery: {} }] }, ['C', 's1']),
+  ['C', 's1/pickup', 's1/delivery']);
   assert.deepEqual(rulesInWords([{ message: 'customer B is reached at 3600 s, after 60 s' },
     { message: 'customer B is reached at 3600 s, after 60 s' }]),
   ['Customer B is reached at 1:00, after 0:01.']);

@@ -10,6 +10,8 @@ import pytest
 from model.judge.alternatives import find_alternatives
 from model.judge.bench import Bench
 from model.judge.check import check
+from model.judge.fitting import find_fits, new_violations
+from model.judge.group_moves import companions_to
 from model.judge.past import EVERYTHING_OPEN, Vehicle
 from model.judge.places import halts
 from model.judge.retiming import time_route
@@ -92,3 +94,38 @@ def test_all_who_go_together_are_moved_at_once_for_the_least_cost(seed: int) -> 
                 assert each.trial.evaluation.cost.total <= lowest.get(vehicle, math.inf) + 1e-9
             else:
                 assert vehicle not in lowest
+
+
+@pytest.mark.parametrize("seed", [28, 31])
+@pytest.mark.parametrize("all_left_out", [True, False])
+def test_who_goes_along_with_one_who_is_left_out_is_served_with_him_for_the_least_cost(
+        seed: int, all_left_out: bool) -> None:
+    rng = np.random.default_rng(seed)
+    problem = with_shipments(rng, drawn(rng)) if seed % 2 else drawn(rng)
+    problem = with_relations(rng, problem)
+    whole = greedy(problem)
+    for node in range(problem.num_depots, problem.num_nodes):
+        if problem.unit_of(node) != node:
+            continue
+        bench = bench_of(problem, whole, node)
+        nodes = (*bench.nodes, *[other for unit in companions_to(bench) for other in unit.nodes])
+        plan = leave_out(problem, whole, nodes if all_left_out else bench.nodes)
+        bench = bench_of(problem, plan, node)
+        fits = find_fits(bench, 5)
+        assert fits.is_complete
+        for fit in (*fits.places, *fits.others):
+            if not fit.companions:
+                continue
+            moved = (*bench.nodes, *[other for unit in fit.companions for other in unit.nodes])
+            assert fit.trial.evaluation == check(problem, fit.trial.solution)
+            own = served_by(fit.trial.solution)
+            vehicle, = {own[each] for each in moved}
+            lowest = cheapest_by_vehicle(problem, leave_out(problem, plan, moved), moved)
+            if not new_violations(bench, fit.trial):
+                assert fit.trial.evaluation.cost.total <= lowest.get(vehicle, math.inf) + 1e-9
+            else:
+                assert vehicle not in lowest
+        if all_left_out and any(fit.companions for fit in fits.places):
+            # A relation binds those alone who are served, but nobody is served without the others.
+            assert all({unit.node for unit in fit.companions} == {
+                problem.unit_of(other) for other in nodes} - {node} for fit in fits.places)

@@ -34,10 +34,10 @@ def greedy(problem: Problem) -> Solution:
     """Serve everyone, shipments as wholes, where it costs least, one after another."""
     solution = Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
     for node in range(problem.num_depots, problem.num_nodes):
-        if problem.unit_of(node) == node:
+        if problem.unit_of(node) == node and node in solution.unassigned:
             best, = find_fits(bench_of(problem, solution, node), 1).places[:1] or [None]
-            if best is not None and best.evaluation.is_feasible:
-                solution = best.solution
+            if best is not None and best.trial.evaluation.is_feasible:
+                solution = best.trial.solution
     return solution
 
 
@@ -127,7 +127,7 @@ def test_the_best_offer_is_the_best_of_all(seed: int) -> None:
         bench = bench_of(problem, left_out, shipment.pickup)
         fits = find_fits(bench, 3)
         assert fits.is_complete
-        best = fits.places[0]
+        best = fits.places[0].trial
         assert best.evaluation == check(problem, best.solution)
         lowest = cheapest(problem, left_out, shipment)
         if lowest < math.inf:
@@ -147,7 +147,8 @@ def test_what_breaks_only_because_a_shipment_is_missed_excuses_no_place(seed: in
     for shipment in problem.shipments:
         bench = bench_of(problem, solution, shipment.pickup)
         for place in find_fits(bench, 5).places if bench.found else ():
-            assert bool(new_violations(bench, place)) != place.evaluation.is_feasible
+            broken = new_violations(bench, place.trial)
+            assert bool(broken) != place.trial.evaluation.is_feasible
 
 
 @pytest.mark.parametrize("seed", range(12))

@@ -8,7 +8,7 @@ import { judgedPlan, withCustomerAt, withRoute } from './core/moving.js';
 import { takesAnotherTrip, withAnotherTrip } from './core/orders.js';
 import { unlike } from './core/naming.js';
 import { penaltyOf, trueCost } from './core/terms.js';
-import { shipmentOf } from './core/visits.js';
+import { shipmentOf, visitNamesOf } from './core/visits.js';
 import { stop } from './planning.js';
 import { store } from './store.js';
 import { t } from './texts.js';
@@ -43,11 +43,13 @@ export const takeFit = (fit, place) =>
       ? withAnotherTrip(fit.base, entry.plan, place)
       : fit.base;
     const request = isNew ? { ...base, customers: [...base.customers, fit.customer] } : base;
+    const along = place.companions ?? [];
+    const names = [...fit.whole?.names ?? [id], ...visitNamesOf(request, along)];
     return {
       request,
       added: isNew ? fit.customer : null,
-      decided: withRoute(entry.plan, fit.whole?.names ?? [id], place.route),
-      words: t('hand.to', { id, vehicle: place.vehicle }),
+      decided: withRoute(entry.plan, names, place.route),
+      words: t('hand.to', { id: [id, ...along].join(', '), vehicle: place.vehicle }),
     };
   });
 

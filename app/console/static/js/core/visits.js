@@ -57,6 +57,15 @@ export function shipmentOf({ shipments = [] }, name) {
   return whole && { id: whole.id, names: endsOf(whole).map((end) => end.name) };
 }
 
+/** Return the names of visits of customers and shipments, which are named by their ids. */
+export function visitNamesOf({ customers, shipments = [] }, ids) {
+  return ids.flatMap((id) => {
+    const whole = customers.every((customer) => customer.id !== id)
+      && shipments.find((shipment) => shipment.id === id);
+    return whole ? endsOf(whole).map(({ name }) => name) : [id];
+  });
+}
+
 function namesOf({ id, parts = [] }) {
   const pickups = parts.length ? parts : [null];
   return [...pickups.map((part) => visitName({ kind: 'pickup', id, part })), `${id}/delivery`];
