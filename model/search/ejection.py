@@ -17,7 +17,7 @@ import numpy as np
 from model.engine.alarm import Alarm
 from model.engine.library import call
 from model.problem import UNLIMITED
-from model.search.limits import Span
+from model.search.limits import Limits, Span
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import go_on_from_best
@@ -92,8 +92,15 @@ def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) 
                 continue
             if span.begin > share:
                 go_on_from_best(data, searcher)
-                call("tandem_move_shipments", data, searcher, MOVES * data.num_nodes)
+                _move_at_random(data, searcher, limits, span)
             yield span
         go_on_from_best(data, searcher)
     if not limits.over(first.turns):
         yield Span(limits.share(first.turns), 1.0, 1.0)
+
+
+def _move_at_random(data: ProblemData, searcher: Searcher, limits: Limits, span: Span) -> None:
+    """Move shipments at random while there is time in a span. In place."""
+    with Alarm(min(limits.span_end(span)[1], limits.deadline), limits.should_stop) as alarm:
+        call("tandem_move_shipments", data._replace(deadline=alarm.setting), searcher,
+             MOVES * data.num_nodes)

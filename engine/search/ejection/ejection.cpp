@@ -167,14 +167,37 @@ private:
         order_.resize(row_.size());
         std::iota(order_.begin(), order_.end(), Int{0});
         mix(order_);
+        // One by one first: the less trouble somebody is by whom it fits, the fewer pairs are
+        // tried.
+        if (!try_each(pair, best) || !try_pairs(pair, best)) return false;
+        if (best.row == nowhere) return false;
+        take_out(best.row, best.one, best.other);
+        put_in(best.row, pickup, best.place);
+        pool_.push_back(best.one);
+        if (best.other != nowhere) pool_.push_back(best.other);
+        return true;
+    }
+
+    // Ejects each shipment that may be. False once the search must end.
+    bool try_each(const PairToInsert& pair, Spot& best) {
         for (const Int index : order_) {
-            const PairRow& row = row_[std::size_t(index)];
-            list_pickups(row, pickups_);
-            for (std::size_t first = 0; first < pickups_.size(); ++first) {
-                const Int one = pickups_[first];
+            list_pickups(row_[std::size_t(index)], pickups_);
+            for (const Int one : pickups_) {
                 if (trouble_[std::size_t(one)] >= best.trouble) break;
                 if (data_.deadline.passed()) return false;
                 try_without(index, pair, one, nowhere, best);
+            }
+        }
+        return true;
+    }
+
+    // Ejects each two shipments of a route that may be. False once the search must end.
+    bool try_pairs(const PairToInsert& pair, Spot& best) {
+        for (const Int index : order_) {
+            list_pickups(row_[std::size_t(index)], pickups_);
+            for (std::size_t first = 1; first < pickups_.size(); ++first) {
+                const Int one = pickups_[first];
+                if (trouble_[std::size_t(one)] >= best.trouble) break;
                 for (std::size_t second = 0; second < first; ++second) {
                     const Int other = pickups_[second];
                     if (trouble_[std::size_t(one)] + trouble_[std::size_t(other)] >= best.trouble)
@@ -184,11 +207,6 @@ private:
                 }
             }
         }
-        if (best.row == nowhere) return false;
-        take_out(best.row, best.one, best.other);
-        put_in(best.row, pickup, best.place);
-        pool_.push_back(best.one);
-        if (best.other != nowhere) pool_.push_back(best.other);
         return true;
     }
 

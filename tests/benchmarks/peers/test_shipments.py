@@ -24,7 +24,11 @@ def test_plans_of_others_are_judged_and_left_out_of_means_where_somebody_is(
     assert math.isnan(none.vehicles_above)
     with pytest.raises(RuntimeError, match="wrong, a: "):
         by_peer("wrong", instance, 0.1)
-    above = Run("right", "b", 2, 0.1, 2, math.nan)
-    assert list(summary([right, above, none])) == [
-        "| right | 2 of 2 | 1.00 | 1 | 100.00 |", "| none | 0 of 1 | nan | 0 | nan |"]
+    assert right.cost_gap_percent == pytest.approx(100 / 3)
+    above = Run("right", "b", 2, 0.1, 2, math.nan, 40.0)
+    other = Run("other", "b", 2, 0.1, 0, 1.0, 2.0)
+    assert list(summary([right, above, none, other])) == [
+        "| 0.1 | right | 2 of 2 | 1.00 | 1 | 100.00 | 40.00 of 1 |",
+        "| 0.1 | none | 0 of 1 | nan | 0 | nan | nan of 0 |",
+        "| 0.1 | other | 1 of 1 | 0.00 | 1 | 1.00 | 2.00 of 1 |"]
     assert by_tandem(instance, 0.5).gap_percent == right.gap_percent
