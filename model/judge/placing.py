@@ -1,14 +1,16 @@
 """Breaks put between the stops of a route that lacks some."""
 
+from collections.abc import Iterable
 from dataclasses import replace
+from itertools import pairwise
 
 from model.judge.breaks import BreakDecision, begin_of, broken_breaks, is_due
 from model.judge.driving import Excess, excesses, is_out
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import REST, DrivingRules, Problem
+from model.problem import REST, Break, DrivingRules, Problem, VehicleType
 from model.solution import BreakPlace, Route, Trip
 
-PLACES: tuple[BreakPlace, ...] = "departure", "arrival"
+AT_STOPS: tuple[BreakPlace, ...] = "departure", "arrival"
 """Where a stated break is put between two stops."""
 
 ON_A_LEG: tuple[BreakPlace, ...] = "departure", "way", "arrival"
@@ -31,7 +33,7 @@ def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
         if number in taken or not is_due(each, begin, end):
             continue
         ways = [(wrong, _lateness(problem, tried), _end(tried), way)
-                for placed in _ways(_unrested(decision), number)
+                for placed in _ways(_unrested(decision), number, _places(kind, each))
                 for way in [with_due_rests(problem, placed)]
                 for tried in [schedule(problem, way)]
                 for wrong in [any(of is not None for of, _ in
@@ -61,12 +63,18 @@ def _lateness(problem: Problem, route: Route) -> int:
                 if problem.customer_at(stop.node).late_cost_per_hour is None])
 
 
-def _ways(decision: RouteDecision, number: int) -> list[RouteDecision]:
+def _places(kind: VehicleType, each: Break) -> tuple[BreakPlace, ...]:
+    """Return where a break may be put between two stops."""
+    return (*AT_STOPS, "way") if each.anywhere and not kind.speed_profile else AT_STOPS
+
+
+def _ways(decision: RouteDecision, number: int,
+          places: Iterable[BreakPlace]) -> list[RouteDecision]:
     """Return the route with a break more, at each place."""
     ways = []
     for index, trip in enumerate(decision.trips):
         for stop in range(len(trip.nodes) - 1):
-            for place in PLACES:
+            for place in places:
                 trips = [*decision.trips]
                 trips[index] = _with(trip, BreakDecision(number, stop, place))
                 ways.append(replace(decision, trips=tuple(trips)))
@@ -87,12 +95,46 @@ MOST_RESTS = 64
 def with_due_rests(problem: Problem, decision: RouteDecision) -> RouteDecision:
     """Return a route whose driver rests, each time as late as allowed.
 
+    Or, where that is too late for somebody, while the truck waits, too.
+    """
+    rules = problem.vehicle_types[decision.vehicle_type].driving
+    if rules is None:
+        return decision
+    rested = _rested_late(problem, decision, rules)
+    if _wrong(problem, rested) == (0, 0):
+        return rested
+    waiting = _rested_late(problem, _with_waits(problem, decision, rules), rules)
+    return min(rested, waiting, key=lambda way: _wrong(problem, way))
+
+
+def _wrong(problem: Problem, decision: RouteDecision) -> tuple[int, int]:
+    """Return how often a route breaks driving rules, and by how much it comes too late."""
+    kind, route = problem.vehicle_types[decision.vehicle_type], schedule(problem, decision)
+    return sum(1 for _ in excesses(kind, route.trips)), _lateness(problem, route)
+
+
+def _with_waits(problem: Problem, decision: RouteDecision, rules: DrivingRules) -> RouteDecision:
+    """Return a route whose driver rests where the truck waits for so long."""
+    route, trips = schedule(problem, decision), list[TripDecision]()
+    for trip, timed in zip(decision.trips, route.trips, strict=True):
+        for stop, (before, after) in enumerate(pairwise(timed.stops)):
+            ready = max([after.arrival, *(taken.end for taken in timed.breaks
+                                          if taken.stop == stop)])
+            if before.node == after.node or after.service_start - ready < rules.rest or (
+                    not rules.while_drones_fly and is_out(timed.sorties, stop)):
+                continue
+            trip = _with(trip, BreakDecision(REST, stop, "arrival", 0, rules.rest))
+        trips.append(trip)
+    return replace(decision, trips=tuple(trips))
+
+
+def _rested_late(problem: Problem, decision: RouteDecision,
+                 rules: DrivingRules) -> RouteDecision:
+    """Return a route whose driver rests, each time as late as allowed.
+
     Where a rest would help nothing, it and those behind are left out.
     """
     kind = problem.vehicle_types[decision.vehicle_type]
-    rules = kind.driving
-    if rules is None:
-        return decision
     before, reached = decision, (-1, 0, 0)
     for _ in range(MOST_RESTS):
         trips = schedule(problem, decision).trips

@@ -6,7 +6,7 @@ import httpx
 import pytest
 
 from app.plans.pictures.drawing import draw_svg
-from tests.app.plans.asking import planned
+from tests.app.plans.asking import judged, planned
 from tests.app.plans.pictures.conftest import scene_of
 from tests.app.plans.test_hubs import is_feasible
 
@@ -129,3 +129,46 @@ def test_a_driver_at_the_depot_has_a_break_while_the_only_drone_flies(
     assert plan["status"] == "complete"
     assert [each["id"] for each in breaks_of(plan)] == ["nap"]
     assert is_feasible(service, request, plan)
+
+
+@pytest.fixture
+def short(smallest: Request) -> Request:
+    """Return two customers some twenty minutes away, whose truck's breaks are of its own."""
+    return smallest | {
+        "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+        "customers": [
+            {"id": "0", "location": [10, -20], "demand": [1], "time_window": {"earliest": 7200}},
+            {"id": "1", "location": [8, -22], "demand": [1]}],
+        "fleet": [{"id": "truck", "count": 1, "capacity": [9], "speed_kmh": 60,
+                   "costs": {"per_km": 1}}]}
+
+
+def test_a_plan_without_times_begins_when_a_break_is_over_that_nobody_could_take(
+        client: httpx.Client, short: Request) -> None:
+    """The judge's own three ways to begin break it: the search is asked for another."""
+    short["fleet"][0]["breaks"] = [{
+        "id": "lunch", "duration": 1800, "at": "anywhere", "max_load": [1],
+        "start": {"earliest": 4800, "latest": 6600}}]
+    stops = [{"kind": "depot", "id": "hub"}, {"kind": "customer", "id": "0"},
+             {"kind": "customer", "id": "1"}, {"kind": "depot", "id": "hub"}]
+    plan = {"routes": [{"vehicle": "truck-1", "type": "truck",
+                        "trips": [{"stops": stops, "sorties": []}]}], "unassigned": []}
+    verdict = judged(client, short, plan)
+    assert verdict["feasible"], verdict["violations"]
+    told = verdict["routes"][0]["trips"][0]["stops"]
+    assert [stop["id"] for stop in told] == ["hub", "0", "1", "hub"]
+    assert told[0]["departure"] >= 6600
+
+
+def test_who_fits_if_the_driver_rests_on_the_way_is_put_there(client: httpx.Client,
+                                                              short: Request) -> None:
+    short["fleet"][0]["breaks"] = [{"id": "coffee", "duration": 600, "at": "anywhere",
+                                    "paid": False, "start": {"earliest": 900, "latest": 1000}}]
+    new, _ = short["customers"]
+    new["time_window"] = {"latest": 2000}
+    short["customers"] = [short["customers"][1] | {"time_window": {"earliest": 9000}}]
+    told = client.post("/fit", json={"problem": short, "new_customer": new, "plan": {
+        "routes": [], "unassigned": []}}).json()
+    assert [each["feasible"] for each in told["places"]] == [True]
+    kinds = [stop["kind"] for stop in told["places"][0]["route"]["trips"][0]["stops"]]
+    assert kinds == ["depot", "break", "customer", "depot"]

@@ -11,7 +11,7 @@ from model.judge.clock import with_all_setups
 from model.judge.placing import with_due_breaks
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
-    UNLIMITED, Break, Customer, Depot, Problem, SpeedProfile, Travel, VehicleType,
+    UNLIMITED, Break, Customer, Depot, DrivingRules, Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.solution import BreakPlace, Solution, TakenBreak
 
@@ -126,6 +126,29 @@ def test_breaks_that_lack_are_placed_where_the_route_ends_first() -> None:
     placed = schedule(problem, with_due_breaks(problem, decision))
     assert broken(problem, Solution((placed,))) == set()
     assert [taken.number for taken in placed.trips[0].breaks] == [0, 1]
+
+
+def test_a_break_that_lacks_is_placed_on_the_way_where_it_may_and_others_come_too_late() -> None:
+    problem = problem_of(Break("early", 5 * MINUTE, 5 * MINUTE, 5 * MINUTE, anywhere=True))
+    first, second = problem.customers
+    problem = replace(problem, customers=(replace(first, latest=15 * MINUTE), second))
+    decision = RouteDecision(0, 0, (TripDecision((0, 1, 2, 0), start=0),))
+    placed = schedule(problem, with_due_breaks(problem, decision))
+    assert broken(problem, Solution((placed,))) == set()
+    assert [taken.place for taken in placed.trips[0].breaks] == ["way"]
+
+
+def test_a_driver_rests_while_waiting_where_it_is_too_late_behind() -> None:
+    rules = DrivingRules(max_driving=15 * MINUTE, rest=10 * MINUTE)
+    problem = problem_of(driving=rules)
+    first, second = problem.customers
+    problem = replace(problem, customers=(replace(first, earliest=30 * MINUTE),
+                                          replace(second, latest=45 * MINUTE)))
+    decision = RouteDecision(0, 0, (TripDecision((0, 1, 2, 0), start=0),))
+    placed = schedule(problem, with_due_breaks(problem, decision))
+    assert broken(problem, Solution((placed,))) == set()
+    rest, *_ = placed.trips[0].breaks
+    assert (rest.stop, rest.start) == (0, 10 * MINUTE)
 
 
 def test_breaks_stay_where_setups_are_told_anew() -> None:
