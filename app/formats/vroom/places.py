@@ -142,6 +142,7 @@ class _LegFinder:
         self._roads = roads
         self._known = known
         self._per_km = {v.profile for v in request.vehicles if v.costs.per_km > 0}
+        self._limited = {v.profile for v in request.vehicles if v.max_distance is not None}
         self._geometry = request.options.g
         states_distances = any(m.distances is not None for m in matrices.values())
         self.tells_distances = self._geometry or states_distances or bool(self._per_km)
@@ -169,7 +170,8 @@ class _LegFinder:
         if stated.distances is not None:
             distances = self._table(profile, "distances", stated.distances)
             return Legs(durations, distances, costs, True)
-        if self._geometry or profile in self._per_km:
+        if self._geometry or profile in self._per_km or (
+                profile in self._limited and all(point is not None for point, _ in self._known)):
             return Legs(durations, _whole(self._great_circles), costs, True)
         return Legs(durations, np.zeros_like(durations), costs, False)
 

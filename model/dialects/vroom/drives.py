@@ -117,7 +117,8 @@ class Drives:
         if stated.max_distance is not None:
             if not legs.distances_known:
                 raise RefusedError(f"max_distance of vehicle {stated.id} needs "
-                                   f"matrices.{stated.profile}.distances: add them.")
+                                   f"matrices.{stated.profile}.distances, or coordinates of all "
+                                   "places: add them.")
             metres = min(LONGEST, stated.max_distance)
             if self._longest_route(legs.distances) <= metres:
                 metres = None

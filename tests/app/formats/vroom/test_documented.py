@@ -119,6 +119,20 @@ def test_jobs_by_coordinates_are_served_in_vrooms_shape(
                           ("break", 1): 1, ("break", 2): 2}
 
 
+@pytest.mark.parametrize(("metres", "served"), [(5000, 1), (9000, 2)])
+def test_the_longest_way_is_measured_between_coordinates_where_no_distances_are_stated(
+        searching: httpx.Client, metres: int, served: int) -> None:
+    start = {"start": [2.35, 48.86], "start_index": 0, "end": [2.35, 48.86], "end_index": 0}
+    reply = solved(searching, {
+        "vehicles": [{"id": 1, **start, "max_distance": metres}],
+        # About 1.5 km and 3.2 km away, in opposite directions.
+        "jobs": [{"id": 1, "location": [2.37, 48.86], "location_index": 1},
+                 {"id": 2, "location": [2.34, 48.832], "location_index": 2}],
+        "matrices": {"car": {"durations": [[0, 60, 60], [60, 0, 60], [60, 60, 0]]}}})
+    assert 2 - reply["summary"]["unassigned"] == served
+    assert "distance" not in reply["summary"]
+
+
 @pytest.mark.parametrize("matrix", ["matrix", "matrices"])
 def test_matrix_from_one_place_to_another_is_solved_as_by_vroom(
         searching: httpx.Client, matrix: str) -> None:
