@@ -58,6 +58,11 @@ class Sortie:
     recovery_start: int
     recovery_time: int  # the end of recovery
 
+    @property
+    def nodes(self) -> tuple[int, ...]:
+        """Whom it serves, in order."""
+        return tuple([visit.node for visit in self.visits])
+
 
 @dataclass(frozen=True, slots=True)
 class TakenBreak:

@@ -38,7 +38,6 @@ ErrorCode = Literal[
     "DUPLICATE_ID",
     "MISSING_DRONE_ID",
     "PICKUP_OR_PICKUPS",
-    "PICKUPS_WITH",
     "NO_DEPOT",
     "EMPTY_FLEET",
     "UNKNOWN_DEPOT",

@@ -57,6 +57,7 @@ class VisitInput(_Plan):
     kind: EndKind | None = Field(None, description=VISIT_KIND_TEXT)
     id: str = Field(description="Id of the customer, or of the shipment.")
     alternative: str | None = Field(None, description=ALTERNATIVE_TEXT)
+    part: str | None = Field(None, description=PART_TEXT)
     arrival: Instant = Field(description="Arrival of the drone.")
     service_start: Instant = Field(description="Start of service.")
     departure: Instant = Field(description="Departure of the drone.")
@@ -71,7 +72,7 @@ class VisitInput(_Plan):
     def _name_place(self) -> Self:
         """Name a shipment's end, or another place, as the customer that it is."""
         if self.kind is not None:
-            self.__dict__ |= {"kind": None, "id": end_name(self.id, self.kind)}
+            self.__dict__ |= {"kind": None, "id": end_name(self.id, self.kind, self.part)}
         elif self.alternative is not None:
             self.__dict__["id"] = place_of(self.id, self.alternative)
         return self

@@ -87,6 +87,7 @@ class VisitReply(_Reply):
     kind: EndKind | None = Field(None, description=VISIT_KIND_TEXT)
     id: str = Field(description="Id of the customer, or of the shipment.")
     alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
+    part: str | None = Field(None, description=f"{PART_TEXT} Left out where it hasn't.")
     arrival: InstantReply = Field(description="Arrival of the drone.")
     service_start: InstantReply = Field(description="Start of service.")
     departure: InstantReply = Field(description="Departure of the drone.")

@@ -1,7 +1,7 @@
 """A parcel of a request that is fetched at one place, or several, and brought to another."""
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field, ValidationInfo, field_validator
 from pydantic_core import PydanticCustomError
@@ -43,7 +43,7 @@ class ShipmentEndInput(Input):
         "truck",
         description="Who comes: the truck itself, or either it or a drone of it. What a drone "
         "fetches is aboard the truck from where that recovers it; what one delivers is launched "
-        "at a stop behind, or fetched on the same sortie. With `pickups` the truck alone.",
+        "at a stop behind, or, if it has one `pickup`, fetched on the same sortie.",
     )
 
 
@@ -118,18 +118,6 @@ class ShipmentInput(Input):
                 "OUT_OF_RANGE", f"What is delivered must not exceed {MAX_AMOUNT:g} in all: state "
                 "smaller amounts, or another unit.")
         return pickups
-
-    @field_validator("pickups", "delivery")
-    @classmethod
-    def _require_truck(cls, ends: Any, info: ValidationInfo) -> Any:
-        """Refuse drones for what is fetched in parts."""
-        several = isinstance(ends, list)
-        if any(end.served_by != "truck" for end in (ends if several else [ends])) and (
-                several or info.data.get("pickups")):
-            raise PydanticCustomError(
-                "PICKUPS_WITH", "What is fetched at several places is served by the truck alone: "
-                "leave out `served_by`, or state one `pickup`.")
-        return ends
 
     def named_ends(self) -> list[tuple[str, str]]:
         """Return the names of its ends among customers, and where it states them."""

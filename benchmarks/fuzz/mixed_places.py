@@ -7,6 +7,8 @@ import math
 import random
 from typing import Any
 
+from benchmarks.fuzz.wild_shipments import ends_of
+
 Data = dict[str, Any]
 
 REACH = 8
@@ -67,10 +69,8 @@ def ship(rng: random.Random, request: Data) -> None:
         for number in range(rng.randint(1, 4))]
     # What else is drawn stays as it was.
     flown = random.Random(str(request["shipments"]))
-    for shipment in request["shipments"]:
-        if "pickup" in shipment:
-            for name in ("pickup", "delivery"):
-                shipment[name] |= {"served_by": "either"} if flown.random() < 0.5 else {}
+    for each in ends_of(request):
+        each |= {"served_by": "either"} if flown.random() < 0.5 else {}
 
 
 def go_together(rng: random.Random, request: Data) -> None:

@@ -21,7 +21,7 @@ def add_shipments(rng: random.Random, request: Data, place: Callable[[], list[fl
         parts = rng.choice((1, 1, 1, 1, 2, 3, 8))
         ends = [{"location": place() if rng.random() < 0.8 else rng.choice(places),
                  **({} if fits else _asked(rng) | windows()),
-                 **_chosen(rng, 0.5 if parts == 1 else 0.01, served_by="either")}
+                 **_chosen(rng, 0.5, served_by="either")}
                 for _ in range(parts + 1)]
         amounts = [[rng.choice(choices) for _ in range(dimensions)] for _ in range(parts)]
         fetched = {"amount": amounts[0], "pickup": ends[0]} if parts == 1 else {"pickups": [

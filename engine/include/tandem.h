@@ -1171,6 +1171,7 @@ typedef struct tandem_strategy {
     bool scan_all;        /* insertion looks at all routes, else beside neighbours alone */
     bool keep_places;     /* customers' best places on routes are kept from turn to turn */
     bool give_up_early;   /* a turn ends once it costs too much, as no insertion saves anything */
+    bool fly_shipments;   /* drones may serve some end of a shipment */
     double blink;         /* how often a better place for a customer is overlooked */
 } tandem_strategy;
 

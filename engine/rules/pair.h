@@ -186,15 +186,16 @@ bool keeps_stack(View<const Pair, 1> pairs, Int first, Int behind, const NodeAt&
     return true;
 }
 
-// Whether a sortie delivers as its visit number `index`, by whom it serves, what it fetched before.
+// Whether a sortie delivers as its visit number `index`, by whom it serves, what it fetched before:
+// nothing of several parts, all of which come aboard the truck.
 inline bool is_brought_within(View<const Pair, 1> pairs, const Int* nodes, Int index) {
-    return is_delivery(pairs, nodes[index]) &&
+    return is_delivery(pairs, nodes[index]) && !is_gathered(pairs, nodes[index]) &&
            std::find(nodes, nodes + index, pairs[nodes[index]].partner) != nodes + index;
 }
 
 // Whether a sortie delivers later what it fetches as its visit number `index`.
 inline bool is_fetched_within(View<const Pair, 1> pairs, const Int* nodes, Int count, Int index) {
-    return is_pickup(pairs, nodes[index]) &&
+    return is_pickup(pairs, nodes[index]) && !is_gathered(pairs, nodes[index]) &&
            std::find(nodes + index, nodes + count, pairs[nodes[index]].partner) != nodes + count;
 }
 

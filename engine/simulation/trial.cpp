@@ -85,12 +85,13 @@ using Dues = std::vector<Due>;
 // What of a shipment isn't aboard yet.
 Order lacking_of(const Setting& setting, const VehicleLog& log, Int delivery) {
     const auto stops = log.stop.first(log.count.stops);
+    const auto sorties = log.sortie.first(log.count.sorties);
     Order lacking;
     for (const Int pickup : pickups_of(setting.pair, delivery)) {
-        const bool is_aboard = std::any_of(stops.begin(), stops.end(), [&](const LoggedStop& stop) {
-            return stop.node == pickup;
-        });
-        if (!is_aboard) lacking.push_back(pickup);
+        const auto is_there = [&](const auto& halt) { return halt.node == pickup; };
+        if (std::ranges::none_of(stops, is_there) && std::ranges::none_of(sorties, is_there)) {
+            lacking.push_back(pickup);
+        }
     }
     return lacking;
 }
@@ -279,15 +280,17 @@ Int last_aboard(const OpenVehicle& open) {
 
 bool was_aboard(const OpenVehicle& open, Int delivery) {
     const auto& [setting, vehicle, log, drones] = open;
-    const Int pickup = setting.pair[delivery].partner, here = log.count.stops - 1;
+    const Int here = log.count.stops - 1;
     const View<LoggedStop, 1> stops = log.stop.first(here);
     const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
-    return std::any_of(stops.begin(), stops.end(),
-                       [&](const LoggedStop& stop) { return stop.node == pickup; }) ||
-           std::any_of(sorties.begin(), sorties.end(), [&](const LoggedSortie& sortie) {
-               return sortie.node == pickup && sortie.recovery_stop != in_flight &&
-                      sortie.recovery_stop < here;
-           });
+    return std::ranges::all_of(pickups_of(setting.pair, delivery), [&](Int pickup) {
+        return std::any_of(stops.begin(), stops.end(),
+                           [&](const LoggedStop& stop) { return stop.node == pickup; }) ||
+               std::any_of(sorties.begin(), sorties.end(), [&](const LoggedSortie& sortie) {
+                   return sortie.node == pickup && sortie.recovery_stop != in_flight &&
+                          sortie.recovery_stop < here;
+               });
+    });
 }
 
 bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook& outlook) {

@@ -298,7 +298,8 @@ private:
         for (const LoggedSortie& sortie : log_.sortie.first(log_.count.sorties)) {
             const Int pickup = sortie.node;
             if (!brings(setting_.pair, pickup, node)) continue;
-            return excess_between(setting_.max_between, pickup, sortie.trial_ready, start) <= 0;
+            const Int left = sortie.trial_ready;
+            if (excess_between(setting_.max_between, pickup, left, start) > 0) return false;
         }
         return true;
     }

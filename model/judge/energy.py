@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from model.judge.launches import launch_begins
-from model.judge.pairs import change_aboard, flown_out
+from model.judge.pairs import brought_within, change_aboard, flown_out
 from model.problem import DroneType, Energy, Problem, VehicleType
 from model.solution import Sortie, Stop, Trip, Visit
 
@@ -65,9 +65,9 @@ def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> li
     customers = [problem.customer_at(node) for node in nodes]
     weights = [sum([customer.demand[energy.dimension] for customer in customers])]
     # A truck's drone has from there what it delivers.
+    within = brought_within(problem, nodes) if problem.shipments else ()
     weights[0] += sum([flown_out(problem, node)[energy.dimension] for node in nodes
-                       if node in problem.shipment_at
-                       and problem.shipment_at[node].pickup not in nodes])
+                       if node in problem.shipment_at and node not in within])
     for node, customer in zip(nodes, customers, strict=True):
         change = change_aboard(problem, node) or customer.taken_in
         weights.append(weights[-1] - customer.demand[energy.dimension] + change[energy.dimension])

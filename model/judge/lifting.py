@@ -21,8 +21,7 @@ def lifted(problem: Problem, nodes: Sequence[int]) -> Iterator[tuple[str, Proble
     if any(not customer.skills <= kind.skills for kind in kinds for customer in customers):
         yield "skills", _with_all(
             problem, nodes, lambda customer: replace(customer, skills=frozenset()))
-    may_fly = shipment is None or not shipment.more
-    if may_fly and any(customer.served_by != "either" for customer in customers) and (
+    if any(customer.served_by != "either" for customer in customers) and (
             problem.lags_across.keys().isdisjoint(nodes)):
         yield "served_by", _with_all(
             problem, nodes, lambda customer: replace(customer, served_by="either"))

@@ -53,7 +53,7 @@ def _add_shipments(problem: Problem, trip: Trip, loads: list[Amount]) -> None:
     """
     served = [[stop.node] for stop in trip.stops]
     for sortie in trip.sorties:
-        within = brought_within(problem, sortie)
+        within = brought_within(problem, sortie.nodes)
         for visit in sortie.visits:
             each = problem.shipment_at.get(visit.node)
             if each is not None and each.delivery in within:
@@ -92,7 +92,7 @@ def _by_stop(problem: Problem, trip: Trip, flown_at: list[int]) -> list[list[Cus
 def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
     """Return what a drone carries at take-off, then when it leaves each customer."""
     load = (0,) * problem.num_dimensions
-    loads, within = [load], brought_within(problem, sortie)
+    loads, within = [load], brought_within(problem, sortie.nodes)
     for visit in reversed(sortie.visits):
         if visit.node not in within:
             load = _plus(load, flown_out(problem, visit.node))

@@ -1,9 +1,9 @@
 """Shipments: both ends on one trip, pickup first, and how long the parcel is under way."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from model.problem import Problem, VehicleType
-from model.solution import Sortie, Trip
+from model.solution import Trip
 
 
 def change_aboard(problem: Problem, node: int) -> tuple[int, ...] | None:
@@ -12,14 +12,17 @@ def change_aboard(problem: Problem, node: int) -> tuple[int, ...] | None:
     return None if each is None else each.change_at(node)
 
 
-def brought_within(problem: Problem, sortie: Sortie) -> set[int]:
-    """Return the deliveries of what a drone has fetched before on the same sortie."""
-    fetched, within = set[int](), set[int]()
-    for visit in sortie.visits:
-        each = problem.shipment_at.get(visit.node)
-        if each is not None and visit.node == each.delivery and fetched.issuperset(each.pickups):
-            within.add(visit.node)
-        fetched.add(visit.node)
+def brought_within(problem: Problem, nodes: Sequence[int]) -> set[int]:
+    """Return the deliveries of what a drone has fetched before on the same sortie, to these nodes.
+
+    None of what is fetched in parts, all of which come aboard the truck.
+    """
+    within = set[int]()
+    for index, node in enumerate(nodes):
+        each = problem.shipment_at.get(node)
+        if each is not None and node == each.delivery and not each.more and (
+                each.pickup in nodes[:index]):
+            within.add(node)
     return within
 
 
@@ -43,9 +46,9 @@ def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
 
     As part of a path. A parcel is aboard its truck from the stop on where that picks it up, or
     recovers the drone that does; it is so as the truck comes to the stop where it delivers it, or
-    launches the drone that does. Both ends may be served on one sortie.
+    launches the drone that does. Both ends may be served on one sortie, if there are two.
     """
-    within = {node for sortie in trip.sorties for node in brought_within(problem, sortie)}
+    within = {node for sortie in trip.sorties for node in brought_within(problem, sortie.nodes)}
     position = {stop.node: (f".stops[{index}]", index) for index, stop in trip.numbered_stops}
     position |= _flown_ends(problem, trip)
     driven = {stop.node for stop in trip.customer_stops}

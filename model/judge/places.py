@@ -179,7 +179,9 @@ def route_with(decision: RouteDecision, place: Place, node: int,
     trips = [*decision.trips]
     if place.own_trip:
         trips.insert(place.trip, TripDecision(ends))
-    for each, where in reversed(place.ends or ((node, place),)):
+    # Those by drone first, launched and recovered at stops as they are.
+    last_first = (place.ends or ((node, place),))[::-1]
+    for each, where in sorted(last_first, key=lambda end: end[1].by == "truck"):
         trips[place.trip] = _with(trips[place.trip], where, each)
     return replace(decision, trips=tuple(trips))
 

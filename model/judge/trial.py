@@ -117,18 +117,18 @@ def again(attempt: Attempt, problem: Problem) -> Attempt:
 
 def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
     """Return a trip by a type that serves a shipment alone; by truck if no other is allowed."""
-    if shipment.more:
-        return _try_parts(problem, kind, shipment)
-    ends = [shipment.pickup, shipment.delivery]
-    by_truck = _by_truck(small_problem(problem, kind, ends))
+    small = small_problem(problem, kind, shipment.nodes)
+    by_truck = _parts_by_truck(small) if shipment.more else _by_truck(small)
     if not by_truck.codes:
         return by_truck
-    may_fly = {end for end, node in enumerate(ends)
+    last = len(shipment.nodes) - 1
+    may_fly = {end for end, node in enumerate(shipment.nodes)
                if problem.customer_at(node).served_by != "truck"}
+    fetched = [set[int](), *[{end} for end in range(last)], *[{*range(last)}][:last - 1]]
     for drones in problem.vehicle_types[kind].drone_types if may_fly else ():
-        small = small_problem(problem, kind, ends, drones)
-        for flown in ({0}, {1}, {0, 1}):
-            if flown <= may_fly:
+        small = small_problem(problem, kind, shipment.nodes, drones)
+        for flown in [some | brought for brought in (set[int](), {last}) for some in fetched]:
+            if flown and flown <= may_fly:
                 attempt = _judge(small, _alone(small, flown))
                 if not attempt.codes:
                     return attempt
@@ -136,23 +136,21 @@ def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
 
 
 def _alone(small: Problem, flown: Collection[int]) -> TripDecision:
-    """Return a trip for one shipment, of which drones serve some ends, 0 or 1, by truck the others.
+    """Return a trip for one shipment, of which drones serve some ends by number, by truck the rest.
 
     They fetch it from the trip's start, and deliver it from its end.
     """
-    pickup, delivery = range(small.num_depots, small.num_nodes)
-    driven = [node for end, node in enumerate((pickup, delivery)) if end not in flown]
+    ends = range(small.num_depots, small.num_nodes)
+    driven = [node for end, node in enumerate(ends) if end not in flown]
     nodes = (0, *driven, small.vehicle_types[0].ends_at)
     last = len(nodes) - 1
-    sorties = [SortieDecision((pickup,), 0, 0)] if 0 in flown else []
-    if 1 in flown:
-        sorties.append(SortieDecision((delivery,), last, last))
-    return TripDecision(nodes, tuple(sorties))
+    return TripDecision(nodes, tuple([
+        SortieDecision((node,), last, last) if node == ends[-1] else SortieDecision((node,), 0, 0)
+        for end, node in enumerate(ends) if end in flown]))
 
 
-def _try_parts(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
+def _parts_by_truck(small: Problem) -> Attempt:
     """Return a trip by truck that picks up a shipment in parts, in the best of some orders."""
-    small = small_problem(problem, kind, shipment.nodes)
     *pickups, delivery = range(small.num_depots, small.num_nodes)
     home = small.vehicle_types[0].ends_at
     tried = [_judge(small, TripDecision((0, *order, delivery, home)))

@@ -57,9 +57,8 @@ class Shipment:
             for part in self.parts:
                 require(len(part.amount) == len(end.demand), f"shipment {self.id} amount",
                         part.amount)
-        goods, by = {end.goods for end in ends}, {end.served_by for end in ends}
+        goods = {end.goods for end in ends}
         require(len(goods) == 1, f"shipment {self.id} goods", goods)
-        require(not self.more or by == {"truck"}, f"shipment {self.id} served_by", by)
 
     def renumbered(self, number: Mapping[int, int]) -> "Shipment":
         """Return the same shipment where nodes have other numbers."""

@@ -81,7 +81,7 @@ def strategy_of(problem: Problem, instance: Instance, moves: Moves, evaluation: 
         keep_places=(scan_all and not linked and blink <= LEAST_BLINK
                      and not problem.lags_across and not limits_chargers(problem)),
         give_up_early=not (fair or problem.launch_sites or _may_save(instance, evaluation)),
-        blink=blink)
+        fly_shipments=moves.flights and _may_fly_shipments(problem, instance), blink=blink)
 
 
 def grounded(instance: Instance) -> Instance:
@@ -102,6 +102,11 @@ def _blink(problem: Problem, most_visits: int) -> float:
     """Return how often a better place is overlooked; sorties of several offer many more places."""
     places = most_visits * max(1, problem.num_customers) ** 2
     return min(MOST_BLINK, max(LEAST_BLINK, BLINKS / places))
+
+
+def _may_fly_shipments(problem: Problem, instance: Instance) -> bool:
+    """Tell whether drones may serve some end of a shipment."""
+    return bool(instance.can_fly[0][:, [*problem.shipment_at]].any())
 
 
 def _may_be_any_time(problem: Problem, instance: Instance) -> bool:

@@ -89,7 +89,8 @@ def lasts(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, to: i
     Not where what it fetches is delivered: that is to be aboard before.
     """
     flight = trip.flights[index]
-    if to in problem.shipment_at and problem.shipment_at[to].pickup == flight.customer:
+    each = problem.shipment_at.get(to)
+    if each is not None and to == each.delivery and flight.customer in each.pickups:
         return False
     drones = kind.drone_type(flight.drone)
     if not (problem.may_launch_at(to) and in_range(problem, drones, to, flight.customer)):

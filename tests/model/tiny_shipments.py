@@ -65,8 +65,24 @@ def _gather(chosen: list[int], num_depots: int, customers: list[Customer],
 def with_flown_shipments(rng: np.random.Generator, problem: Problem) -> Problem:
     """Return a problem of shipments that drones may fetch and deliver, most of which can."""
     problem = with_shipments(rng, problem, 2)
-    problem = replace(problem, shipments=tuple(replace(each, more=())
-                                               for each in problem.shipments))
+    return _flown(replace(problem, shipments=tuple(replace(each, more=())
+                                                   for each in problem.shipments)))
+
+
+def with_flown_parts(rng: np.random.Generator, problem: Problem) -> Problem:
+    """Return a problem of one shipment in two or three parts that drones may fetch and deliver.
+
+    One of fewer than three customers has whatever shipments there are.
+    """
+    drawn = with_shipments(rng, problem, 1)
+    for _ in range(20):
+        if problem.num_customers < 3 or drawn.shipments[0].more:
+            break
+        drawn = with_shipments(rng, problem, 1)
+    return _flown(drawn)
+
+
+def _flown(problem: Problem) -> Problem:
     ends = problem.shipment_at.keys()
     kinds = tuple(replace(kind, lifo=False, max_stops=None, capacity=tuple(
         2 * amount + 3 for amount in kind.capacity), drones=kind.drones and replace(

@@ -14,7 +14,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
-#include "search/insertion/parts.h"
+#include "search/insertion/parts_alone.h"
 #include "search/route/block.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
@@ -361,7 +361,8 @@ private:
 
 bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                  bool by_drone) {
-    if (is_gathered(data.pair, node)) return serve_parts_alone(data, fleet, slot, k, node);
+    if (is_gathered(data.pair, node))
+        return serve_parts_alone(data, fleet, slot, k, node, by_drone);
     const WaysAlone all(data, k, node, by_drone);
     double best = infeasible;
     Int chosen = 0;
@@ -380,6 +381,7 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
 
 bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
                         View<std::uint64_t, 1> rng) {
+    if (is_gathered(data.pair, node)) return serve_parts_anyhow(data, fleet, slot, k, node, rng);
     const WaysAlone driven(data, k, node, false), flown(data, k, node, true);
     const Int way = below(rng, driven.number() + flown.number());
     return way < driven.number() ? driven.serve(fleet, slot, way)

@@ -5,6 +5,7 @@
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "search/insertion/cheapest.h"
+#include "search/insertion/end_place.h"
 #include "search/insertion/trip_scan.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -17,21 +18,6 @@ namespace {
 
 constexpr Int most_places = 96;  // of an end on a trip
 constexpr Int most_priced = 64;  // of pairs of them
-constexpr Int by_wheels = -1;    // instead of a row of drones
-constexpr Int by_same = -2;      // likewise, of a delivery by the sortie that fetches
-
-// Where an end is served: by truck behind stop `first`, or by a drone of a row from `first` to
-// `last`.
-struct EndPlace {
-    double cost;
-    Int row, first, last;
-
-    // From where on a pickup is aboard, and where a delivery leaves, in half stops.
-    Int aboard() const { return row == by_wheels ? 2 * first + 1 : 2 * last; }
-    Int leaves() const { return row == by_wheels ? 2 * first + 1 : 2 * first; }
-
-    bool operator<(const EndPlace& other) const { return cost < other.cost; }
-};
 
 // Where both ends are served.
 struct PairPlace {
@@ -161,7 +147,7 @@ private:
 void scan_flown(const Insertion& insertion, Int slot, const Trip& trip) {
     const ProblemData& data = insertion.data;
     const Int k = insertion.searcher.now.route[slot].type;
-    if (data.can(k, 1, insertion.node) || data.can(k, 1, data.pair[insertion.node].partner)) {
+    if (flies_some_end(data, k, insertion.node)) {
         FlownPairScan(insertion, slot, trip).scan();
     }
 }

@@ -13,7 +13,9 @@
 #include "rules/start.h"
 #include "search/insertion/cheapest.h"
 #include "search/insertion/flown_pairs.h"
+#include "search/insertion/flown_parts.h"
 #include "search/insertion/parts.h"
+#include "search/insertion/parts_alone.h"
 #include "search/insertion/trip_scan.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
@@ -286,6 +288,7 @@ void scan_pair(const Insertion& insertion, Int slot) {
             if (allows_stops(data.type[k], stops_on(trip) + ends)) {
                 scan_parts(insertion, slot, trip, walked);
             }
+            scan_flown_parts(insertion, slot, trip);
             continue;
         }
         mark_fits(data, fleet, slot, trip, node, searcher.scratch->fits);

@@ -8,33 +8,12 @@
 #include "rules/pair.h"
 #include "search/insertion/cheapest.h"
 #include "search/insertion/trip_scan.h"
-#include "search/route/refresh.h"
-#include "search/route/routes.h"
 
 namespace tandem {
 namespace {
 
 constexpr Int most_combined = 256;  // places of all pickups, each alone at its best
 constexpr Int most_steps = 20'000;  // pickups tried on one trip
-
-constexpr Int most_orders = 24;  // on a trip of its own: all of four pickups
-
-// How many orders are tried in which a shipment alone is picked up.
-Int orders_of(const ProblemData& data, Int pickup) {
-    Int orders = 1;
-    for (Int count = num_pickups(data.pair, pickup); count > 1; --count) orders *= count;
-    return std::min(orders, most_orders);
-}
-
-// Writes a route that serves a shipment alone, picked up in one of the orders. In place.
-void begin_by_parts(const ProblemData& data, const Sequence& sequence, Int k, Int node, Int order) {
-    const Pickups pickups = in_order(pickups_of(data.pair, node), order);
-    begin_route(sequence, data.type[k], k, pickups.node[0], by_truck, 0, nowhere);
-    for (Int rank = 1; rank < pickups.count; ++rank) {
-        insert_stops(sequence, 1 + rank, {{pickups.node[std::size_t(rank)], customer_stop}});
-    }
-    insert_stops(sequence, 1 + pickups.count, {{data.pair[node].partner, customer_stop}});
-}
 
 // How many places are tried for each of so many pickups.
 Int places_for_each(Int pickups) {
@@ -176,6 +155,7 @@ private:
         if (is_too_far(way.further + out.distance + on)) return;
         if (is_walked_ && delivery_.place.too_late(way.leave + out.duration)) return;
         Move move = move_of(all_ends, end_[0] / most_pickups, way.behind);
+        move.sortie = nowhere;
         std::copy(end_.begin(), end_.end(), move.end);
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
@@ -194,40 +174,6 @@ private:
 
 void scan_parts(const Insertion& insertion, Int slot, const Trip& trip, bool is_walked) {
     PartsScan(insertion, slot, trip, is_walked).scan();
-}
-
-void try_parts_trip(const Insertion& insertion, Int slot, Int behind) {
-    const auto& [data, searcher, node, enlarge, best] = insertion;
-    const Fleet& fleet = searcher.now;
-    Pickups numbers{{}, num_pickups(data.pair, node)};
-    for (Int number = 0; number < numbers.count; ++number)
-        numbers.node[std::size_t(number)] = number;
-    Move move{};
-    move.kind = parts_trip;
-    move.slot = slot;
-    move.first = behind;
-    move.type = fleet.route[slot].type;
-    for (Int order = 0; order < orders_of(data, node); ++order) {
-        Int rank = 0;
-        for (const Int number : in_order(numbers, order)) {
-            move.end[rank++] = picked_behind(behind + 1, number);
-        }
-        best.try_move(price_move(data, fleet, move, node, best.cost), move);
-    }
-}
-
-bool serve_parts_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node) {
-    const Sequence sequence = sequence_in(fleet, slot);
-    double best = infeasible;
-    Int chosen = 0;
-    for (Int order = 0; order < orders_of(data, node); ++order) {
-        begin_by_parts(data, sequence, k, node, order);
-        if (!refresh(data, fleet, slot) || fleet.cost[slot] >= best) continue;
-        best = fleet.cost[slot];
-        chosen = order;
-    }
-    begin_by_parts(data, sequence, k, node, chosen);
-    return refresh(data, fleet, slot);
 }
 
 }  // namespace tandem

@@ -12,11 +12,4 @@ namespace tandem {
 // cost so far bounds all that may become of it; those that may be the best are timed anew.
 void scan_parts(const Insertion& insertion, Int slot, const Trip& trip, bool is_walked);
 
-// Tries it on a trip of its own behind a stop of a route, in several orders.
-void try_parts_trip(const Insertion& insertion, Int slot, Int behind);
-
-// Writes a route that serves such a shipment alone, in the best of several orders. False if it
-// breaks a rule. In place.
-bool serve_parts_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node);
-
 }  // namespace tandem

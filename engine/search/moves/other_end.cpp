@@ -5,32 +5,18 @@
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "search/insertion/cheapest.h"
+#include "search/insertion/end_place.h"
 #include "search/insertion/trip_scan.h"
 #include "search/route/hubs.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
+#include "search/scratch.h"
 
 namespace tandem {
 namespace {
 
 constexpr Int most_timed = 16;  // places of the end
-constexpr Int by_wheels = -1;   // instead of a row of drones
-
-// Where an end may be served: by truck behind stop `first`, or by a drone of a row from `first` to
-// `last`.
-struct OtherPlace {
-    double cost;
-    Int row, first, last;
-
-    bool operator<(const OtherPlace& other) const { return cost < other.cost; }
-};
-
-// Whether drones may serve an end of a shipment by vehicles of a type.
-bool flies_some_end(const ProblemData& data, Int k, Int node) {
-    return is_paired(data.pair, node) && !is_gathered(data.pair, node) &&
-           (data.can(k, 1, node) || data.can(k, 1, data.pair[node].partner));
-}
 
 bool launches_or_recovers(const Fleet& fleet, Int slot, Int p) {
     const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
@@ -39,28 +25,18 @@ bool launches_or_recovers(const Fleet& fleet, Int slot, Int p) {
     });
 }
 
-// Takes out a stop where no drone is launched or recovered. In place.
-void take_out_stop(const Fleet& fleet, Int slot, Int p) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    --fleet.trip(slot, stops[p].trip).last;
-    std::copy(&stops[p + 1], &stops[0] + route.length, &stops[p]);
-    --route.length;
-    for (Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        if (sortie.launch > p) --sortie.launch;
-        if (sortie.recovery > p) --sortie.recovery;
-    }
-}
-
-// Takes a customer out of a sortie, and the sortie if it serves nobody else. In place.
-void take_out_visit(const Fleet& fleet, Int slot, Int index, Int node) {
-    Route& route = fleet.route[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
-    Sortie& sortie = sorties[index];
-    sortie.count = std::remove(sortie.nodes, sortie.nodes + sortie.count, node) - sortie.nodes;
-    if (sortie.count > 0) return;
-    std::copy(&sorties[index] + 1, sorties.end(), &sorties[index]);
-    --route.sorties;
+// Takes an end out of a route, where no drone is launched or recovered. In place.
+//
+// What is known of the trip's stops, but for times, stays so.
+void take_out(const Searcher& searcher, Int slot, Trip& trip, Int node) {
+    const Sequence sequence = sequence_in(searcher.now, slot);
+    const View<Int, 1> moved = searcher.scratch->moved;
+    searcher.marked[node] = true;
+    drop_visits(sequence, searcher.marked);
+    close_ranks(sequence, searcher.marked, moved);
+    searcher.marked[node] = false;
+    trip.first = moved[trip.first];
+    trip.last = moved[trip.last];
 }
 
 // The places of an end, taken out, on the trip of the other.
@@ -68,13 +44,13 @@ class OtherEnd : TripScan {
 public:
     OtherEnd(const Insertion& insertion, Int of_slot, const Trip& tried)
         : TripScan(insertion, of_slot, tried), comes_first_(is_pickup(data.pair, node)) {
-        note_partner();
+        note_others();
     }
 
     // Finds the cheapest of the places that look so. In place.
-    void find(const OtherPlace& but) {
-        Cheapest<OtherPlace, most_timed> places;
-        const auto add = [&](const OtherPlace& place) {
+    void find(const EndPlace& but) {
+        Cheapest<EndPlace, most_timed> places;
+        const auto add = [&](const EndPlace& place) {
             if (place.row != but.row || place.first != but.first || place.last != but.last) {
                 places.add(place);
             }
@@ -82,23 +58,26 @@ public:
         drive(add);
         fly(add);
         places.sort();
-        for (const OtherPlace& place : places.items()) {
+        for (const EndPlace& place : places.items()) {
             if (data.deadline.passed()) return;
             price(place);
         }
     }
 
 private:
-    // Notes from when to when the shipment is aboard at the other end, in half stops. In place.
-    void note_partner() {
-        const Int partner = data.pair[node].partner;
+    // Notes until when the shipment is aboard by the other end, or from when by the others, in half
+    // stops. In place.
+    void note_others() {
+        const auto is_other = [&](Int there) {
+            return comes_first_ ? there == data.pair[node].partner
+                                : is_paired(data.pair, there) && brings(data.pair, there, node);
+        };
         for (Int p = trip.first; p <= trip.last; ++p) {
-            if (stops[p].kind == customer_stop && stops[p].node == partner) other_ = 2 * p;
+            if (stops[p].kind == customer_stop && is_other(stops[p].node)) other_ = 2 * p;
         }
         for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-            const Int* end = sortie.nodes + sortie.count;
-            if (std::find(sortie.nodes + 0, end, partner) == end) continue;
-            other_ = 2 * (comes_first_ ? sortie.launch : sortie.recovery);
+            if (!std::any_of(sortie.nodes, sortie.nodes + sortie.count, is_other)) continue;
+            other_ = std::max(other_, 2 * (comes_first_ ? sortie.launch : sortie.recovery));
         }
     }
 
@@ -130,7 +109,7 @@ private:
         });
     }
 
-    void price(const OtherPlace& place) {
+    void price(const EndPlace& place) {
         const bool flies = place.row >= 0;
         Move move = move_of(flies ? by_sortie : at_stop, place.first, place.last);
         if (flies) {
@@ -142,42 +121,33 @@ private:
     }
 
     const bool comes_first_;
-    Int other_ = 0;
+    Int other_ = 0;  // where it leaves, or all is aboard
 };
 
 }  // namespace
-
-bool may_fly_shipments(const ProblemData& data) {
-    if (!some_paired(data.pair) || !(data.strategy.loops || data.strategy.crossings)) return false;
-    for (Int k = 0; k < data.num_types; ++k) {
-        for (Int node = data.num_depots; node < data.num_nodes; ++node) {
-            if (flies_some_end(data, k, node)) return true;
-        }
-    }
-    return false;
-}
 
 bool move_end(const ProblemData& data, const Searcher& searcher, double rise) {
     const Fleet& now = searcher.now;
     const Int node = draw_customer(data, now, searcher.count->focus, searcher.rng);
     const Place place = now.where[node];
-    if (place.slot < 0 || !flies_some_end(data, now.route[place.slot].type, node)) return false;
+    if (place.slot < 0 || !is_paired(data.pair, node) ||
+        !flies_some_end(data, now.route[place.slot].type, node)) {
+        return false;
+    }
     const Int slot = place.slot, p = stop_beside(now, node);
-    const Trip& trip = now.trip(slot, now.stop(slot, p).trip);
-    OtherPlace former{0.0, by_wheels, p - 1, p - 1};
+    Trip& trip = now.trip(slot, now.stop(slot, p).trip);
+    EndPlace former{0.0, by_wheels, p - 1, p - 1};
     if (place.position >= 0) {
         if (launches_or_recovers(now, slot, p)) return false;
-        touch(searcher, slot);
-        take_out_stop(now, slot, p);
     } else {
         const Sortie& sortie = now.sortie(slot, place.sortie);
         if (sortie.count == 1) {
             const Int row = row_of_drone(data.type, now.route[slot].type, sortie.drone);
             former = {0.0, row, sortie.launch, sortie.recovery};
         }
-        touch(searcher, slot);
-        take_out_visit(now, slot, place.sortie, node);
     }
+    touch(searcher, slot);
+    take_out(searcher, slot, trip, node);
     Best best{data.strategy.blink, searcher.rng};
     OtherEnd({data, searcher, node, false, best}, slot, trip).find(former);
     if (best.cost >= rise) return false;

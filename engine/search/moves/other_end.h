@@ -1,15 +1,12 @@
-// One end of a shipment served otherwise, while the other stays.
+// One end of a shipment served otherwise, while the others stay.
 #pragma once
 
 #include "search/route/layout.h"
 
 namespace tandem {
 
-// Tells whether drones may serve an end of some shipment.
-bool may_fly_shipments(const ProblemData& data);
-
 // Lets a truck or a drone serve an end of a random shipment elsewhere on its trip, if drones may
-// serve either end and that costs less than so much more.
+// serve some end and that costs less than so much more.
 //
 // Whom a drone brings may depend on where another's parcel is fetched, and this on where the first
 // is, so that both leave together, and neither comes back as well alone. In place; tells whether a

@@ -71,8 +71,7 @@ double order_key(const ProblemData& data, Int order, Int node, View<std::uint64_
 // Tells whether a shipment opens a route in any way that goes, by a draw: what is cheapest for it
 // alone binds truck and drones, whatever comes then.
 bool opens_anyhow(const ProblemData& data, const Searcher& searcher, Int node, Int k) {
-    return is_pickup(data.pair, node) &&
-           (data.can(k, 1, node) || data.can(k, 1, data.pair[node].partner)) &&
+    return is_pickup(data.pair, node) && flies_some_end(data, k, node) &&
            uniform(searcher.rng) < opened_anyhow;
 }
 

@@ -41,8 +41,7 @@ public:
           resplit_(data, searcher),
           best_part_(data, searcher),
           small_moves_(data, searcher),
-          plan_cost_(plan_cost(data, searcher)),
-          flies_shipments_(may_fly_shipments(data)) {}
+          plan_cost_(plan_cost(data, searcher)) {}
 
     void ruin(Int first) {
         resplit_.forget();
@@ -73,7 +72,7 @@ public:
     Int parts() const {
         if (data_.strategy.small_moves) return 2 + resplits_now();
         if (data_.strategy.resplit) return 1 + resplits;
-        return flies_shipments_ ? 1 + moved_ends : 1;
+        return data_.strategy.fly_shipments ? 1 + moved_ends : 1;
     }
 
     // Swaps tails of routes first, then plans trips anew, and anneals some by small moves last.
@@ -138,7 +137,7 @@ private:
 
     // Serves an end of a shipment otherwise, or plans a part of a trip with one drone anew.
     bool plan_anew(double rise) {
-        if (flies_shipments_) return move_end(data_, searcher_, rise);
+        if (data_.strategy.fly_shipments) return move_end(data_, searcher_, rise);
         if (has_halts(data_) && uniform(searcher_.rng) < best_part_share) {
             resplit_.forget();
             return best_part_.attempt();
@@ -196,7 +195,6 @@ private:
     BestPart best_part_;
     SmallMoves small_moves_;
     double plan_cost_;  // of the routes as they are, but for this turn
-    const bool flies_shipments_;
 };
 
 }  // namespace

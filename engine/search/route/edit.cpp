@@ -1,6 +1,7 @@
 #include "search/route/edit.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tandem {
 namespace {
@@ -39,12 +40,25 @@ void put_sortie(Sortie& sortie, Int launch, Int recovery, Int drone, Int node) {
     sortie.nodes[0] = node;
 }
 
-// Let several pickups come where a move says, those that come last first. In place.
-void insert_pickups(const Sequence& sequence, const Move& move, const Pickups& pickups) {
-    for (Int rank = pickups.count - 1; rank >= 0; --rank) {
-        const Int stop = move.end[rank] / most_pickups, number = move.end[rank] % most_pickups;
-        insert_stops(sequence, stop + 1, {{pickups.node[std::size_t(number)], customer_stop}});
+// One of several pickups in a move, by its rank: the node, and the former stop that it belongs to.
+std::pair<Int, Int> picked_as(const Move& move, const Pickups& pickups, Int rank) {
+    const std::size_t number = std::size_t(move.end[rank]) % most_pickups;
+    return {pickups.node[number], move.end[rank] / most_pickups};
+}
+
+// Add the sorties that fetch some of several pickups, and that which delivers, as a move says. In
+// place.
+void add_flights(const Sequence& sequence, const Move& move, const Pickups& pickups, Int delivery) {
+    const auto& [route, stops, sorties] = sequence;
+    for (Int rank = 0; rank < pickups.count; ++rank) {
+        const auto [node, stop] = picked_as(move, pickups, rank);
+        const Int drone = fetching_drone(move, rank);
+        if (drone < 0) continue;
+        add_sortie(route, sorties, stop, stop + fetching_span(move, rank), drone, node);
     }
+    if (move.sortie < 0) return;
+    const auto add = move.late != 0 ? add_sortie : add_first_sortie;
+    add(route, sorties, move.last, move.landing, move.sortie, delivery);
 }
 
 // Let the sortie that fetches a shipment alone deliver it, too. In place.
@@ -92,6 +106,29 @@ void add_first_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int rec
         sorties[s] = before;
     }
     put_sortie(sorties[s], launch, recovery, drone, node);
+}
+
+void insert_parts(const Sequence& sequence, const Move& move, const Pickups& pickups,
+                  Int delivery) {
+    add_flights(sequence, move, pickups, delivery);
+    if (move.sortie < 0) insert_stops(sequence, move.last + 1, {{delivery, customer_stop}});
+    for (Int rank = pickups.count - 1; rank >= 0; --rank) {
+        const auto [node, stop] = picked_as(move, pickups, rank);
+        if (fetching_drone(move, rank) < 0) {
+            insert_stops(sequence, stop + 1, {{node, customer_stop}});
+        }
+    }
+}
+
+void lay_out_parts(const Sequence& sequence, Int start, const Move& move, const Pickups& pickups,
+                   Int delivery) {
+    Int p = start + 1;
+    for (Int rank = 0; rank < pickups.count; ++rank) {
+        const auto [node, stop] = picked_as(move, pickups, rank);
+        if (fetching_drone(move, rank) < 0) insert_stops(sequence, p++, {{node, customer_stop}});
+    }
+    if (move.sortie < 0) insert_stops(sequence, p, {{delivery, customer_stop}});
+    add_flights(sequence, move, pickups, delivery);
 }
 
 void join_sortie(Sortie& sortie, Int place, Int node) {
@@ -186,13 +223,12 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
                 insert_stops(sequence, behind + 1, {served});
             }
             break;
-        case all_ends:
-            insert_stops(sequence, move.last + 1, {{partner, customer_stop}});
-            insert_pickups(sequence, move, pickups_of(pair, node));
-            break;
         case parts_trip:
-            insert_stops(sequence, behind, {start, {partner, customer_stop}, end});
-            insert_pickups(sequence, move, pickups_of(pair, node));
+            insert_stops(sequence, behind, {start, end});
+            lay_out_parts(sequence, behind, move, pickups_of(pair, node), partner);
+            break;
+        case all_ends:
+            insert_parts(sequence, move, pickups_of(pair, node), partner);
             break;
         case halt_trip:
             insert_stops(sequence, behind, {start, {move.halt, halt_stop}, end});
@@ -203,13 +239,18 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
     }
 }
 
-void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
-                 Int drone, Int halt) {
-    const auto& [route, stops, sorties] = sequence;
+void begin_empty(const Sequence& sequence, const VehicleType& type, Int k) {
+    Route& route = sequence.route;
     route.length = route.trips = route.sorties = route.end = route.cum = route.working = 0;
     route.offset = route.stamp = 0;
     route.type = k;
     insert_stops(sequence, 0, {{type.begins_at, start_stop}, {type.ends_at, end_stop}});
+}
+
+void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
+                 Int drone, Int halt) {
+    const auto& [route, stops, sorties] = sequence;
+    begin_empty(sequence, type, k);
     if (way == by_truck) {
         insert_stops(sequence, 1, {{node, customer_stop}});
     } else if (way >= at_halt) {
@@ -221,6 +262,19 @@ void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int n
     }
 }
 
+void drop_visits(const Sequence& sequence, View<const bool, 1> marked) {
+    const auto& [route, stops, sorties] = sequence;
+    Int kept = 0;
+    for (Sortie& sortie : sorties.first(route.sorties)) {
+        Int* const end = sortie.nodes + sortie.count;
+        sortie.count =
+            std::remove_if(sortie.nodes + 0, end, [&](Int node) { return marked[node]; }) -
+            sortie.nodes;
+        if (sortie.count > 0) sorties[kept++] = sortie;
+    }
+    route.sorties = kept;
+}
+
 void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Removed& removed) {
     const auto& [route, stops, sorties] = sequence;
     const auto is_removed = [&](Int p) {
@@ -229,19 +283,11 @@ void keep_sorties(const Sequence& sequence, View<const Int, 1> halt_after, Remov
         return has_window(stops[p]) && node >= 0 && removed.marked[node];
     };
     const Int before = removed.count;
-    Int kept = 0;
-    for (Sortie& sortie : sorties.first(route.sorties)) {
-        const bool grounded = is_removed(sortie.launch) || is_removed(sortie.recovery);
-        Int left = 0;
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            const Int node = sortie.nodes[visit];
-            if (grounded) removed.mark(node);
-            if (!removed.marked[node]) sortie.nodes[left++] = node;
-        }
-        sortie.count = left;
-        if (left > 0) sorties[kept++] = sortie;
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        if (!is_removed(sortie.launch) && !is_removed(sortie.recovery)) continue;
+        for (Int visit = 0; visit < sortie.count; ++visit) removed.mark(sortie.nodes[visit]);
     }
-    route.sorties = kept;
+    drop_visits(sequence, removed.marked);
     // Where a shipment isn't flown any more, others may have been launched at its pickup.
     if (some_paired(removed.pair) && removed.count > before) {
         keep_sorties(sequence, halt_after, removed);

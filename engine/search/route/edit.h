@@ -50,17 +50,32 @@ constexpr Int by_drone_and_truck = 16;  // the pickup on a sortie from stop `fir
                                         // the delivery behind the former stop `last`
 constexpr Int by_drones = 17;   // the pickup on a sortie from stop `first` to `last`, the delivery
                                 // on one from `halt` to `landing` by drone `sortie`
-constexpr Int all_ends = 18;    // several pickups as `end` tells, the delivery behind them or the
-                                // former stop `last`
-constexpr Int parts_trip = 19;  // both on a trip of their own behind stop `first`, in that order
+constexpr Int all_ends = 18;    // several pickups and their delivery, as `insert_parts` does
+constexpr Int parts_trip = 19;  // on a trip of their own behind stop `first`, as `lay_out_parts`
 constexpr Int on_one_flight = 20;  // both on a sortie from stop `first` to `last`
 constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
                                // site and back there
 
-// One of several pickups in a move: its number among them, behind a former stop.
+// One of several pickups in a move: its number among them, behind a former stop, or on a sortie
+// from there.
 constexpr std::int32_t picked_behind(Int stop, Int number) {
     return static_cast<std::int32_t>(stop * most_pickups + number);
 }
+
+// Whether a move can tell of a drone, by its number on the truck, that it fetches one of several
+// pickups.
+constexpr bool may_note_fetched(Int drone) { return drone < 255; }
+
+// Note that a pickup, the one of a rank in `Move.end`, is fetched by a drone that is recovered so
+// many stops later. In place.
+inline void note_fetched(Move& move, Int rank, Int drone, Int span) {
+    move.drone |= (drone + 1) << 8 * rank;
+    move.halt |= span << 8 * rank;
+}
+
+// What of that was noted of a pickup: by which drone, `nowhere` by truck, and how many stops later.
+inline Int fetching_drone(const Move& move, Int rank) { return (move.drone >> 8 * rank & 255) - 1; }
+inline Int fetching_span(const Move& move, Int rank) { return move.halt >> 8 * rank & 255; }
 
 // Tell whether a customer is served by way of stops more at launch sites.
 inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }
@@ -105,6 +120,21 @@ void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery,
 void add_first_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
                       Int node);
 
+// Insert several pickups and their delivery. In place.
+//
+// A pickup comes behind the former stop that `Move.end` tells, or is fetched from there, as noted;
+// the delivery comes behind the former stop `last` and all of them, or is brought by drone `sortie`
+// from there to `landing`.
+void insert_parts(const Sequence& sequence, const Move& move, const Pickups& pickups, Int delivery);
+
+// Let an empty trip that begins at a stop serve several pickups, in order, and their delivery. In
+// place.
+//
+// As noted, a pickup is fetched from the stop that `Move.end` tells, and the delivery brought by
+// drone `sortie` from stop `last` to `landing`, by their numbers once all the truck's are there.
+void lay_out_parts(const Sequence& sequence, Int start, const Move& move, const Pickups& pickups,
+                   Int delivery);
+
 // Let a sortie serve a customer before its customer number `place`. In place.
 void join_sortie(Sortie& sortie, Int place, Int node);
 
@@ -136,10 +166,16 @@ struct Removed {
 void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
            View<const Pair, 1> pair);
 
+// Write a route that serves nobody. In place.
+void begin_empty(const Sequence& sequence, const VehicleType& type, Int k);
+
 // Write a route that serves one customer in one of the `ways`, by a `drone`, or from a launch site.
 // In place.
 void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
                  Int drone, Int halt);
+
+// Drop marked customers from sorties, and sorties that serve nobody else. In place.
+void drop_visits(const Sequence& sequence, View<const bool, 1> marked);
 
 // Drop marked customers from sorties, and sorties that begin or end at marked stops, or at launch
 // sites where a marked customer is served before, as `halt_after` tells.

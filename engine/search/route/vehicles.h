@@ -6,12 +6,20 @@
 #include "rules/drone_types.h"
 #include "rules/flight.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "search/route/layout.h"
 #include "search/route/rarer.h"
 #include "search/route/state.h"
 
 namespace tandem {
+
+// Tell whether drones of a type's vehicles may serve some end of a shipment, by one of them.
+inline bool flies_some_end(const ProblemData& data, Int k, Int end) {
+    bool flies = data.can(k, 1, data.pair[data.pair[end].unit].partner);
+    for_each_pickup(data.pair, end, [&](Int pickup) { flies = flies || data.can(k, 1, pickup); });
+    return flies;
+}
 
 // Return how many customers the truck itself serves on a trip.
 inline Int stops_on(const Trip& trip) { return trip.last - trip.first - 1 - trip.halts; }

@@ -47,6 +47,7 @@ class Strategy(NamedTuple):
     scan_all: bool  # insertion looks at all routes, else beside neighbours alone
     keep_places: bool  # customers' best places on routes are kept from turn to turn
     give_up_early: bool  # a turn ends once it costs too much, as no insertion saves anything
+    fly_shipments: bool  # drones may serve some end of a shipment
     blink: float  # how often a better place for a customer is overlooked
 
 

@@ -271,6 +271,30 @@ def test_a_shipment_is_fetched_in_parts(searching: httpx.Client, gathered: Reque
     assert {"PAIR"} <= {violation["code"] for violation in judged["violations"]}
 
 
+def test_drones_fetch_parts_of_a_shipment_and_deliver_it(searching: httpx.Client,
+                                                         gathered: Request) -> None:
+    gathered["fleet"][0] |= {"costs": {"per_km": 10}, "drones": {
+        "count": 2, "capacity": [9], "speed_kmh": 60, "endurance": 3600,
+        "costs": {"per_km": 0.01}}}
+    shipment = gathered["shipments"][0]
+    for end in (*shipment["pickups"], shipment["delivery"]):
+        end["served_by"] = "either"
+    plan = searching.post("/plan", json=gathered).json()
+    PlanReply.model_validate(plan)
+    flown = {(visit["kind"], visit.get("part")) for route in plan["routes"]
+             for trip in route["trips"] for sortie in trip["sorties"]
+             for visit in sortie["customers"] if "kind" in visit}
+    assert len(flown) >= 2, plan["routes"]
+    judged = {"problem": gathered, "plan": plan}
+    checked = searching.post("/check", json=judged).json()
+    assert checked["feasible"], checked
+    for question in "/explain", "/fit":
+        reply = searching.post(question, json=judged | {"shipment": "s1"})
+        assert reply.status_code == 200, reply.text
+    again = searching.post("/plan", json=gathered | {"replan": {"plan": plan}}).json()
+    assert again["cost"]["total"] == pytest.approx(plan["cost"]["total"])
+
+
 def test_a_shipment_in_parts_is_left_out_as_one(searching: httpx.Client,
                                                 gathered: Request) -> None:
     gathered["shipments"][0]["pickups"][1]["amount"] = [9]
@@ -303,8 +327,6 @@ def test_a_shipment_in_parts_is_left_out_as_one(searching: httpx.Client,
      "OUT_OF_RANGE", "$.shipments[0].pickups"),
     ({"pickups": 2 * [{"id": "farm", "location": [0, 0], "amount": [1]}]},
      "DUPLICATE_ID", "$.shipments[0].pickups[1].id"),
-    ({"delivery": {"location": [1, 0], "served_by": "either"}},
-     "PICKUPS_WITH", "$.shipments[0].delivery"),
 ])
 def test_what_is_wrong_with_parts_is_told(searching: httpx.Client, gathered: Request,
                                           wrong: Request, code: str, path: str) -> None:

@@ -23,7 +23,7 @@ from model.problem import Problem, Shipment
 from model.solution import Solution
 from tests.model.search.mixed_days import with_missing_legs
 from tests.model.tiny import draw_tiny, with_gaps, with_table
-from tests.model.tiny_shipments import with_flown_shipments, with_shipments
+from tests.model.tiny_shipments import with_flown_parts, with_flown_shipments, with_shipments
 
 
 def bench_of(problem: Problem, solution: Solution, node: int) -> Bench:
@@ -116,7 +116,8 @@ def cheapest(problem: Problem, solution: Solution, shipment: Shipment) -> float:
 @pytest.mark.parametrize("seed", range(24))
 def test_the_best_offer_is_the_best_of_all(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    problem = (with_flown_shipments if seed % 3 == 2 else with_shipments)(rng, draw_tiny(rng))
+    problem = (with_shipments, with_flown_parts if seed == 13 else with_shipments,
+               with_flown_shipments)[seed % 3](rng, draw_tiny(rng))
     problem = with_gaps(rng, problem, 0.3) if seed % 4 == 1 else problem
     problem = with_table(rng, problem) if seed % 4 == 3 else problem
     solution = greedy(problem)
@@ -154,7 +155,8 @@ def test_what_breaks_only_because_a_shipment_is_missed_excuses_no_place(seed: in
 @pytest.mark.parametrize("seed", range(12))
 def test_what_else_could_be_done_is_what_the_judge_says(seed: int) -> None:
     rng = np.random.default_rng(100 + seed)
-    problem = (with_flown_shipments if seed % 2 else with_shipments)(rng, draw_tiny(rng))
+    problem = (with_shipments, with_flown_shipments, with_shipments,
+               with_flown_parts)[seed % 4](rng, draw_tiny(rng))
     problem = with_gaps(rng, problem, 0.5)
     solution = greedy(problem)
     for shipment in problem.shipments:

@@ -1,0 +1,243 @@
+#include "search/insertion/flown_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "rules/drone_types.h"
+#include "rules/pair.h"
+#include "search/insertion/cheapest.h"
+#include "search/insertion/end_place.h"
+#include "search/insertion/trip_scan.h"
+#include "search/route/vehicles.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int most_places = 24;    // of an end on a trip
+constexpr Int most_combined = 64;  // of the cheapest of each pickup with one place of the delivery
+constexpr Int most_priced = 64;    // of all combinations
+constexpr Int most_ends = most_pickups + 1;
+
+using EndPlaces = Cheapest<EndPlace, most_places>;
+
+// Which of the places of each pickup in turn is chosen, then which of the delivery.
+using Choice = std::array<std::uint8_t, most_ends>;
+
+struct Combination {
+    double cost;
+    Choice choice;
+
+    bool operator<(const Combination& other) const { return cost < other.cost; }
+};
+
+class FlownPartsScan : TripScan {
+public:
+    FlownPartsScan(const Insertion& insertion, Int of_slot, const Trip& tried)
+        : TripScan(insertion, of_slot, tried),
+          pickups_(pickups_of(data.pair, node)),
+          delivery_(data.pair[node].partner) {}
+
+    void scan() {
+        bool flies = false;
+        for (Int end = 0; end <= pickups_.count; ++end) {
+            flies = fly(end) || flies;
+            drive(end);
+            places(end).sort();
+        }
+        if (!flies) return;
+        for (Int last = 0; last < places(pickups_.count).items().size(); ++last) combine(last);
+        combined_.sort();
+        for (const Combination& each : combined_.items()) {
+            if (is_dear(each.cost) || data.deadline.passed()) return;
+            price(each.choice);
+        }
+    }
+
+private:
+    Int end_node(Int end) const {
+        return end == pickups_.count ? delivery_ : pickups_.node[std::size_t(end)];
+    }
+
+    EndPlaces& places(Int end) { return places_[std::size_t(end)]; }
+
+    const EndPlace& place_of(Int end, const Choice& choice) {
+        return places(end).items()[choice[std::size_t(end)]];
+    }
+
+    // Lists where the truck may serve an end. In place.
+    void drive(Int end) {
+        if (!allows_stops(type, stops_on(trip) + 1)) return;
+        const Newcomer driven = newcomer(end_node(end));
+        for (Int p = trip.first; p < trip.last; ++p) {
+            const auto [out, on, distance] = detour(driven, p);
+            const double cost = double(distance) * rate.distance + rate.stop;
+            if (is_dear(cost) || driven.place.too_late(stops[p].leave + out.duration)) continue;
+            places(end).add({cost, by_wheels, p, p});
+        }
+    }
+
+    // Lists where drones may serve an end; false if nowhere. In place.
+    bool fly(Int end) {
+        for_each_single_flight(end_node(end), [&](Int row, const Flown& flown) {
+            places(end).add({flown.cost, row, flown.launch, flown.recovery});
+        });
+        return !places(end).items().empty();
+    }
+
+    // Combines the pickups' places with one of the delivery: the cheapest of each that are aboard
+    // before it leaves, or those but for one pickup. In place.
+    void combine(Int last) {
+        Choice least{};
+        least[std::size_t(pickups_.count)] = std::uint8_t(last);
+        for (Int end = 0; end < pickups_.count; ++end) {
+            const Int place = next_place(end, 0, least);
+            if (place < 0) return;
+            least[std::size_t(end)] = std::uint8_t(place);
+        }
+        add_all(0, least, least);
+        for (Int end = 0; end < pickups_.count; ++end) {
+            Choice choice = least;
+            for (Int place = least[std::size_t(end)] + 1;
+                 (place = next_place(end, place, choice)) >= 0; ++place) {
+                choice[std::size_t(end)] = std::uint8_t(place);
+                add(choice);
+            }
+        }
+    }
+
+    // The next place of a pickup, from one on, where it is aboard before the delivery leaves.
+    Int next_place(Int end, Int from, const Choice& choice) {
+        const Int leaves = place_of(pickups_.count, choice).leaves();
+        const View<const EndPlace, 1> items = places(end).items();
+        for (Int place = from; place < items.size(); ++place) {
+            const EndPlace& pickup = items[place];
+            if (pickup.aboard() < leaves || (!pickup.is_flown() && pickup.aboard() == leaves)) {
+                return place;
+            }
+        }
+        return nowhere;
+    }
+
+    // Adds all combinations of the few cheapest places of the pickups from one on. In place.
+    void add_all(Int end, Choice choice, const Choice& least) {
+        if (end == pickups_.count) {
+            add(choice);
+            return;
+        }
+        Int each = 1;
+        for (Int combined = 1; combined <= most_combined; ++each) {
+            combined = 1;
+            for (Int other = 0; other < pickups_.count; ++other) combined *= each + 1;
+        }
+        Int place = least[std::size_t(end)];
+        for (Int tried = 0; tried + 1 < each && place >= 0; ++tried) {
+            choice[std::size_t(end)] = std::uint8_t(place);
+            add_all(end + 1, choice, least);
+            place = next_place(end, place + 1, choice);
+        }
+    }
+
+    // Adds a combination if drones serve some end. In place.
+    void add(const Choice& choice) {
+        double cost = 0.0;
+        bool flies = false;
+        for (Int end = 0; end <= pickups_.count; ++end) {
+            cost += place_of(end, choice).cost;
+            flies = flies || place_of(end, choice).is_flown();
+        }
+        if (flies && !is_dear(cost)) combined_.add({cost, choice});
+    }
+
+    void price(const Choice& choice) {
+        Move move = move_of(all_ends, 0, 0);
+        const EndPlace& delivery = place_of(pickups_.count, choice);
+        move.last = delivery.first;
+        move.landing = delivery.last;
+        move.sortie = nowhere;
+        if (delivery.is_flown()) {
+            move.sortie = drone_for(delivery, {});
+            if (move.sortie < 0) return;
+        }
+        if (!note_pickups(choice, move)) return;
+        move.first = move.end[0] / most_pickups;
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
+    }
+
+    // Notes the pickups by their stops, each with a drone of its own meanwhile. In place; false if
+    // there are none left.
+    bool note_pickups(const Choice& choice, Move& move) {
+        // Behind those that there are, none.
+        std::array<std::pair<Int, Int>, most_pickups> order;
+        order.fill({far, 0});
+        for (Int end = 0; end < pickups_.count; ++end) {
+            order[std::size_t(end)] = {place_of(end, choice).first, end};
+        }
+        std::sort(order.begin(), order.end());
+        for (Int rank = 0; rank < pickups_.count; ++rank) {
+            const Int end = order[std::size_t(rank)].second;
+            const EndPlace& place = place_of(end, choice);
+            move.end[rank] = picked_behind(place.first, end);
+            if (!place.is_flown()) continue;
+            const Int drone = drone_for(place, {rank, move});
+            if (drone < 0 || !may_note_fetched(drone)) return false;
+            note_fetched(move, rank, drone, place.last - place.first);
+        }
+        return true;
+    }
+
+    // Which pickups of a move have drones already: so many, by their ranks.
+    struct Noted {
+        Int count = 0;
+        Move move{};
+
+        // Whether a drone flies for another pickup while it were to fly from and to these stops.
+        bool takes(Int drone, const EndPlace& place) const {
+            for (Int rank = 0; rank < count; ++rank) {
+                if (fetching_drone(move, rank) != drone) continue;
+                const Int launch = move.end[rank] / most_pickups;
+                const Int recovery = launch + fetching_span(move, rank);
+                const bool is_apart = recovery <= place.first || place.last <= launch;
+                if (!is_apart) return true;
+            }
+            return false;
+        }
+    };
+
+    // A drone of a place's row that is free then; `nowhere` if there is none.
+    Int drone_for(const EndPlace& place, const Noted& noted) const {
+        const Int drone =
+            free_drone(data, fleet, slot, {2 * place.first, 2 * place.last}, place.row);
+        if (drone < 0 || !noted.takes(drone, place)) return drone;
+        const Int first = first_drone(data.type, route.type, place.row);
+        for (Int other = first; other < first + data.type[place.row].drones; ++other) {
+            if (!noted.takes(other, place) && is_idle(other, place)) return other;
+        }
+        return nowhere;
+    }
+
+    // Whether a drone flies to nobody else while it were to fly from and to these stops.
+    bool is_idle(Int drone, const EndPlace& place) const {
+        const View<const Sortie, 1> sorties = fleet.sortie[slot].first(route.sorties);
+        return std::none_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+            return sortie.drone == drone && sortie.launch <= place.last &&
+                   place.first <= sortie.recovery;
+        });
+    }
+
+    const Pickups pickups_;
+    const Int delivery_;
+    std::array<EndPlaces, std::size_t(most_ends)> places_;
+    Cheapest<Combination, most_priced> combined_;
+};
+
+}  // namespace
+
+void scan_flown_parts(const Insertion& insertion, Int slot, const Trip& trip) {
+    const ProblemData& data = insertion.data;
+    if (flies_some_end(data, insertion.searcher.now.route[slot].type, insertion.node)) {
+        FlownPartsScan(insertion, slot, trip).scan();
+    }
+}
+
+}  // namespace tandem

@@ -1,0 +1,180 @@
+#include "search/insertion/parts_alone.h"
+
+#include <algorithm>
+
+#include "randomness.h"
+#include "rules/drone_types.h"
+#include "rules/pair.h"
+#include "search/route/edit.h"
+#include "search/route/refresh.h"
+#include "search/route/routes.h"
+
+namespace tandem {
+namespace {
+
+constexpr Int most_orders = 24;       // by truck: all of four pickups
+constexpr Int most_flown_orders = 6;  // where drones serve some end: all of three
+constexpr Int fewer_orders = 2;       // likewise, of more than three
+constexpr Int few_pickups = 3;
+
+constexpr Int most_flights = 15;  // from a stop to another, to fetch one pickup: all of five
+
+// How many orders there are of so many pickups, `most` of them at most.
+Int orders_of(Int count, Int most) {
+    Int orders = 1;
+    for (; count > 1 && orders < most; --count) orders *= count;
+    return std::min(orders, most);
+}
+
+// The most orders that are tried.
+Int most_orders_of(Int count, bool by_drone) {
+    if (!by_drone) return most_orders;
+    return count > few_pickups ? fewer_orders : most_flown_orders;
+}
+
+// The ways in which a vehicle of a type serves a shipment on a trip of its own: by truck in several
+// orders, or so that drones fetch all pickups from where the trip begins, or one on some flights,
+// the shortest first, and perhaps deliver from where it ends.
+class PartWays {
+public:
+    PartWays(const ProblemData& data, Int k, Int node, bool by_drone, Int flights)
+        : data_(data),
+          k_(k),
+          by_drone_(by_drone),
+          pickups_(pickups_of(data.pair, node)),
+          delivery_(data.pair[node].partner),
+          rows_(flies(data) ? num_drone_rows(data.type, k) : 0),
+          orders_(orders_of(pickups_.count, most_orders_of(pickups_.count, by_drone))),
+          flights_(std::min(flights, pickups_.count * (pickups_.count + 1) / 2)),
+          fetchings_(by_drone ? 1 + rows_ * (1 + pickups_.count * flights_) : 1),
+          bringings_(by_drone ? 1 + rows_ : 1) {}
+
+    Int number() const { return by_drone_ && rows_ == 0 ? 0 : orders_ * fetchings_ * bringings_; }
+
+    // Lets a move serve it in one of them on a trip that begins at a stop, its end the next; false
+    // if that may not be. In place.
+    bool note(Int way, Int start, Move& move) const {
+        const Int order = way % orders_, bringing = way / orders_ % bringings_;
+        const Int fetching = way / orders_ / bringings_;
+        if (by_drone_ && fetching == 0 && bringing == 0) return false;
+        move.sortie = nowhere;
+        move.last = start;
+        move.drone = move.halt = 0;
+        Int driven = 0;
+        return note_fetching(fetching, order, start, move, driven) &&
+               (bringing == 0 || note_bringing(bringing - 1, start + driven + 1, move));
+    }
+
+private:
+    bool flies(const ProblemData& data) const {
+        return data.can(k_, 1, delivery_) ||
+               std::any_of(pickups_.begin(), pickups_.end(),
+                           [&](Int pickup) { return data.can(k_, 1, pickup); });
+    }
+
+    // Notes the pickups, in an order, those flown that a number tells: none, or by a row of drones
+    // all or one; counts who is driven to. In place; false if that may not be.
+    bool note_fetching(Int fetching, Int order, Int start, Move& move, Int& driven) const {
+        const Int count = pickups_.count, each = 1 + count * flights_;
+        Int row = nowhere, flown = nowhere, launch = 0, span = 0;
+        if (fetching > 0) {
+            row = drone_row_at(data_.type, k_, (fetching - 1) / each);
+            const Int single = (fetching - 1) % each - 1;
+            flown = single < 0 ? count : single / flights_;
+            launch = single < 0 ? 0 : single % flights_;
+            // There is a flight fewer of each span more.
+            for (; launch >= count - span; ++span) launch -= count - span;
+        }
+        Pickups numbers{{}, count};
+        for (Int number = 0; number < count; ++number) numbers.node[std::size_t(number)] = number;
+        Int rank = 0;
+        for (const Int number : in_order(numbers, order)) {
+            const bool flies = row >= 0 && (flown == count || flown == number);
+            move.end[rank] = picked_behind(start + (flies ? launch : 0), number);
+            if (!flies) {
+                ++driven;
+            } else {
+                if (!data_.can(row, 1, pickups_.node[std::size_t(number)])) return false;
+                const Int drone = first_drone(data_.type, k_, row);
+                if (!may_note_fetched(drone)) return false;
+                note_fetched(move, rank, drone, span);
+            }
+            ++rank;
+        }
+        return true;
+    }
+
+    // Notes that a drone of a row, by its place among them, delivers from the trip's end.
+    bool note_bringing(Int place, Int end, Move& move) const {
+        const Int row = drone_row_at(data_.type, k_, place);
+        if (!data_.can(row, 1, delivery_)) return false;
+        move.sortie = first_drone(data_.type, k_, row);
+        move.last = move.landing = end;
+        return true;
+    }
+
+    const ProblemData& data_;
+    const Int k_;
+    const bool by_drone_;
+    const Pickups pickups_;
+    const Int delivery_;
+    const Int rows_;
+    const Int orders_;
+    const Int flights_;
+    const Int fetchings_;
+    const Int bringings_;
+};
+
+// Writes a route that serves a shipment alone in one of the ways. False if it may not. In place.
+bool serve(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+           const PartWays& ways, Int way) {
+    Move move{};
+    if (!ways.note(way, 0, move)) return false;
+    const Sequence sequence = sequence_in(fleet, slot);
+    begin_empty(sequence, data.type[k], k);
+    lay_out_parts(sequence, 0, move, pickups_of(data.pair, node), data.pair[node].partner);
+    return refresh(data, fleet, slot);
+}
+
+}  // namespace
+
+void try_parts_trip(const Insertion& insertion, Int slot, Int behind) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    const Fleet& fleet = searcher.now;
+    Move move{};
+    move.kind = parts_trip;
+    move.slot = slot;
+    move.first = behind;
+    move.type = fleet.route[slot].type;
+    for (const bool by_drone : {false, true}) {
+        const PartWays ways(data, move.type, node, by_drone, 1);
+        for (Int way = 0; way < ways.number(); ++way) {
+            if (!ways.note(way, behind + 1, move)) continue;
+            best.try_move(price_move(data, fleet, move, node, best.cost), move);
+        }
+    }
+}
+
+bool serve_parts_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+                       bool by_drone) {
+    const PartWays ways(data, k, node, by_drone, most_flights);
+    double best = infeasible;
+    Int chosen = 0;
+    for (Int way = 0; way < ways.number(); ++way) {
+        if (!serve(data, fleet, slot, k, node, ways, way) || fleet.cost[slot] >= best) continue;
+        best = fleet.cost[slot];
+        chosen = way;
+    }
+    return best < infeasible && serve(data, fleet, slot, k, node, ways, chosen);
+}
+
+bool serve_parts_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
+                        View<std::uint64_t, 1> rng) {
+    const PartWays driven(data, k, node, false, most_flights);
+    const PartWays flown(data, k, node, true, most_flights);
+    const Int way = below(rng, driven.number() + flown.number());
+    return way < driven.number() ? serve(data, fleet, slot, k, node, driven, way)
+                                 : serve(data, fleet, slot, k, node, flown, way - driven.number());
+}
+
+}  // namespace tandem
