@@ -196,15 +196,20 @@ def _break_place(stops: Sequence[StopInput], index: int) -> BreakPlace:
     """Return where a break is taken: at once, at the end of the leg, or on the way."""
     first = index
     while first > 0 and stops[first].kind == "break" and (
-            stops[first - 1].departure == stops[first].arrival):
+            _is_instant(stops[first - 1].departure, stops[first].arrival)):
         first -= 1
     if stops[first].kind != "break":
         return "departure"
     last = index
     while last + 1 < len(stops) and stops[last].kind == "break" and (
-            stops[last].departure == stops[last + 1].arrival):
+            _is_instant(stops[last].departure, stops[last + 1].arrival)):
         last += 1
     return "way" if stops[last].kind == "break" else "arrival"
+
+
+def _is_instant(end: float, begin: float) -> bool:
+    """Tell whether two times are one, in milliseconds."""
+    return thousandths(end) == thousandths(begin)
 
 
 class _PlanReader:

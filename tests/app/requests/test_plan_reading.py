@@ -85,3 +85,23 @@ def test_unknown_names_are_refused(planner: Planner, smallest: Request, old: str
 def test_what_is_not_json_is_refused(planner: Planner, smallest: Request) -> None:
     with pytest.raises(NotJsonError):
         plan_to_solution(b"{", _planned(planner, smallest)[0])
+
+
+@pytest.mark.parametrize("off", [0.0, 0.0004, -0.0004])
+@pytest.mark.parametrize(("begins", "ends", "place"), [
+    (0, 60, "departure"), (100, 160, "way"), (450, 510, "arrival")])
+def test_where_a_break_lies_is_told_by_milliseconds(
+        planner: Planner, smallest: Request, off: float, begins: int, ends: int,
+        place: str) -> None:
+    smallest["fleet"][0]["breaks"] = [
+        {"id": "lunch", "duration": 60, "start": {"earliest": 0, "latest": 700},
+         "at": "anywhere"}]
+    problem = to_problem(read_request(json.dumps(smallest).encode(), planner.policies))
+    times = [("depot", "hub", 0, 0), ("break", "lunch", begins + off, ends - off),
+             ("customer", "A", 510, 510), ("depot", "hub", 960, 960)]
+    trip = {"sorties": [], "stops": [
+        {"kind": kind, "id": name, "arrival": arrival, "service_start": arrival,
+         "departure": departure} for kind, name, arrival, departure in times]}
+    plan = {"routes": [{"vehicle": "truck-1", "type": "truck", "trips": [trip]}]}
+    (route,) = plan_to_solution(json.dumps(plan).encode(), problem).routes
+    assert [taken.place for taken in route.trips[0].breaks] == [place]
