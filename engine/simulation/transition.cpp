@@ -299,9 +299,10 @@ bool drive(OpenVehicle& open, Int node) {
         ready = logged_starts(log).ready_at(setting, node, log.count.stops, arrival);
         if (place.too_late(ready)) return false;
     }
-    // The start known so far kept what was behind it, not breaks that come later than a start does.
+    // The start known so far kept what was behind it, not breaks that come later than a start does,
+    // nor what is charged between the trips.
     if (follow_departure(setting.type, rests) || limits_timed_travel(setting.type) ||
-        follows_driver(setting.type)) {
+        follows_driver(setting.type) || charges_between_trips(setting.type)) {
         vehicle.start_best = log.trip[0].start;
     }
     const Int there = is_customer ? arrival : let_in(setting.type, setting.node, node, arrival);

@@ -8,7 +8,7 @@ from model.solution import Stop, Trip, Visit
 def first_departure(kind: VehicleType, trip: Trip) -> int:
     """Return when truck or drone first leaves the depot; by itself, when its launch begins."""
     if kind.flies:
-        return trip.stops[0].arrival
+        return trip.stops[0].departure - kind.launch_duration
     take_offs = [sortie.launch_time for sortie in trip.sorties if sortie.launch_stop == 0]
     return min([trip.stops[0].departure, *take_offs])
 

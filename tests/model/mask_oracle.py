@@ -23,8 +23,8 @@ from model.solution import Route, Solution, Stop, Trip, Visit
 from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
-    MOST_TIMED, Flight, OpenTrip, back_at, cannot_be_flown, drained, drones_of, excess_of_charge,
-    in_storm, keeps_lags, lasts, preferred, timed_trips,
+    MOST_TIMED, Flight, OpenTrip, back_at, by_return, cannot_be_flown, drained, drones_of,
+    excess_of_charge, in_storm, keeps_lags, lasts, preferred, timed_trips,
 )
 from tests.model.tiny_company import companions
 from tests.model.tiny_hours import keeps_day
@@ -83,11 +83,15 @@ def _held(problem: Problem, vehicle: Vehicle, timed: Trip) -> Vehicle | None:
         before = _timed_route(problem, replace(vehicle, trips=vehicle.trips[:-1])).trips
         return max(excess_of(problem, kind, timed), excess_of_charge(problem, kind, before, timed))
 
+    def begun_at(start: int) -> OpenTrip:
+        tried = replace(trip, begins=start)
+        return by_return(problem, kind, tried, _timed(problem, vehicle, tried))
+
     later, helps = held(problem, kind, timed, lambda start: _timed(
-        problem, vehicle, replace(trip, begins=start)), excess_of_last)
+        problem, vehicle, begun_at(start)), excess_of_last)
     if not helps:
         return None
-    trip = trip if later is timed else replace(trip, begins=later.stops[0].arrival)
+    trip = trip if later is timed else begun_at(later.stops[0].arrival)
     return replace(vehicle, trips=(*vehicle.trips[:-1], trip))
 
 

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from itertools import groupby
 
 from model.judge.clock import opening
 from model.judge.energy import (
@@ -130,6 +131,27 @@ def back_at(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, tak
              + problem.setup_between(place, flight.customer))
     waiting = max(0, opening(customer, begun) - begun)
     return take_off + waiting + flight_duration(problem, kind, trip, index, place)
+
+
+def by_return(problem: Problem, kind: VehicleType, trip: OpenTrip, timed: Trip) -> OpenTrip:
+    """Return a trip whose recoveries that take no time are, one behind another, as drones return.
+    """
+    def takes_time(operation: Operation) -> bool:
+        drones = drones_of(kind, trip, operation.sortie)
+        return operation.is_launch or drones.recovery_duration > 0
+
+    def back(operation: Operation) -> int:
+        flown = timed.sorties[operation.sortie]
+        legs = problem.travel[drones_of(kind, trip, operation.sortie).travel].duration
+        last, place = flown.visits[-1], timed.stops[flown.recovery_stop]
+        return last.departure + legs.item(last.node, place.node)
+
+    groups = []
+    for group in trip.operations:
+        runs = [(is_slow, list(run)) for is_slow, run in groupby(group, takes_time)]
+        groups.append(tuple([operation for is_slow, run in runs for operation in (
+            run if is_slow else sorted(run, key=back))]))
+    return replace(trip, operations=tuple(groups))
 
 
 def preferred(problem: Problem, kind: VehicleType, trip: OpenTrip, node: int,

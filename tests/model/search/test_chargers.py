@@ -107,9 +107,12 @@ def test_few_places_serve_more_than_a_vehicle_each() -> None:
     assert len(charged) > 2
 
 
-@pytest.mark.parametrize("seed", [55, 760, 999])
-def test_rollouts_are_charged_where_their_trips_begin(seed: int) -> None:
-    """Another depot than their own, at which they reload, may have no place for that."""
+@pytest.mark.parametrize("seed", [55, 760, 999, 2707])
+def test_rollouts_are_charged_where_and_when_their_trips_begin(seed: int) -> None:
+    """Another depot than their own, at which they reload, may have no place for that.
+
+    Who begins the first trip later is charged for less time before the second (2707).
+    """
     rng = np.random.default_rng(seed)
     problem = draw_tiny(rng)
     rng.random()
