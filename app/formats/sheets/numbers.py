@@ -32,9 +32,9 @@ def split_unit(text: str) -> tuple[str, str]:
 
 
 def stated_in(cell: str) -> list[str]:
-    """Return what may be numbers in a cell: all of it, and prices behind names (`van-1: 1,5`)."""
+    """Return what may be numbers in a cell behind names (`van-1: 1,5`), as prices are."""
     named = [part.rpartition(":") for part in ENTRIES.split(cell)] if ":" in cell else []
-    return [cell, *[price for name, _, price in named if any(map(str.isalpha, name))]]
+    return [price for name, _, price in named if any(map(str.isalpha, name))]
 
 
 def reads_two_ways(text: str) -> bool:

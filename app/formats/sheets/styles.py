@@ -19,11 +19,14 @@ def style_of(table: Table, file: SheetFile,
     doubts = []
     comma = None if mapping.decimals is None else mapping.decimals == ","
     if comma is None:
+        comma = uses_comma(raw for _, _, raw in cells)
+    if comma is None:
+        # Behind a colon may stand a price, or what a note says.
         comma = uses_comma(text for _, _, raw in cells for text in stated_in(raw))
     if comma is None:
         comma = file.delimiter == ";"
         if open_cell := next((place for place in cells if any(
-                map(reads_two_ways, stated_in(place[2])))), None):
+                map(reads_two_ways, (place[2], *stated_in(place[2]))))), None):
             row, column, raw = open_cell
             name = cell_name(row, column)
             doubts.append(Doubt("DECIMALS_GUESSED", f"{name} ({raw}) may have decimals or "

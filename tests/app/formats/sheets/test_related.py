@@ -166,6 +166,14 @@ def test_prices_are_read_by_the_signs_that_tell(prices: str, costs: dict[str, fl
     assert told(reply, "DECIMALS_GUESSED") == (["E2"] if is_guessed else [])
 
 
+def test_what_notes_say_behind_a_colon_tells_nothing_where_amounts_do() -> None:
+    rows = ("Name\tLat\tLon\tMenge\tHinweis", "Anna\t48\t11\t1,5\tGate: 2.5",
+            "Ben\t48\t11\t1,250\tLift: 0.75")
+    reply = import_file("\n".join(rows).encode(), ImportSettings(vehicles=2))
+    assert reply.request is not None
+    assert [each["demand"] for each in reply.request["customers"]] == [[1.5], [1.25]]
+
+
 def test_a_price_below_nothing_is_refused_at_its_cell() -> None:
     reply = read("Preferred vehicle;Cost of other vehicle", "vehicle-2;-1", ";", ";", ";")
     assert [error.cell for error in reply.errors] == ["G2"]
