@@ -22,6 +22,7 @@ from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
 from model.judge.places import Place
 from model.judge.rules import airborne_duration, farthest
+from model.judge.screening import share_over
 from model.judge.work_limits import between_limits, duty_limits, fleet_limits, rest_limits
 from model.problem import (
     MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, DroneType, Energy, Problem,
@@ -77,7 +78,7 @@ def find_binding(bench: Bench, findings: Findings,
     """
     if bench.done_by is not None:
         return (), True
-    here = here_of(bench, until)
+    here = here_of(bench, share_over(0.5, until))
     begun = _best_now(bench, findings, here)
     cost = begun.evaluation.cost.total
     places = [here, here if begun is bench.plan else begun.place,

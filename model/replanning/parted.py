@@ -8,7 +8,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from model.judge.past import Vehicle, known_trips
-from model.problem import Problem, Shipment
+from model.problem import Problem, Relation, Shipment
 from model.solution import Solution
 
 
@@ -59,5 +59,23 @@ def with_parted(problem: Problem, parted: Collection[Shipment]) -> Problem:
                     unassigned_cost=first.unassigned_cost)
             else:
                 customers[index] = replace(customers[index], pickup=amount, unassigned_cost=0.0)
-    return replace(problem, customers=tuple(customers), shipments=tuple([
-        each for each in problem.shipments if each not in parted]))
+    return replace(
+        problem, customers=tuple(customers),
+        shipments=tuple([each for each in problem.shipments if each not in parted]),
+        relations=tuple([left for each in problem.relations
+                         if (left := _left_of(problem, each, parted)) is not None]))
+
+
+def _left_of(problem: Problem, relation: Relation,
+             parted: Collection[Shipment]) -> Relation | None:
+    """Return what a relation says of shipments that are yet to be delivered; None if nothing.
+
+    Who goes with a shipment, or doesn't, is to do so with whoever delivers it. In an order an end
+    is served when it was, but a vehicle that fetched it isn't asked to deliver it.
+    """
+    delivery = {node: each.delivery for each in parted for node in each.pickups}
+    if relation.kind != "before":
+        nodes = tuple(dict.fromkeys([delivery.get(node, node) for node in relation.nodes]))
+        return replace(relation, nodes=nodes) if len(nodes) > 1 else None
+    stay = {node: node for node in relation.nodes if delivery.get(node) not in relation.nodes}
+    return relation.among(stay, problem.first_place)

@@ -47,7 +47,8 @@ def packed_routes(problem: Problem, k: int, trips: Sequence[Sequence[int]],
     the problem's, by the numbers that trips have.
     """
     kind = problem.vehicle_types[k]
-    batteries = batteries_left(problem, beside, kind.depot)
+    batteries = min([batteries_left(problem, beside, node)
+                     for node in (kind.begins_at, kind.depot)])
     if kind.takes_batteries and len(trips) > batteries:
         trips = sorted(trips, key=len, reverse=True)[:batteries]
     timing = Timing(problem, kind, nodes or range(problem.num_nodes))

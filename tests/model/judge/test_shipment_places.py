@@ -10,6 +10,7 @@ from itertools import count, product
 import numpy as np
 import pytest
 
+from model.judge import binding
 from model.judge.alternatives import find_alternatives, here_of
 from model.judge.bench import Bench
 from model.judge.binding import find_binding
@@ -177,8 +178,8 @@ def test_what_else_could_be_done_is_what_the_judge_says(seed: int) -> None:
             assert kinds[-1] == "unassigned"
         cost = min([bench.plan, *[each.trial for each in found.alternatives if each.node is None]],
                    key=lambda trial: trial.rank).evaluation.cost.total
-        for binding in find_binding(bench, found)[0]:
-            assert 0 <= binding.saves_per_unit <= cost + 1e-9
+        for bound in find_binding(bench, found)[0]:
+            assert 0 <= bound.saves_per_unit <= cost + 1e-9
 
 
 @pytest.mark.parametrize("seed", [0, 2, 5])
@@ -207,3 +208,15 @@ def test_little_time_has_the_likeliest_places_looked_at_and_tried(
         assert over <= 5
         assert found == whole if found.is_complete else read < 20 * num_guesses
         assert (limits, others.is_complete) == (((), False), False)
+
+
+def test_looking_for_where_a_shipment_is_leaves_time_to_find_what_binds(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(0)
+    problem = with_shipments(rng, draw_tiny(rng))
+    bench = bench_of(problem, greedy(problem), problem.shipments[0].pickup)
+    found, asked = find_alternatives(bench), list[float]()
+    monkeypatch.setattr(binding, "here_of", lambda _, until: asked.append(until))
+    begun = time.perf_counter()
+    find_binding(bench, found, begun + 1000)
+    assert [begun + 490 < until < begun + 750 for until in asked] == [True]

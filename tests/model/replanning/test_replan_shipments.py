@@ -1,17 +1,21 @@
 """Random problems with shipments, planned and planned on, also as vehicles break down with some."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from model.judge.past import Vehicle
 from model.planner import Planner
-from model.problem import Problem
+from model.problem import Problem, Relation, RelationKind, Shipment
 from model.replanning.parted import PartlyFetchedError
 from model.replanning.replan import Replanning, Terms
 from model.solution import Solution
 from tests.model.replanning.test_replan_random import (
     OPTIONS, assert_unchanged, begun, instants, lost, nobody, replan_later, something_happens,
 )
+from tests.model.street import ONE, TWO, A, B, C, D, planned, replan, route_of
+from tests.model.street import served as served_on
 from tests.model.tiny import draw_tiny
 from tests.model.tiny_shipments import with_shipments
 
@@ -65,3 +69,17 @@ def test_tiny_plans_with_shipments_go_on(planner: Planner, seed: int) -> None:
     for node in result.solution.unassigned:
         assert len(replanning.reasons(result.solution, node)) == len(problem.vehicle_types)
     replan_later(planner, problem, result.solution, now + (max(times) - now) // 2, broken)
+
+
+@pytest.mark.parametrize(("kind", "served"), [("together", {D, C}), ("apart", {D})])
+def test_who_goes_with_a_shipment_does_so_with_whoever_delivers_it_now(
+        planner: Planner, street: Problem, kind: RelationKind, served: set[int]) -> None:
+    """The first truck breaks down once it has fetched at A what is brought to D."""
+    customers = tuple([replace(each, demand=(0,), unassigned_cost=10.0 if node == C else 100.0)
+                       for node, each in enumerate(street.customers, 1)])
+    problem = replace(street, customers=customers, shipments=(Shipment("s", A, D, (1000,)),),
+                      relations=(Relation(kind, (A, C)),))
+    plan = planned(problem, ((A, D),))
+    now = plan.routes[0].trips[0].stops[1].departure
+    found = replan(planner, problem, Terms(plan, now, unavailable=frozenset({ONE})))
+    assert served_on(route_of(found, TWO)) - {B} == served

@@ -107,18 +107,29 @@ def test_few_places_serve_more_than_a_vehicle_each() -> None:
     assert len(charged) > 2
 
 
+def _reloading(seed: int) -> Problem:
+    """Draw a problem of trips in the air that begin at several depots with little there."""
+    rng = np.random.default_rng(seed)
+    problem = draw_tiny(rng)
+    rng.random()
+    change = (with_reloads, with_open_reloads)[int(rng.integers(2))]
+    problem = from_few_hubs(rng, change(rng, problem))
+    return with_gaps(rng, problem) if rng.random() < 0.3 else problem
+
+
 @pytest.mark.parametrize("seed", [55, 760, 999, 2707])
 def test_rollouts_are_charged_where_and_when_their_trips_begin(seed: int) -> None:
     """Another depot than their own, at which they reload, may have no place for that.
 
     Who begins the first trip later is charged for less time before the second (2707).
     """
-    rng = np.random.default_rng(seed)
-    problem = draw_tiny(rng)
-    rng.random()
-    change = (with_reloads, with_open_reloads)[int(rng.integers(2))]
-    problem = from_few_hubs(rng, change(rng, problem))
-    problem = with_gaps(rng, problem) if rng.random() < 0.3 else problem
+    problem = _reloading(seed)
     rollout = roll([problem], seed).rollouts[0]
     plan = extract(problem, pack([problem]), rollout.actions)
     assert not check(problem, plan).violations
+
+
+@pytest.mark.parametrize("seed", [2, 148])
+def test_packed_trips_take_batteries_where_they_begin(seed: int) -> None:
+    """That is another depot than their own, with no battery."""
+    searched(_reloading(seed), 5)
