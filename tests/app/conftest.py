@@ -18,6 +18,7 @@ from sqlalchemy import Connection, Engine, event
 
 from app.database.connections import make_engine
 from app.main import create_app
+from app.plans import explaining, task
 from app.schemas.limits import DEFAULT_POLICY
 from app.serving.settings import Settings
 from model.judge.check import check
@@ -113,6 +114,15 @@ def no_workers() -> Iterator[None]:
     """Let services within this process take jobs without working on them: only one could."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TANDEM_ROLE", "api")
+        yield
+
+
+@pytest.fixture(scope="session", autouse=True)
+def time_for_reasons() -> Iterator[None]:
+    """Have replies say why somebody is left out however busy the machine: usual are 50 ms."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(task, "EXPLAINING", PATIENCE)
+        patch.setattr(explaining, "REASONS_SECONDS", PATIENCE)
         yield
 
 

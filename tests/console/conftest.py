@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Browser, BrowserContext, ConsoleMessage, Page, Request, expect
 
 from tests.console.serving import VIEWPORT, WAIT_MS, chromium, new_context, serving
-from tests.console.steps import with_table1
+from tests.console.steps import beginning
 
 OF_A_PAGE = {"viewport", "color_scheme"}
 """What of a browser's context a page of another can be given."""
@@ -64,13 +64,20 @@ class Complaints:
             self._note(f"asked elsewhere: {request.url}")
 
 
+@pytest.fixture
+def begins_with(request: pytest.FixtureRequest) -> str:
+    """Return the example that a console begins with: little, as most tests open another at once."""
+    marker = request.node.get_closest_marker("begins_with")
+    return "smallest" if marker is None else str(marker.args[0])
+
+
 @contextmanager
-def opening(browser: Browser, visitor: BrowserContext | None = None
+def opening(browser: Browser, visitor: BrowserContext | None = None, example: str = "table1",
             ) -> Iterator[Callable[..., Page]]:
     """Yield a function that opens a page; what its console or network complain of is an error.
 
     Keywords are those of a browser's context, such as `locale`; `allow` are texts of errors that
-    the test provokes. A console begins with `table1`, whose places are known to the tests.
+    the test provokes. A console begins with an example.
 
     The first page is `visitor`'s, if that is given and has no page of a test open, unless the
     keywords ask for what a page can't be given.
@@ -88,7 +95,7 @@ def opening(browser: Browser, visitor: BrowserContext | None = None
             contexts.append(new_context(browser, **options))
             page = contexts[-1].new_page()
         complaints.append(Complaints(page, address, allow))
-        page.goto(with_table1(address))
+        page.goto(beginning(address, example))
         return page
 
     yield opener
@@ -100,9 +107,10 @@ def opening(browser: Browser, visitor: BrowserContext | None = None
 
 
 @pytest.fixture
-def open_page(browser: Browser, visitor: BrowserContext) -> Iterator[Callable[..., Page]]:
+def open_page(browser: Browser, visitor: BrowserContext, begins_with: str,
+              ) -> Iterator[Callable[..., Page]]:
     """Return what `opening` yields, for one test."""
-    with opening(browser, visitor) as opener:
+    with opening(browser, visitor, begins_with) as opener:
         yield opener
 
 
@@ -128,13 +136,13 @@ def visitor(browser: Browser) -> Iterator[BrowserContext]:
 
 
 @pytest.fixture
-def page(visitor: BrowserContext, service: str) -> Iterator[Page]:
-    """Return the console with `table1` planned, to whoever has never been there."""
+def page(visitor: BrowserContext, service: str, begins_with: str) -> Iterator[Page]:
+    """Return the console with an example planned, to whoever has never been there."""
     leave(visitor)
     page = visitor.new_page()
     forget(visitor, page, service)
     complaints = Complaints(page, service)
-    page.goto(with_table1(service))
+    page.goto(beginning(service, begins_with))
     expect(page.locator("#total-cost")).to_be_visible()
     yield page
     leave(visitor)

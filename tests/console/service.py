@@ -12,6 +12,7 @@ from typing import Any
 from unittest.mock import patch
 
 from app.cli.commands import main
+from app.plans import explaining, task
 from app.schemas import openapi
 from model.planner import Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -47,5 +48,8 @@ if __name__ == "__main__":
     with TemporaryDirectory() as examples:
         hurry_examples(openapi.EXAMPLES_DIR, Path(examples))
         with (patch.object(openapi, "EXAMPLES_DIR", Path(examples)),
-              patch.object(Planner, "plan", plan_hurriedly)):
+              patch.object(Planner, "plan", plan_hurriedly),
+              # However busy the machine, replies say why somebody is left out.
+              patch.object(task, "EXPLAINING", PATIENCE),
+              patch.object(explaining, "REASONS_SECONDS", PATIENCE)):
             main()

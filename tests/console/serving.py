@@ -5,19 +5,26 @@ import shutil
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import httpx
-from playwright.sync_api import Browser, BrowserContext, ViewportSize, sync_playwright
+from playwright.sync_api import (
+    Browser, BrowserContext, BrowserType, ViewportSize, sync_playwright,
+)
 
 from tests.conftest import free_port
 
 ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync")
+TOGETHER = ("--renderer-process-limit=1", "--disable-site-isolation-trials", "--in-process-gpu",
+            "--num-raster-threads=1", "--js-flags=--no-maglev,--no-opt")
+"""All pages are shown by one process, in which scripts are compiled but once: few are looked at for
+long enough to pay for more. Opening one takes three quarters of the processor's time."""
+
 START_SECONDS = 120
 OPENING_MS = 120_000
 """For opening a page while other tests have all cores."""
@@ -78,7 +85,14 @@ def _wait_until_ready(process: subprocess.Popen[bytes], address: str, log: Path)
 
 @contextmanager
 def chromium() -> Iterator[Browser]:
-    """Yield Debian's Chromium, or the one that the variable CHROMIUM names.
+    """Yield Debian's Chromium, or the one that the variable CHROMIUM names."""
+    with sync_playwright() as playwright, launched(playwright.chromium, TOGETHER) as browser:
+        yield browser
+
+
+@contextmanager
+def launched(kind: BrowserType, more: Sequence[str] = ()) -> Iterator[Browser]:
+    """Yield a browser with more arguments, by default with a process for each page.
 
     Where there is one without windows, that is taken: it opens a page in half of the time.
     """
@@ -86,10 +100,9 @@ def chromium() -> Iterator[Browser]:
             or shutil.which("chromium"))
     if path is None:
         raise RuntimeError("the console is tested with Chromium: .ci/prepare says how to get it")
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=list(ARGUMENTS))
-        yield browser
-        browser.close()
+    browser = kind.launch(executable_path=path, args=[*ARGUMENTS, *more])
+    yield browser
+    browser.close()
 
 
 def new_context(browser: Browser, **options: Any) -> BrowserContext:

@@ -11,9 +11,9 @@ EXAMPLES = ROOT / "app" / "schemas" / "examples"
 STATIC = ROOT / "app" / "console" / "static"
 
 
-def with_table1(address: str) -> str:
-    """Return the address that has a console begin with the example `table1`."""
-    return address if "#" in address else f"{address}/#example=table1"
+def beginning(address: str, example: str) -> str:
+    """Return the address that has a console begin with an example."""
+    return address if "#" in address else f"{address}/#example={example}"
 
 
 def stop_button(page: Page) -> Locator:

@@ -11,7 +11,7 @@ from tests.console.steps import (
     EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
 
 UNSERVABLE = {
     "planar_unit": 1000,

@@ -11,7 +11,7 @@ from tests.console.serving import new_context
 from tests.console.steps import EXAMPLES, STATIC, idle, open_example, state
 from tests.console.test_everyone import findings
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
 
 MAX_PAGE_BYTES = 1_000_000
 MAX_FIRST_PLAN_SECONDS = 1.0

@@ -142,6 +142,7 @@ def test_who_is_left_out_beside_a_van_that_is_back_is_served_by_a_click(page: Pa
     assert trips[1]["stops"][0]["departure"] >= BACK
 
 
+@pytest.mark.begins_with("table1")
 def test_what_can_not_be_read_is_said_at_its_field(page: Page) -> None:
     idle(page)
     page.locator(".new-order summary").click()
@@ -155,6 +156,7 @@ def test_what_can_not_be_read_is_said_at_its_field(page: Page) -> None:
     expect(page.locator(".order-field.invalid")).to_have_count(0)
 
 
+@pytest.mark.begins_with("table1")
 def test_the_place_of_an_order_is_shown_on_the_map(page: Page) -> None:
     idle(page)
     page.locator(".new-order summary").click()
@@ -167,6 +169,7 @@ def test_the_place_of_an_order_is_shown_on_the_map(page: Page) -> None:
     expect(page.locator(".places li")).to_have_count(3)
 
 
+@pytest.mark.begins_with("table1")
 def test_orders_of_a_list_are_cancelled_together(page: Page) -> None:
     idle(page)
     field = page.get_by_label("Find a customer by name")

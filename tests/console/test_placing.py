@@ -40,7 +40,7 @@ def test_addresses_and_the_depot_are_placed_by_clicks(open_page: Callable[..., P
     click_map(page, 120, 100)
     expect(address(page, "Anna")).to_have_attribute("aria-pressed", "true")
     expect(page.locator("#use-import")).to_be_disabled()
-    found = Axe().run(page)
+    found = Axe().run(page, options={"resultTypes": ["violations"]})
     assert found.violations_count == 0, found.generate_report()
     click_map(page, 150, 110)
     expect(address(page, "Ben, Cleo")).to_have_attribute("aria-pressed", "true")

@@ -12,7 +12,7 @@ from tests.console.steps import (
     idle, let_search, open_advanced, open_file, open_tab, state, stop_button,
 )
 
-pytestmark = pytest.mark.slow
+pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
 
 
 def set_option(page: Page, name: str, value: str) -> None:

@@ -56,7 +56,7 @@ def test_all_that_a_workbook_leaves_open_is_answered_and_remembered(
     open_file(page, "touren.xlsx", content)
     shown = dialog(page)
     expect(shown.get_by_text("1 customer of")).to_be_visible()
-    found = Axe().run(page)
+    found = Axe().run(page, options={"resultTypes": ["violations"]})
     assert found.violations_count == 0, found.generate_report()
     for part, answer in (("Dienstag", "Its rows, too"), ("hidden", "Planned"),
                          ("storniert", "Planned"), ("Zauber", "For the driver, as it is")):

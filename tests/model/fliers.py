@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 
@@ -68,11 +69,23 @@ def from_few_hubs(rng: np.random.Generator, problem: Problem) -> Problem:
 
 
 def without_taken(problem: Problem, routes: Sequence[Route]) -> Problem:
-    """Return a problem whose depots have the batteries that some routes leave."""
+    """Return a problem whose depots have the batteries that some routes leave.
+
+    It is the same one wherever as many are left: what is known of it is known already.
+    """
+    if not routes or all(depot.batteries is None for depot in problem.depots):
+        return problem
     taken = batteries_taken(problem, routes)
+    return _with_batteries(problem, tuple(
+        None if depot.batteries is None else depot.batteries - taken[node]
+        for node, depot in enumerate(problem.depots)))
+
+
+@lru_cache(1000)
+def _with_batteries(problem: Problem, left: tuple[int | None, ...]) -> Problem:
     return replace(problem, depots=tuple(
-        replace(depot, batteries=None if depot.batteries is None
-                else depot.batteries - taken[node]) for node, depot in enumerate(problem.depots)))
+        replace(depot, batteries=batteries)
+        for depot, batteries in zip(problem.depots, left, strict=True)))
 
 
 def from_hubs(rng: np.random.Generator, customers: int, batteries: int) -> Problem:
