@@ -18,6 +18,7 @@ namespace tandem {
 namespace {
 
 constexpr Int moved_between = 100;  // shipments tried elsewhere after each ejection
+constexpr Int one_at_random = 10;   // of so many; the others go where they take least time
 
 // After how many rounds a shipment it is given up if so large a share is still left out.
 constexpr Int hopeless_after = 20;
@@ -26,7 +27,8 @@ constexpr double hopeless_share = 0.05;
 // Inserts shipments that are left out among routes that there are, by ejecting others.
 //
 // Whoever fits nowhere is inserted where those who are ejected for it, one shipment or two, were
-// themselves inserted with the least trouble so far; then some shipments are moved at random.
+// themselves inserted with the least trouble so far; then some shipments, drawn at random, are
+// moved, most where they take least time.
 class Ejection {
 public:
     Ejection(const ProblemData& data, Searcher& searcher)
@@ -41,6 +43,7 @@ public:
     // Inserts all who are left out, in so many rounds at most. False if that doesn't come about.
     bool run(Int rounds) {
         if (slots_.empty() || !read()) return false;
+        is_shortening_ = true;
         std::size_t fewest = pool_.size();
         while (!pool_.empty() && made_ < rounds && !is_hopeless(fewest)) {
             ++made_;
@@ -114,6 +117,26 @@ private:
             if (below(searcher_.rng, ++found) == 0) chosen = place;
         });
         return chosen;
+    }
+
+    // That of them where it takes least time; of several such, some one.
+    std::optional<PairPlace> nearest_place(const PairRow& row, const PairToInsert& pair) const {
+        std::optional<PairPlace> chosen;
+        Int least = 0;
+        rows_.for_each_place(row, pair, [&](PairPlace place) {
+            const Int longer = PairRows::longer_by(row, pair, place);
+            if (!chosen || longer < least || (longer == least && below(searcher_.rng, 2) == 0)) {
+                least = longer;
+                chosen = place;
+            }
+        });
+        return chosen;
+    }
+
+    // Where a shipment is moved to in a row.
+    std::optional<PairPlace> place_to_move(const PairRow& row, const PairToInsert& pair) const {
+        const bool near = is_shortening_ && below(searcher_.rng, one_at_random) > 0;
+        return near ? nearest_place(row, pair) : any_place(row, pair);
     }
 
     void put_in(Int index, Int pickup, PairPlace place) {
@@ -224,7 +247,7 @@ private:
         std::swap(row_[std::size_t(index)], without_);
     }
 
-    // Moves a random shipment to a random place of another row, or exchanges it for one there.
+    // Moves a random shipment to a place of a random row, or exchanges it for one there.
     void move_any() {
         const Int index = below(searcher_.rng, Int(row_.size()));
         const Int to = below(searcher_.rng, Int(row_.size()));
@@ -234,7 +257,7 @@ private:
         const PairToInsert pair = rows_.pair_of(pickup);
         rows_.leave_out(from, pickup, nowhere, without_);
         if (without_.node.empty()) return;
-        if (const auto place = any_place(index == to ? without_ : target, pair)) {
+        if (const auto place = place_to_move(index == to ? without_ : target, pair)) {
             std::swap(from, without_);
             put_in(to, pickup, *place);
             return;
@@ -243,9 +266,9 @@ private:
         const Int other = any_pickup(target);
         rows_.leave_out(target, other, nowhere, other_without_);
         if (other_without_.node.empty()) return;
-        const auto here = any_place(without_, rows_.pair_of(other));
+        const auto here = place_to_move(without_, rows_.pair_of(other));
         if (!here) return;
-        const auto there = any_place(other_without_, pair);
+        const auto there = place_to_move(other_without_, pair);
         if (!there) return;
         std::swap(from, without_);
         std::swap(target, other_without_);
@@ -312,6 +335,7 @@ private:
     PairRow without_, other_without_;
     Int begin_ = 0, end_ = 0;
     Int made_ = 0;
+    bool is_shortening_ = false;  // most moves shorten ways, so that more fit
 };
 
 }  // namespace

@@ -66,6 +66,17 @@ public:
         }
     }
 
+    // How much longer the ways of a row take by a shipment at a place.
+    static Int longer_by(const PairRow& row, const PairToInsert& pair, PairPlace place) {
+        const auto& [pickup, delivery, together] = pair;
+        const std::size_t p = std::size_t(place.p), q = std::size_t(place.q);
+        const Int out = leg_from(pickup.inward, row.node[p]).duration;
+        const Int back = leg_to(delivery.onward, row.node[q + 1]).duration - row.gap[q];
+        if (p == q) return out + together + back;
+        return out + leg_to(pickup.onward, row.node[p + 1]).duration - row.gap[p] +
+               leg_from(delivery.inward, row.node[q]).duration + back;
+    }
+
 private:
     bool fits(const PairRow& row, Int p, Int pickup) const {
         for (Int tier = 0; tier < tiers_; ++tier) {
