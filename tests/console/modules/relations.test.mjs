@@ -1,7 +1,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { removeCustomers } from '../../../app/console/static/js/core/changes.js';
-import { presetOf } from '../../../app/console/static/js/core/presets.js';
+import { presetOf, withEntry, withoutEntry } from '../../../app/console/static/js/core/presets.js';
 import {
   needlessIn, relate, renamed, withShipments,
 } from '../../../app/console/static/js/core/relations.js';
@@ -89,4 +89,20 @@ test('what is said of a field is found by the name of its schema, or of one like
   assert.equal(helpOf('ShipmentPickupInput', 'setup_duration', api), ofCustomers);
   assert.notEqual(helpOf('ShipmentPickupInput', 'amount', api), api.description);
   assert.equal(helpOf('Unknown', 'amount', api), api.description);
+});
+
+test('the first of several pickups stands instead of the only one, and the last is it again', () => {
+  const keys = ['shipments', 0, 'pickups'];
+  const single = { depots: [{ location: [0, 0] }], fleet: [{ capacity: [9] }], shipments: [
+    { id: 's1', amount: [4], pickup: { location: [1, 2], served_by: 'either' }, delivery: {} }] };
+  const add = (request, id) => (
+    withEntry(request, keys, { id, ...presetOf('pickups', request, keys) }));
+  const farm = add(single, 'farm');
+  const first = { id: 'farm', amount: [4], location: [1, 2] };
+  assert.deepEqual(farm.shipments, [{ id: 's1', delivery: {}, pickups: [first] }]);
+  const both = add(farm, 'mill');
+  assert.deepEqual(both.shipments[0].pickups,
+    [first, { id: 'mill', amount: [1], location: [0, 0] }]);
+  assert.deepEqual(withoutEntry(withoutEntry(both, keys, 1), keys, 0).shipments, [
+    { id: 's1', amount: [4], pickup: { location: [1, 2] }, delivery: {} }]);
 });

@@ -1,7 +1,7 @@
 /** What is assumed of a part of the fleet when it is added, for a person to correct. */
 
 import { amounts, duration } from './format.js';
-import { getIn } from './paths.js';
+import { getIn, removeIn, setIn } from './paths.js';
 import { placeOf } from './places.js';
 import { t } from '../texts.js';
 
@@ -28,10 +28,29 @@ function blankShipment({ depots = [], fleet = [] }) {
   return { amount, pickup: { location }, delivery: { location } };
 }
 
-/** Return one of several pickups, at a depot until its place is stated. */
-function blankPickup(request) {
-  const { amount, pickup } = blankShipment(request);
-  return { amount, ...pickup };
+/** Return one of several pickups: the only one so far, else one at a depot. */
+function blankPickup(request, keys) {
+  const blank = blankShipment(request);
+  const shipment = getIn(request, keys.slice(0, -1)) ?? {};
+  const { served_by: _, ...place } = shipment.pickup ?? blank.pickup;
+  return { amount: shipment.amount ?? blank.amount, ...place };
+}
+
+/** Return the problem with an entry more in a list; the first pickup is instead of the only one. */
+export function withEntry(request, keys, entry) {
+  const added = setIn(request, keys, [...(getIn(request, keys) ?? []), entry]);
+  if (keys[keys.length - 1] !== 'pickups') return added;
+  const { amount: _, pickup: __, ...shipment } = getIn(added, keys.slice(0, -1));
+  return setIn(added, keys.slice(0, -1), shipment);
+}
+
+/** Return the problem without an entry of a list; the last of several pickups is the only one. */
+export function withoutEntry(request, keys, index) {
+  const less = removeIn(request, [...keys, index]);
+  if (keys[keys.length - 1] !== 'pickups' || getIn(less, keys).length) return less;
+  const { id: _, amount, ...pickup } = getIn(request, [...keys, index]);
+  const { pickups: __, ...shipment } = getIn(less, keys.slice(0, -1));
+  return setIn(less, keys.slice(0, -1), { ...shipment, amount, pickup });
 }
 
 /** Return another place of a customer, at his own until it is stated. */
@@ -53,7 +72,7 @@ export function presetOf(name, request, keys) {
   if (name === 'alternatives') return blankAlternative(request, keys);
   if (name === 'drones') return assumedDrones(request);
   if (name === 'shipments') return blankShipment(request);
-  if (name === 'pickups') return blankPickup(request);
+  if (name === 'pickups') return blankPickup(request, keys);
   const [depot] = request.depots ?? [];
   return name === 'launch_sites' && placeOf(depot) ? { location: placeOf(depot) } : undefined;
 }

@@ -3,7 +3,7 @@
 import { freeName } from '../core/changes.js';
 import { clock, parseClock, parseNumber } from '../core/format.js';
 import { getIn, keyOf, pathOf, removeIn, setIn } from '../core/paths.js';
-import { assumptionIn, presetOf } from '../core/presets.js';
+import { assumptionIn, presetOf, withEntry, withoutEntry } from '../core/presets.js';
 import {
   apiHelpOf, blank, choiceOf, emptyMeans, helpOf, kindOf, labelOf, resolve, unitOf, withinSentence,
   wordLines, wordsOf,
@@ -342,11 +342,11 @@ function ListField({ name, schema, keys, request, onChange, nullable, errors, ch
   const add = () => {
     const preset = presetOf(name, request, keys);
     const entry = preset && { id: freeName(values, STEMS[name]), ...preset };
-    onChange(setIn(request, keys, [...values, entry ?? blank(schemas, schema.items)]));
+    onChange(withEntry(request, keys, entry ?? blank(schemas, schema.items)));
   };
   const remove = (index) => {
     const isLast = nullable && values.length === 1;
-    onChange(removeIn(request, isLast ? keys : [...keys, index]));
+    onChange(isLast ? removeIn(request, keys) : withoutEntry(request, keys, index));
   };
   return html`<fieldset class="group list">
     <legend>${labelOf(name)}</legend>
