@@ -20,6 +20,7 @@
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
+#include "search/route/settling.h"
 #include "search/route/state.h"
 
 namespace tandem {

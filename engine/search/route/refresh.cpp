@@ -19,130 +19,24 @@
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
+#include "search/route/kept_pairs.h"
 #include "search/route/lags.h"
 #include "search/route/least_cost.h"
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
+#include "search/route/settling.h"
 #include "search/route/state.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {
 namespace {
 
-// Attempts to find out how late a trip may begin whose drones come in another order if it waits.
-constexpr Int halvings = 6;
-
-// Attempts likewise where breaks may then be due, or not any more.
-constexpr Int halvings_with_breaks = 20;
-
-// Attempts likewise, to the millisecond, where customers may then be served too soon behind others.
-constexpr Int halvings_with_lags = 40;
-
 // How many more instants are tried at most from which a route might better begin.
 constexpr Int most_begins = 16;
 
-// How often a trip with breaks is held back again since it has lost some.
-constexpr Int settled_again = 3;
-
 // Draws after which a search for one of few customers ends.
 constexpr Int most_draws = 64;
-
-// Tell whether a drone is launched or recovered at a stop or in the air meanwhile.
-bool has_sortie(View<const Sortie, 1> sorties, Int p) {
-    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-        return sortie.launch <= p && p <= sortie.recovery;
-    });
-}
-
-// Return the latest start of a trip that costs nothing, by each stop's last arrival.
-//
-// Where lags count, stops note by when service may begin.
-Int latest_by_stops(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                    View<const Sortie, 1> sorties, Int first) {
-    const Int k = route.type, last = route.length - 1;
-    const VehicleType& type = data.type[k];
-    const NodeTable places = data.place.by_truck(type);
-    Int leave = far;
-    for (Int p = last; p >= first; --p) {
-        Stop& stop = stops[p];
-        const bool plain = !has_sortie(sorties.first(route.sorties), p);
-        Int arrival = stop.arrival;
-        if (p == last && plain) leave = stop.leave;
-        if (lags_count(data) && stop.kind == customer_stop) {
-            stop.free_start = stop.start;
-            if (plain) {
-                const Int service = places[stop.node].service_duration();
-                leave = std::min(leave, latest_leave(data, route, stops, sorties, p, service));
-                stop.free_start = leave - service;
-            }
-        }
-        if (plain) {
-            arrival = has_window(stop) ? places[stop.node].latest_free_arrival(stop.arrival, leave)
-                                       : std::min(leave, leaves_by(type, places, stop.node));
-        }
-        leave = arrival;
-        if (p == first) break;
-        const Stop& before = stops[p - 1];
-        if (stop.kind == start_stop) {
-            leave = arrival - before.gap;
-        } else {
-            arrival -= setup_beside(type, data.setup, before.node, stop.node);
-            const auto back = [&](Int time) {
-                return leg_start(type, data.profile_time[k], data.profile_factor[k], before.gap,
-                                 time);
-            };
-            // Who leaves later may rest while it is slow, or needn't.
-            leave = follows_driver(type) ? arrival - before.gap
-                    : has_breaks(type)   ? departure_before(type, Rests(before.rests),
-                                                            begin_of(type, stops), arrival, back)
-                                         : back(arrival);
-        }
-    }
-    return leave;
-}
-
-// Return the latest start of the trip that begins at stop `first` which costs nothing.
-//
-// If all is retimed, either by moving the whole trip within the windows that are met, or stop by
-// stop, which may reach others but leaves blocks with sorties as they are.
-Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops,
-                View<const Sortie, 1> sorties, Int first) {
-    Int hold = none;
-    if (is_steady(data.type[route.type]) && !has_breaks(data.type[route.type]) &&
-        (!lags_count(data) || route.sorties > 0)) {
-        const Int base = stops[first].before;
-        hold = route.end - (route.cum - base);
-        for (Int p = first; p < route.length; p = stops[p].last + 1) {
-            hold = std::min(hold, stops[p].dep - (stops[p].before - base));
-        }
-    }
-    if (data.evaluation[route.type].retimed) {
-        hold = std::max(hold, latest_by_stops(data, route, stops, sorties, first));
-    }
-    return hold;
-}
-
-// Let a trip of a timed route whose driver is followed begin as late as `hold` at most, where it
-// ends no later. In place; false if a rule is broken.
-//
-// Later beginnings are tried with the rests that are placed, and that which is chosen with others.
-bool settle_followed(const ProblemData& data, Route& route, View<Stop, 1> stops, Stop& stop,
-                     View<Sortie, 1> sorties, Int hold) {
-    const Int end = route.end, before = stop.hold;
-    const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
-    Int found = before, failed = hold, tried = hold;
-    for (Int attempt = 0; attempt <= halvings_with_breaks && found != hold; ++attempt) {
-        stop.hold = tried;
-        const bool done = drive_as_placed(data, route, stops, sorties) && route.end <= end;
-        (done ? found : failed) = tried;
-        tried = (std::max(found, soonest) + failed) >> 1;
-    }
-    stop.hold = found;
-    if (drive_forward(data, route, stops, sorties) && route.end <= end) return true;
-    stop.hold = before;
-    return drive_forward(data, route, stops, sorties);
-}
 
 // Return when truck or drone first leaves the depot on a settled route.
 Int settled_departure(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
@@ -158,55 +52,6 @@ bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1
     if (route.sorties == 0) return false;
     const Int soonest = settled_departure(data, route, stops, sorties);
     return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
-}
-
-// Tell whether all shipments on a trip are whole, by its sorties among some; `node_at` tells who
-// is served at each stop.
-template <class NodeAt>
-bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Trip& trip,
-                const NodeAt& node_at) {
-    const auto comes_before = [&](Int pickup, Int behind) {
-        for (Int p = behind - 1; p > trip.first; --p) {
-            if (node_at(p) == pickup) return true;
-        }
-        return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-            return sortie.launch >= trip.first && sortie.recovery < behind &&
-                   std::find(sortie.nodes, sortie.nodes + sortie.count, pickup) !=
-                       sortie.nodes + sortie.count;
-        });
-    };
-    WholePairs pairs(data.pair);
-    const auto serve = [&](Int node, Int stop) {
-        pairs.serve(node, [&](Int pickup) { return comes_before(pickup, stop); });
-    };
-    for (Int p = trip.first + 1; p < trip.last; ++p) {
-        if (node_at(p) >= 0) serve(node_at(p), p);
-    }
-    for (const Sortie& sortie : sorties) {
-        if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            pairs.serve(sortie.nodes[visit], [&](Int pickup) {
-                return is_brought_within(data.pair, sortie.nodes, visit) ||
-                       comes_before(pickup, sortie.launch);
-            });
-        }
-    }
-    return pairs.are_kept();
-}
-
-// Tell whether each trip serves whole shipments, each picked up first, and unloads from a stack
-// what lies on it.
-bool keep_pairs(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                View<const Trip, 1> trips, View<const Sortie, 1> sorties) {
-    const View<const Trip, 1> made = trips.first(route.trips);
-    const auto node_at = [&](Int p) {
-        return stops[p].kind == customer_stop ? stops[p].node : nowhere;
-    };
-    return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
-        return keep_pairs(data, sorties.first(route.sorties), trip, node_at) &&
-               (!is_stack(data.type[route.type]) ||
-                keeps_stack(data.pair, trip.first + 1, trip.last, node_at));
-    });
 }
 
 // As `price_as_is`, of a route whose trips are timed, and held as long as they have to be.
@@ -379,7 +224,7 @@ bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     if (!load_trips(data, route, stops, trips, sorties)) return false;
     if (orders_cross(data)) note_spans(data, fleet, slot);
-    if (some_paired(data.pair) && !keep_pairs(data, route, stops, trips, sorties)) return false;
+    if (some_paired(data.pair) && !keeps_pairs(data, route, stops, trips, sorties)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
     return tiers_aboard(fleet) == 0 || weigh(data, fleet, slot);
 }
@@ -396,52 +241,6 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
     }
     return limits_timed_travel(type) ? price_later(data, fleet, slot, no_bar, settled)
                                      : price_loaded(data, fleet, slot, settled);
-}
-
-void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips) {
-    for (const Trip& trip : trips.first(route.trips)) stops[trip.first].hold = none;
-}
-
-bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-            View<Sortie, 1> sorties) {
-    const bool resting = rests_in_time(data.type[route.type]);
-    Int index = 0, again = resting ? settled_again : 0;
-    const Int most = lags_count(data) ? halvings_with_lags
-                     : resting        ? halvings_with_breaks
-                                      : halvings;
-    while (index < route.trips) {
-        const Trip& trip = trips[index++];
-        Stop& stop = stops[trip.first];
-        const Int hold = latest_hold(data, route, stops, sorties, trip.first);
-        const Int soonest = std::max({stop.arrival, stop.release, stop.hold});
-        if (hold <= soonest) continue;
-        if (any_rest(data.type[route.type], route) && follows_driver(data.type[route.type])) {
-            const Int before = stop.hold;
-            if (!settle_followed(data, route, stops, stop, sorties, hold)) return false;
-            if (stop.hold > before && again-- > 0) --index;
-            continue;
-        }
-        const Int end = route.end, before = stop.hold;
-        Int found = before, failed = hold, tried = hold;
-        for (Int attempt = 0; attempt <= most && found != hold; ++attempt) {
-            stop.hold = tried;
-            if (drive_forward(data, route, stops, sorties) && route.end <= end &&
-                !any_too_long(data, route, stops, trips, sorties)) {
-                found = tried;
-            } else {
-                // Drones in another order of arrival took longer, or breaks that are due.
-                failed = tried;
-            }
-            tried = (std::max(found, soonest) + failed) >> 1;
-        }
-        if (stop.hold != found) {
-            stop.hold = found;
-            if (!drive_forward(data, route, stops, sorties)) return false;
-        }
-        // Without some breaks it may begin even later.
-        if (found > before && again-- > 0) --index;
-    }
-    return true;
 }
 
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {

@@ -5,14 +5,6 @@
 
 namespace tandem {
 
-// Let every trip begin as soon as possible. In place.
-void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> trips);
-
-// Let each trip of a timed route begin as late as costs nothing. In place; false if a rule is
-// broken.
-bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
-            View<Sortie, 1> sorties);
-
 // What no route costs.
 constexpr double no_bar = 1e300;
 
