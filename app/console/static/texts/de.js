@@ -1688,7 +1688,6 @@ export default {
     TWO_SPEEDS: 'Geben Sie die Geschwindigkeit an oder den Faktor, nicht beides.',
     SPEED_PROFILE_ORDER: 'Geschwindigkeiten nach Uhrzeit müssen der Reihe nach stehen.',
     MISSING_DRONE_ID: 'Jede Drohnenart braucht einen Namen.',
-    PICKUPS_WITH: 'Was mehrere Abholungen hat, stellt das Fahrzeug selbst zu.',
     PICKUP_OR_PICKUPS:
       'Geben Sie eine Abholung und die Menge an oder mehrere Abholungen, jede mit ihrer Menge.',
     POWER_OR_PRESET: 'Geben Sie eine Vorlage oder die Leistung an.',

@@ -1660,7 +1660,6 @@ export default {
     TWO_SPEEDS: 'State the speed or the factor, not both.',
     SPEED_PROFILE_ORDER: 'Speeds by time of day must be in order.',
     MISSING_DRONE_ID: 'Each kind of drones needs a name.',
-    PICKUPS_WITH: 'What has several pickups is delivered by a truck.',
     PICKUP_OR_PICKUPS: 'State one pickup and the amount, or several pickups, each with its own.',
     POWER_OR_PRESET: 'State a preset or the power, or both parts that it needs.',
     CHARGE_WITHOUT_ENERGY: 'To charge drones, say what their battery holds.',
