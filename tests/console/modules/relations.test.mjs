@@ -98,11 +98,11 @@ test('the first of several pickups stands instead of the only one, and the last 
   const add = (request, id) => (
     withEntry(request, keys, { id, ...presetOf('pickups', request, keys) }));
   const farm = add(single, 'farm');
-  const first = { id: 'farm', amount: [4], location: [1, 2] };
+  const first = { id: 'farm', amount: [4], location: [1, 2], served_by: 'either' };
   assert.deepEqual(farm.shipments, [{ id: 's1', delivery: {}, pickups: [first] }]);
   const both = add(farm, 'mill');
   assert.deepEqual(both.shipments[0].pickups,
     [first, { id: 'mill', amount: [1], location: [0, 0] }]);
   assert.deepEqual(withoutEntry(withoutEntry(both, keys, 1), keys, 0).shipments, [
-    { id: 's1', amount: [4], pickup: { location: [1, 2] }, delivery: {} }]);
+    { id: 's1', amount: [4], pickup: { location: [1, 2], served_by: 'either' }, delivery: {} }]);
 });

@@ -32,8 +32,7 @@ function blankShipment({ depots = [], fleet = [] }) {
 function blankPickup(request, keys) {
   const blank = blankShipment(request);
   const shipment = getIn(request, keys.slice(0, -1)) ?? {};
-  const { served_by: _, ...place } = shipment.pickup ?? blank.pickup;
-  return { amount: shipment.amount ?? blank.amount, ...place };
+  return { amount: shipment.amount ?? blank.amount, ...shipment.pickup ?? blank.pickup };
 }
 
 /** Return the problem with an entry more in a list; the first pickup is instead of the only one. */
