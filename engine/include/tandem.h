@@ -1489,9 +1489,14 @@ int tandem_give_up_route(const tandem_problem_data* data, const tandem_searcher*
    were, or the best. */
 int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t rounds,
                  int64_t* made, int64_t* done);
-/* Move or exchange so many shipments at random, where all are served and rules are kept. */
+/* Move or exchange so many shipments at random, where all are served and rules are kept; by one
+   vehicle more, too, if there is one. */
 int tandem_move_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,
-                          int64_t moves);
+                          int64_t moves, bool by_one_more);
+/* Ruin and recreate so many times where all are ends of shipments that windows and loads alone
+   limit, as `search/shipments` says. Not `done`: it goes on from the best routes, by other ways. */
+int tandem_anneal_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,
+                            tandem_scratch* scratch, int64_t turns, int64_t* done);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */

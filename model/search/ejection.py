@@ -34,6 +34,9 @@ HOT_OF_STARTS = 3.0
 MOVES = 20
 """Random moves before each but the first, by customers."""
 
+EJECTED_SHARE = 0.3
+"""Of the time of a start, in which it finds where to begin at most."""
+
 MOST_ROUNDS = 10**9
 """More than there is time for."""
 
@@ -54,6 +57,15 @@ def can_eject(data: ProblemData) -> bool:
     paired = (pair["partner"] >= 0).all() and (pair["next_place"] == list(nodes)).all()
     own = data.place["release"].any() or data.amount[first:, :, :3].any()
     return bool(once and anyhow and paired and data.place.shape[2] == 1 and not own)
+
+
+def can_be_rows(data: ProblemData) -> bool:
+    """Tell whether routes can be rows of shipments, whose ways alone cost."""
+    how, fairness, kind = data.evaluation[0], data.fairness, data.type[0]
+    whole = fairness.makespan > 0 or fairness.balance > 0 or fairness.min_vehicles > 0
+    return can_eject(data) and bool(
+        how["by_detour"] and not how["timed"] and not whole
+        and kind["drones"] == 0 and not kind["flies"])
 
 
 def by_ejection(data: ProblemData, searcher: Searcher, workers: list[Worker],
@@ -77,6 +89,25 @@ def by_ejection(data: ProblemData, searcher: Searcher, workers: list[Worker],
     return eject if can_eject(data) else None
 
 
+def _begin_elsewhere(data: ProblemData, searcher: Searcher, workers: list[Worker],
+                     span: Span) -> None:
+    """Go on from another plan by as few vehicles as the best, which no moves may lead to. In place.
+
+    Shipments are moved at random by a vehicle more, and a route is given up; where not all of its
+    shipments can be inserted soon, they are moved at random by those that there are.
+    """
+    used, limits = int(searcher.count.active), workers[0].limits
+    _move_at_random(data, searcher, limits, span, True)
+    if searcher.count.active > used:
+        call("tandem_give_up_route", data, searcher)
+        soon = replace(span, end=span.begin + EJECTED_SHARE * (span.end - span.begin))
+        eject = by_ejection(data, searcher, workers, soon)
+        if eject is not None and eject():
+            return
+        go_on_from_best(data, searcher)
+    _move_at_random(data, searcher, limits, span, False)
+
+
 def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) -> Iterator[Span]:
     """Yield the parts of the rest of a search, each going on from the best plan. In place."""
     first, limits = workers[0], workers[0].limits
@@ -92,15 +123,16 @@ def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) 
                 continue
             if span.begin > share:
                 go_on_from_best(data, searcher)
-                _move_at_random(data, searcher, limits, span)
+                _begin_elsewhere(data, searcher, workers, span)
             yield span
         go_on_from_best(data, searcher)
     if not limits.over(first.turns):
         yield Span(limits.share(first.turns), 1.0, 1.0)
 
 
-def _move_at_random(data: ProblemData, searcher: Searcher, limits: Limits, span: Span) -> None:
-    """Move shipments at random while there is time in a span. In place."""
+def _move_at_random(data: ProblemData, searcher: Searcher, limits: Limits, span: Span,
+                    by_one_more: bool) -> None:
+    """Move shipments at random while there is time in a span, by a vehicle more, too. In place."""
     with Alarm(min(limits.span_end(span)[1], limits.deadline), limits.should_stop) as alarm:
         call("tandem_move_shipments", data._replace(deadline=alarm.setting), searcher,
-             MOVES * data.num_nodes)
+             MOVES * data.num_nodes, by_one_more)

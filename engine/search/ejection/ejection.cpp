@@ -7,12 +7,11 @@
 #include "guard.h"
 #include "randomness.h"
 #include "rules/pair.h"
-#include "search/ejection/pair_row.h"
-#include "search/route/edit.h"
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
-#include "search/route/refresh.h"
 #include "search/route/state.h"
+#include "search/shipments/pair_row.h"
+#include "search/shipments/rows.h"
 
 namespace tandem {
 namespace {
@@ -53,9 +52,15 @@ public:
         return pool_.empty() && write();
     }
 
-    // Moves so many shipments at random, as far as the search may go on. False if that fails.
-    bool shuffle(Int moves) {
+    // Moves so many shipments at random, as far as the search may go on, to a vehicle more, too, if
+    // there is one. False if that fails.
+    bool shuffle(Int moves, bool by_one_more) {
         if (slots_.empty() || !pool_.empty() || !read()) return false;
+        const Int free = by_one_more ? free_slot(data_, searcher_, 0) : nowhere;
+        if (free >= 0) {
+            slots_.push_back(free);
+            rows_.empty(row_.emplace_back());
+        }
         for (Int moved = 0; moved < moves && !data_.deadline.passed(); ++moved) move_any();
         return write();
     }
@@ -95,16 +100,8 @@ private:
     }
 
     bool read() {
-        const Fleet& now = searcher_.now;
-        begin_ = now.stop(slots_[0], 0).leave;
-        end_ = now.stop(slots_[0], now.route[slots_[0]].length - 1).latest;
         for (std::size_t index = 0; index < row_.size(); ++index) {
-            PairRow& row = row_[index];
-            const Int slot = slots_[index];
-            for (const Stop& stop : now.stop[slot].first(now.route[slot].length)) {
-                row.node.push_back(stop.node);
-            }
-            if (!rows_.time(row, begin_, end_)) return false;
+            if (!read_row(rows_, searcher_.now, slots_[index], row_[index])) return false;
         }
         return true;
     }
@@ -142,7 +139,7 @@ private:
     void put_in(Int index, Int pickup, PairPlace place) {
         PairRow& row = row_[std::size_t(index)];
         rows_.insert(row, pickup, place);
-        rows_.time(row, begin_, end_);
+        rows_.time(row);
     }
 
     bool insert_anywhere(Int pickup) {
@@ -291,28 +288,13 @@ private:
         bool allowed = true;
         for (std::size_t index = 0; index < row_.size(); ++index) {
             const Int slot = slots_[index];
-            Route& route = now.route[slot];
-            const PairRow& row = row_[index];
-            route.stamp = count.stamp;
-            route.length = 0;
-            if (row.node.size() == 2) {
-                route.trips = 0;
-                now.cost[slot] = 0.0;
-                --now.used[route.type];
-                continue;
-            }
-            allowed = allowed && Int(row.node.size()) <= now.stop.shape(1);
+            now.route[slot].stamp = count.stamp;
+            allowed = write_row(data_, now, slot, row_[index].node);
             if (!allowed) break;
-            for (const Int node : row.node) {
-                put(now.stop[slot], route.length++, node,
-                    node < data_.num_depots ? end_stop : customer_stop);
-            }
-            now.stop(slot, 0).kind = start_stop;
-            allowed = refresh(data_, now, slot);
-            locate(now, slot);
             cost += now.cost[slot];
         }
         list_active(searcher_);
+        now.used[0] = count.active;
         if (!allowed) {
             go_back(searcher_);
             return false;
@@ -326,14 +308,13 @@ private:
     const ProblemData& data_;
     Searcher& searcher_;
     const PairRows rows_;
-    const std::vector<Int> slots_;
+    std::vector<Int> slots_;
     std::vector<PairRow> row_;
     std::vector<Int> trouble_;  // (node,) of a pickup, how often it fitted nowhere
     std::vector<Int> pool_;     // pickups of those left out
     std::vector<Int> order_, pickups_;
     std::vector<std::array<Int, 3>> ranked_;  // (pickup,) its trouble, rank by chance, and node
     PairRow without_, other_without_;
-    Int begin_ = 0, end_ = 0;
     Int made_ = 0;
     bool is_shortening_ = false;  // most moves shorten ways, so that more fit
 };
@@ -355,10 +336,11 @@ extern "C" int tandem_eject(const tandem_problem_data* data, const tandem_search
 }
 
 extern "C" int tandem_move_shipments(const tandem_problem_data* data,
-                                     const tandem_searcher* searcher, int64_t moves) {
+                                     const tandem_searcher* searcher, int64_t moves,
+                                     bool by_one_more) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         Searcher working = searcher_of(*searcher);
-        Ejection(problem, working).shuffle(moves);
+        Ejection(problem, working).shuffle(moves, by_one_more);
     });
 }

@@ -11,7 +11,7 @@ from model.judge.check import check
 from model.problem import Problem, VehicleType
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import best_plan, make_searcher
-from model.search.ejection import can_eject
+from model.search.ejection import can_be_rows, can_eject
 from model.search.problem_data import make_data
 from model.search.route.engine import ANY, anneal
 from model.search.route.layout import ProblemData
@@ -73,13 +73,29 @@ def test_shipments_are_moved_at_random_within_rules() -> None:
     problem = planted(2, 4, True)
     data, searcher = begun(problem)
     before, best = float(searcher.value.cost), float(searcher.value.best)
-    call("tandem_move_shipments", data, searcher, 200)
+    call("tandem_move_shipments", data, searcher, 200, False)
     assert float(searcher.value.cost) != before
     assert int(searcher.count.missing) == 0
     assert float(searcher.value.best) <= best
     anneal(data, searcher, 50, ANY)
     plan = best_plan(data, searcher, range(data.num_nodes))
     assert check(problem, plan).violations == ()
+
+
+def test_shipments_are_moved_by_one_vehicle_more_if_there_is_one() -> None:
+    problem = planted(2, 4, True)
+    for count, more in ((0, 0), (1, 1)):
+        data, searcher = begun(problem)
+        used = int(searcher.count.active)
+        data.type["count"][0] = used + count
+        call("tandem_move_shipments", data, searcher, 400, True)
+        assert int(searcher.count.active) == used + more
+        assert int(searcher.now.used[0]) == used + more
+        call("tandem_give_up_route", data, searcher)
+        call("tandem_eject", data, searcher, ROUNDS)
+        assert int(searcher.count.missing) == 0
+        plan = best_plan(data, searcher, range(data.num_nodes))
+        assert check(problem, plan).violations == ()
 
 
 def _truck(problem: Problem, **changes: object) -> VehicleType:
@@ -91,6 +107,8 @@ def test_shipments_are_ejected_only_where_windows_and_loads_alone_limit() -> Non
     assert can_eject(make_data(problem, pack([problem])))
     paid = replace(problem, vehicle_types=(_truck(problem, cost_per_hour=1.0),))
     assert can_eject(make_data(paid, pack([paid])))
+    assert can_be_rows(make_data(problem, pack([problem])))
+    assert not can_be_rows(make_data(paid, pack([paid])))
     others = [planted(0, 2, False)]
     others.extend(replace(problem, vehicle_types=(_truck(problem, **changes),)) for changes in (
         {"lifo": True}, {"max_trips": 2}, {"max_working_duration": 500_000},

@@ -1,4 +1,4 @@
-#include "search/ejection/pair_row.h"
+#include "search/shipments/pair_row.h"
 
 #include "rules/load.h"
 #include "rules/pair.h"
@@ -8,18 +8,28 @@ namespace tandem {
 PairToInsert PairRows::pair_of(Int pickup) const {
     const Int delivery = data_.pair[pickup].partner;
     return {newcomer_for(data_, type_, pickup), newcomer_for(data_, type_, delivery),
-            leg(legs_, pickup, delivery).duration};
+            leg(legs_, pickup, delivery)};
 }
 
-bool PairRows::time(PairRow& row, Int begin, Int end) const {
+void PairRows::empty(PairRow& row) const {
+    row.node = {type_.begins_at, type_.ends_at};
+    time(row);
+}
+
+bool PairRows::time(PairRow& row) const {
     const std::size_t stops = row.node.size(), last = stops - 1;
     row.leave.resize(stops);
     row.due.resize(stops);
     row.gap.resize(stops);
+    row.way.resize(stops);
     row.load.resize(stops * std::size_t(tiers_));
-    row.leave[0] = begin;
+    row.leave[0] = begin_;
+    row.distance = 0;
     for (std::size_t p = 0; p < last; ++p) {
-        row.gap[p] = leg(legs_, row.node[p], row.node[p + 1]).duration;
+        const Leg next = leg(legs_, row.node[p], row.node[p + 1]);
+        row.gap[p] = next.duration;
+        row.way[p] = next.distance;
+        row.distance += next.distance;
         const Int arrival = row.leave[p] + row.gap[p];
         if (p + 1 == last) {
             row.leave[last] = arrival;
@@ -29,7 +39,7 @@ bool PairRows::time(PairRow& row, Int begin, Int end) const {
             row.leave[p + 1] = place.end_of_service(arrival);
         }
     }
-    row.due[last] = end;
+    row.due[last] = end_;
     for (std::size_t p = last; p-- > 1;) {
         row.due[p] = places_[row.node[p]].latest_arrival(row.due[p + 1] - row.gap[p]);
     }
@@ -40,7 +50,7 @@ bool PairRows::time(PairRow& row, Int begin, Int end) const {
             row.load[p * std::size_t(tiers_) + std::size_t(tier)] = load;
         }
     }
-    return row.leave[last] <= end;
+    return row.leave[last] <= end_;
 }
 
 void PairRows::leave_out(const PairRow& row, Int one, Int other, PairRow& without) const {
@@ -54,7 +64,7 @@ void PairRows::leave_out(const PairRow& row, Int one, Int other, PairRow& withou
         without.node.push_back(node);
     }
     // By the triangle inequality it comes no later anywhere; where that does not hold it may.
-    if (!time(without, row.leave.front(), row.due.back())) without.node.clear();
+    if (!time(without)) without.node.clear();
 }
 
 void PairRows::insert(PairRow& row, Int pickup, PairPlace place) const {

@@ -5,6 +5,7 @@
 
 #include "rules/load.h"
 #include "rules/shift.h"
+#include "rules/start.h"
 #include "search/insertion/newcomer.h"
 #include "search/route/layout.h"
 
@@ -13,7 +14,7 @@ namespace tandem {
 // A shipment that is to be inserted, as vehicles of the only type meet its ends.
 struct PairToInsert {
     Newcomer pickup, delivery;
-    Int together;  // how long it takes from one to the other
+    Leg together;  // from one to the other
 };
 
 // Behind which stops the ends come: the delivery right behind the pickup where they are the same.
@@ -27,7 +28,11 @@ struct PairRow {
     std::vector<Int> leave;    // at the earliest
     std::vector<Int> due;      // the last arrival by which all that follow are served in time
     std::vector<Int> gap;      // how long it takes to the next
+    std::vector<Int> way;      // how far it is there
     std::vector<Amount> load;  // (stop, tier) on leaving
+    Int distance = 0;          // of all
+
+    bool serves_somebody() const { return node.size() > 2; }
 };
 
 // What rows are made and looked at by: one type of trucks that make one trip each, and whose times
@@ -39,13 +44,17 @@ public:
           type_(data.type[0]),
           places_(data.place.by_truck(type_)),
           legs_(legs_of(data.leg, type_.travel)),
+          begin_(leaves_first(type_, type_.shift_earliest)),
+          end_(last_end(type_)),
           tiers_(tiers) {}
 
     PairToInsert pair_of(Int pickup) const;
 
-    // Writes all that follows from the nodes of a row that begins at `begin` and has to end by
-    // `end`. False if somebody is served too late.
-    bool time(PairRow& row, Int begin, Int end) const;
+    // Lets a row be that of a vehicle that serves nobody.
+    void empty(PairRow& row) const;
+
+    // Writes all that follows from the nodes of a row. False if somebody is served too late.
+    bool time(PairRow& row) const;
 
     // Writes a row without one shipment or two, by their pickups; `nowhere`: no second.
     void leave_out(const PairRow& row, Int one, Int other, PairRow& without) const;
@@ -57,7 +66,7 @@ public:
     template <class Visit>
     void for_each_place(const PairRow& row, const PairToInsert& pair, const Visit& visit) const {
         const Int last = Int(row.node.size()) - 1;
-        if (!allows_stops(type_, last + 1)) return;
+        if (!takes_more(row)) return;
         for (Int p = 0; p < last; ++p) {
             if (pair.pickup.place.too_late(row.leave[std::size_t(p)])) return;
             if (fits(row, p, pair.pickup.node)) {
@@ -72,12 +81,15 @@ public:
         const std::size_t p = std::size_t(place.p), q = std::size_t(place.q);
         const Int out = leg_from(pickup.inward, row.node[p]).duration;
         const Int back = leg_to(delivery.onward, row.node[q + 1]).duration - row.gap[q];
-        if (p == q) return out + together + back;
+        if (p == q) return out + together.duration + back;
         return out + leg_to(pickup.onward, row.node[p + 1]).duration - row.gap[p] +
                leg_from(delivery.inward, row.node[q]).duration + back;
     }
 
-private:
+    // Whether a vehicle may stop for one shipment more.
+    bool takes_more(const PairRow& row) const { return allows_stops(type_, Int(row.node.size())); }
+
+    // Whether a shipment may be aboard when a stop is left.
     bool fits(const PairRow& row, Int p, Int pickup) const {
         for (Int tier = 0; tier < tiers_; ++tier) {
             const Amount more = picked_of(data_.amount, pickup, tier);
@@ -87,6 +99,7 @@ private:
         return true;
     }
 
+private:
     // Calls `visit` with each stop behind which a shipment may be delivered that is picked up
     // behind stop `p`.
     template <class Visit>
@@ -99,8 +112,8 @@ private:
         Int leave = pickup.place.end_of_service(arrival);
         for (Int q = p; !delivery.place.too_late(leave); ++q) {
             const Int next = row.node[std::size_t(q + 1)];
-            const Int out =
-                q == p ? together : leg_from(delivery.inward, row.node[std::size_t(q)]).duration;
+            const Int out = q == p ? together.duration
+                                   : leg_from(delivery.inward, row.node[std::size_t(q)]).duration;
             if (delivery.is_in_time(leave + out, row.due[std::size_t(q + 1)],
                                     [&] { return leg_to(delivery.onward, next).duration; })) {
                 visit(q);
@@ -116,6 +129,7 @@ private:
     const VehicleType& type_;
     const NodeTable places_;
     const TravelLegs legs_;
+    const Int begin_, end_;  // of each vehicle
     const Int tiers_;
 };
 

@@ -1,0 +1,45 @@
+#include "search/shipments/rows.h"
+
+#include <algorithm>
+
+#include "search/route/edit.h"
+#include "search/route/refresh.h"
+
+namespace tandem {
+
+bool read_row(const PairRows& rows, const Fleet& fleet, Int slot, PairRow& row) {
+    row.node.clear();
+    for (const Stop& stop : fleet.stop[slot].first(fleet.route[slot].length)) {
+        row.node.push_back(stop.node);
+    }
+    return rows.time(row);
+}
+
+bool is_written(const Fleet& fleet, Int slot, const std::vector<Int>& nodes) {
+    if (nodes.size() <= 2) return fleet.route[slot].length == 0;
+    const View<Stop, 1> stops = fleet.stop[slot].first(fleet.route[slot].length);
+    return std::equal(stops.begin(), stops.end(), nodes.begin(), nodes.end(),
+                      [](const Stop& stop, Int node) { return stop.node == node; });
+}
+
+bool write_row(const ProblemData& data, const Fleet& fleet, Int slot,
+               const std::vector<Int>& nodes) {
+    Route& route = fleet.route[slot];
+    route.length = 0;
+    if (nodes.size() <= 2) {
+        route.trips = 0;
+        fleet.cost[slot] = 0.0;
+        return true;
+    }
+    if (Int(nodes.size()) > fleet.stop.shape(1)) return false;
+    for (const Int node : nodes) {
+        put(fleet.stop[slot], route.length++, node,
+            node < data.num_depots ? end_stop : customer_stop);
+    }
+    fleet.stop(slot, 0).kind = start_stop;
+    const bool allowed = refresh(data, fleet, slot);
+    locate(fleet, slot);
+    return allowed;
+}
+
+}  // namespace tandem
