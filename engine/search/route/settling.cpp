@@ -103,6 +103,11 @@ Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops
     if (data.evaluation[route.type].retimed) {
         hold = std::max(hold, latest_by_stops(data, route, stops, sorties, first));
     }
+    // Where drones fly from is left as it is by that; without a break on the way all may be later.
+    const VehicleType& type = data.type[route.type];
+    if (has_breaks(type) && route.sorties > 0 && !any_rest(type, route)) {
+        hold = std::max(hold, route.end);
+    }
     return hold;
 }
 
@@ -153,16 +158,17 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
             continue;
         }
         const Int end = route.end, before = stop.hold;
+        const auto may_begin = [&](Int begin) {
+            stop.hold = begin;
+            return drive_forward(data, route, stops, sorties) && route.end <= end &&
+                   !any_too_long(data, route, stops, trips, sorties);
+        };
         Int found = before, failed = hold, tried = hold;
-        for (Int attempt = 0; attempt <= most && found != hold; ++attempt) {
-            stop.hold = tried;
-            if (drive_forward(data, route, stops, sorties) && route.end <= end &&
-                !any_too_long(data, route, stops, trips, sorties)) {
-                found = tried;
-            } else {
-                // Drones in another order of arrival took longer, or breaks that are due.
-                failed = tried;
-            }
+        // Nothing is known of the latest then; mostly it can't be later at all.
+        const bool in_vain = hold >= end && resting && !may_begin(soonest + 1);
+        for (Int attempt = 0; attempt <= most && found != hold && !in_vain; ++attempt) {
+            // If not, drones in another order of arrival took longer, or breaks that are due.
+            (may_begin(tried) ? found : failed) = tried;
             tried = (std::max(found, soonest) + failed) >> 1;
         }
         if (stop.hold != found) {

@@ -17,6 +17,7 @@ from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
 from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER
+from tests.model.search.mixed_days import mixed_day
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
 from tests.model.tiny_breaks import short_day, with_breaks
 from tests.model.tiny_company import with_order, with_order_across
@@ -132,3 +133,14 @@ def test_breaks_that_nobody_needs_change_no_plan() -> None:
              for other in (replace(problem, vehicle_types=(replace(kind, breaks=()),)),
                            replace(problem, vehicle_types=(late,)))]
     assert plans[0] == plans[1]
+
+
+@pytest.mark.parametrize(("seed", "cheapest"), [(794, 112.0), (2235, 11 / 3)])
+def test_who_waits_for_a_flight_begins_later_beside_breaks(seed: int, cheapest: float) -> None:
+    """Tiny days of `many_days` whose first stop launches a drone for a window."""
+    problem = mixed_day(np.random.default_rng(seed))
+    plan = improve(problem, pack([problem]), Solution((), problem.left_out(())),
+                   SearchConfig(turns=300)).solution
+    judged = check(problem, plan)
+    assert judged.violations == ()
+    assert judged.cost.total == pytest.approx(cheapest)
