@@ -128,9 +128,9 @@ class Study:
                 raise Fault(f"the shipment of a sound plan isn't told of: {told}, {fits}")
             here = fits["here"]
             for place in fits["places"]:
-                # Where there is no way, there are no times, and no route.
-                has_route = place["feasible"] or place["route"] is not None
-                if here is None or here["vehicle"] != place["vehicle"] or not has_route:
+                # Where there is no way, there is no route; companions may come from others.
+                alone = (place["feasible"] or place["route"]) and "companions" not in place
+                if here is None or here["vehicle"] != place["vehicle"] or not alone:
                     continue
                 routes = [route for route in plan["routes"] if route["vehicle"] != place["vehicle"]]
                 verdict = self.ask("/check", {"problem": request, "plan": plan | {
