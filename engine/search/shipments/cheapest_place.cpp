@@ -33,7 +33,8 @@ void PlaceFinder::scan(const PairRow& row, Int slot, CheapestPlace& best) {
         least_[q] = std::min(least_[q + 1], delivery_.further[q]);
     }
     for (std::size_t p = 0; p < last; ++p) {
-        if (pickup_.further[p] + least_[p + 1] < best.further &&
+        // Who is late may look cheaper than endless by a delivery that shortens the way.
+        if (pickup_.further[p] < endless && pickup_.further[p] + least_[p + 1] < best.further &&
             rows_.fits(row, Int(p), pair_.pickup.node)) {
             scan_from(row, slot, Int(p), best);
         }

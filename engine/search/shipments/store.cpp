@@ -33,7 +33,8 @@ public:
           before_(row_.size()),
           best_(row_.size()),
           touched_in_(row_.size(), nowhere),
-          seen_(row_.size(), 0) {}
+          seen_(row_.size(), 0),
+          written_best_(searcher.value->best) {}
 
     // Reads the routes. False if that can't be.
     bool read() {
@@ -52,6 +53,8 @@ public:
         const std::vector<Int> missing(searcher_.missing.begin(),
                                        searcher_.missing.begin() + count.missing);
         const double cost = searcher_.value->cost;
+        // Until they are written the best routes cost what they did.
+        searcher_.value->best = written_best_;
         bool allowed = true;
         if (is_better_) {
             allowed = write_all(
@@ -357,6 +360,7 @@ private:
     Int looks_ = 0;
     double added_ = 0.0;  // this turn, wherever shipments are
     double best_cost_ = 0.0;
+    const double written_best_;  // what the search's best routes cost at first
     bool is_better_ = false;
 };
 
