@@ -29,9 +29,7 @@ def hand_over(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],
 
     Customers for whom a rule is broken are left out.
     """
-    first = left.problem.num_depots
-    here = {node: node for node in problem.launch_sites}
-    here |= {node: index for index, node in enumerate(left.nodes[first:], first)}
+    here = {node: node for node in problem.launch_sites} | left.numbers
     decisions = [
         _rest_of_trip(left, kind, way_on.planned, here) for kind, worker in left.workers.items()
         if worker.is_under_way and (way_on := kept[worker.vehicle].way_on) is not None]

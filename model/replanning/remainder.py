@@ -38,6 +38,12 @@ class Remainder:
         """Types that aren't one vehicle; they come first."""
         return len(self.kinds) - len(self.workers)
 
+    @property
+    def numbers(self) -> dict[int, int]:
+        """What number each customer of the whole problem has here."""
+        first = self.problem.num_depots
+        return {node: index for index, node in enumerate(self.nodes[first:], first)}
+
     def under_way(self, vehicle: Vehicle) -> int | None:
         """Return the type that is the rest of a vehicle's trip."""
         return self._find(vehicle, True)

@@ -25,7 +25,7 @@ from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.rested import has_clock
 from model.replanning.workers import Worker, find_workers, vehicle_name
-from model.solution import Route, Solution
+from model.solution import Route, Solution, renumbered
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
                         "SORTIE_STOPS", "UNREACHABLE", "PAIR"})
@@ -253,8 +253,9 @@ class Replanning:
                   for vehicle, route in zip(vehicles, solution.routes, strict=True)
                   if (own := left.later(vehicle)) is not None
                   and (own >= left.num_plain or vehicle not in self._kept)]
-        reason = explain_type(left.problem, Solution(tuple(routes)), types[0],
-                              left.nodes.index(node), until)
+        here = left.numbers
+        plan = renumbered(Solution(tuple(routes)), lambda there: here.get(there, there))
+        reason = explain_type(left.problem, plan, types[0], here[node], until)
         return replace(reason, vehicle_type=kind)
 
 

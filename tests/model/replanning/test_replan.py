@@ -8,7 +8,7 @@ import pytest
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision
 from model.planner import Listener, PlanCheckError, Planner
-from model.problem import MAX_QUANTITY, Customer, Overtime, Problem, VehicleType
+from model.problem import MAX_QUANTITY, Customer, Overtime, Problem, Relation, VehicleType
 from model.replanning.replan import Replanning, Terms
 from model.replanning.workers import MAX_OWN_TYPES, TooManyTypesError
 from model.search.improve import Progress
@@ -250,6 +250,21 @@ def test_truck_without_a_trip_left_does_not_come_back_by_magic(planner: Planner,
     assert solution.unassigned == (D,)
     (reason,) = replanning.reasons(solution, D)
     assert reason.code == "FLEET_EXHAUSTED"
+
+
+def test_reasons_know_who_is_served_after_what_has_happened(planner: Planner,
+                                                            street: Problem) -> None:
+    # A is served; what is left is B, C and D, by other numbers.
+    problem = replace(street, relations=(Relation("before", (B, D), max_lag=10 * MINUTE),))
+    problem = with_customer(problem, B, latest=60 * MINUTE)
+    problem = with_customer(problem, D, earliest=200 * MINUTE, latest=210 * MINUTE)
+    problem = with_trucks(problem, count=1, max_trips=2)
+    replanning = Replanning(problem, Terms(planned(problem, ((A,), (B, C))), 8 * MINUTE))
+    solution = replanning.plan(planner, OPTIONS).solution
+    assert solution.unassigned == (D,)
+    (reason,) = replanning.reasons(solution, D)
+    assert reason.remedy is not None
+    assert reason.remedy.startswith("fits if max_lag of its orders were at least 1")
 
 
 def test_truck_that_can_only_just_get_home_goes_home(planner: Planner, street: Problem) -> None:
