@@ -6,17 +6,13 @@ from model.judge.flown_trips import wait_for_calm
 from model.problem import UNLIMITED, Problem, VehicleType
 from model.solution import Stop, Trip, Visit
 
-MOST_TIMES = 1000
-"""How often a trip is tried later."""
-
 
 def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[[int], Trip],
          excess_of: Callable[[Trip], int]) -> tuple[Trip, bool]:
     """Return a trip that begins late enough for nothing to last too long, and whether that helps.
 
     What lasts too long has to begin at least so much later. Where all else is as much later then,
-    that doesn't help: nothing does until a window or a speed turns what follows. What helps a
-    little helps no more than as much until then.
+    that doesn't help: nothing does until a window or a speed turns what follows.
 
     Parameters
     ----------
@@ -29,25 +25,18 @@ def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[
     """
     trip, excess = soonest, max(0, excess_of(soonest))
     wait, best = excess or wait_for_calm(kind, trip), trip
-    for _ in range(MOST_TIMES):
-        if not wait:
-            return trip, True
-        turn, begin, before = time_to_turn(problem, kind, trip), trip.stops[0].arrival, excess
-        trip = begun_at(begin + wait)
+    while wait:
+        turn = time_to_turn(problem, kind, trip)
+        trip, before = begun_at(trip.stops[0].arrival + wait), excess
         wait = excess = max(0, excess_of(trip))
         best = trip if excess < before else best
-        later = trip.stops[0].arrival
-        if before and excess and (turn > later or turn == UNLIMITED):
+        if 0 < before <= excess and (turn > trip.stops[0].arrival or turn == UNLIMITED):
             turn = time_to_turn(problem, kind, trip)
-            if before > excess:
-                alike = (excess - 1) * (later - begin) // (before - excess + 1)
-                wait = max(excess, min(turn - later, alike))
-            elif turn == UNLIMITED:
+            if turn == UNLIMITED:
                 return best, False
-            else:
-                wait = max(excess, turn - later)
+            wait = max(excess, turn - trip.stops[0].arrival)
         wait = wait or wait_for_calm(kind, trip)
-    return best, False
+    return trip, True
 
 
 def time_to_turn(problem: Problem, kind: VehicleType, trip: Trip) -> int:
