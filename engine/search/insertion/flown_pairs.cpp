@@ -38,9 +38,9 @@ public:
 
     void scan() {
         EndPlaces pickups, deliveries;
-        const bool fetches = fly(node, pickups), brings = fly(delivery_, deliveries);
-        if (brings) drive(node, pickups);
-        if (fetches) drive(delivery_, deliveries);
+        const bool fetches = add_flown(node, pickups), brings = add_flown(delivery_, deliveries);
+        if (brings) add_driven(node, pickups);
+        if (fetches) add_driven(delivery_, deliveries);
         if (fetches && brings) fly_both();
         for (const EndPlace& pickup : pickups.items()) {
             for (const EndPlace& delivery : deliveries.items()) join(pickup, delivery);
@@ -53,26 +53,6 @@ public:
     }
 
 private:
-    // Lists where the truck may serve an end. In place.
-    void drive(Int end, EndPlaces& places) const {
-        if (!allows_stops(type, stops_on(trip) + 1)) return;
-        const Newcomer driven = newcomer(end);
-        for (Int p = trip.first; p < trip.last; ++p) {
-            const auto [out, on, distance] = detour(driven, p);
-            const double cost = double(distance) * rate.distance + rate.stop;
-            if (is_dear(cost) || driven.place.too_late(stops[p].leave + out.duration)) continue;
-            places.add({cost, by_wheels, p, p});
-        }
-    }
-
-    // Lists where drones may serve an end; false if nowhere. In place.
-    bool fly(Int end, EndPlaces& places) const {
-        for_each_single_flight(end, [&](Int row, const Flown& flown) {
-            places.add({flown.cost, row, flown.launch, flown.recovery});
-        });
-        return !places.items().empty();
-    }
-
     // Lists sorties that serve both ends. In place.
     void fly_both() {
         for_each_row(node, delivery_, [&](Int row) {

@@ -41,8 +41,8 @@ public:
     void scan() {
         bool flies = false;
         for (Int end = 0; end <= pickups_.count; ++end) {
-            flies = fly(end) || flies;
-            drive(end);
+            flies = add_flown(end_node(end), places(end)) || flies;
+            add_driven(end_node(end), places(end));
             places(end).sort();
         }
         if (!flies) return;
@@ -63,26 +63,6 @@ private:
 
     const EndPlace& place_of(Int end, const Choice& choice) {
         return places(end).items()[choice[std::size_t(end)]];
-    }
-
-    // Lists where the truck may serve an end. In place.
-    void drive(Int end) {
-        if (!allows_stops(type, stops_on(trip) + 1)) return;
-        const Newcomer driven = newcomer(end_node(end));
-        for (Int p = trip.first; p < trip.last; ++p) {
-            const auto [out, on, distance] = detour(driven, p);
-            const double cost = double(distance) * rate.distance + rate.stop;
-            if (is_dear(cost) || driven.place.too_late(stops[p].leave + out.duration)) continue;
-            places(end).add({cost, by_wheels, p, p});
-        }
-    }
-
-    // Lists where drones may serve an end; false if nowhere. In place.
-    bool fly(Int end) {
-        for_each_single_flight(end_node(end), [&](Int row, const Flown& flown) {
-            places(end).add({flown.cost, row, flown.launch, flown.recovery});
-        });
-        return !places(end).items().empty();
     }
 
     // Combines the pickups' places with one of the delivery: the cheapest of each that are aboard

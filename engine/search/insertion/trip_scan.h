@@ -9,6 +9,7 @@
 #include "rules/rates.h"
 #include "rules/shift.h"
 #include "search/insertion/best.h"
+#include "search/insertion/end_place.h"
 #include "search/insertion/offers.h"
 #include "search/route/drone_data.h"
 #include "search/route/vehicles.h"
@@ -109,6 +110,28 @@ struct TripScan {
                 if (Flight{drone, place, flown.out, flown.home}.can_serve()) visit(row, flown);
             });
         });
+    }
+
+    // Adds where the truck may serve an end. In place.
+    template <class Places>
+    void add_driven(Int end, Places& places) const {
+        if (!allows_stops(type, stops_on(trip) + 1)) return;
+        const Newcomer driven = newcomer(end);
+        for (Int p = trip.first; p < trip.last; ++p) {
+            const auto [out, on, distance] = detour(driven, p);
+            const double cost = double(distance) * rate.distance + rate.stop;
+            if (is_dear(cost) || driven.place.too_late(stops[p].leave + out.duration)) continue;
+            places.add({cost, by_wheels, p, p});
+        }
+    }
+
+    // Adds where drones may serve an end; false if there is no place then. In place.
+    template <class Places>
+    bool add_flown(Int end, Places& places) const {
+        for_each_single_flight(end, [&](Int row, const Flown& flown) {
+            places.add({flown.cost, row, flown.launch, flown.recovery});
+        });
+        return !places.items().empty();
     }
 
     // Whether drones of a type that serve a customer may be launched or recovered at a node.

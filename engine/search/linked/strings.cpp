@@ -113,10 +113,7 @@ Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) 
     SearchCounts& count = *searcher.count;
     const double longest = longest_string(searcher, count.active);
     Int strings = draw_strings(longest, searcher.rng);
-    Int seed = draw_customer(data, searcher.now, count.focus, searcher.rng);
-    if (count.absent > 0 && uniform(searcher.rng) < make_room_share) {
-        seed = searcher.absent[below(searcher.rng, count.absent)];
-    }
+    const Int seed = draw_seed(data, searcher, searcher.absent.first(count.absent));
     double saved = 0.0;
     Int rank = -1;
     Int customer = seed;

@@ -17,6 +17,7 @@ constexpr double average_removed = 10;
 constexpr double longest_share = 0.25;     // of a long route, where longer strings are allowed
 constexpr double company_share = 0.5;      // how often those who go with a customer go as well
 constexpr double flight_only_share = 0.5;  // how often a drone's customer goes alone, as a string
+constexpr double make_room_share = 0.5;    // how often strings are removed around one left out
 
 // Marks strings of customers to be removed.
 class Strings {
@@ -95,6 +96,12 @@ Int draw_strings(double longest, View<std::uint64_t, 1> rng) {
     return 1 + static_cast<Int>(uniform(rng) * (4 * removed / (1 + longest) - 1));
 }
 
+Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int, 1> absent) {
+    const Int seed = draw_customer(data, searcher.now, searcher.count->focus, searcher.rng);
+    if (absent.size() == 0 || uniform(searcher.rng) >= make_room_share) return seed;
+    return absent[below(searcher.rng, absent.size())];
+}
+
 Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
               View<Int, 1> touched) {
     const Fleet& fleet = searcher.now;
@@ -103,10 +110,7 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
     Strings chosen(fleet, searcher.rng, longest, removed);
     Int num_touched = 0;
     Int strings = draw_strings(longest, searcher.rng);
-    Int seed = draw_customer(data, fleet, searcher.count->focus, searcher.rng);
-    if (removed.count > 0 && uniform(searcher.rng) < make_room_share) {
-        seed = removed.absent[below(searcher.rng, removed.count)];
-    }
+    const Int seed = draw_seed(data, searcher, removed.absent.first(removed.count));
     const View<const std::int32_t, 1> near = data.near[seed];
     Int node = seed;
     for (Int rank = 0; strings > 0 && node >= 0; ++rank) {

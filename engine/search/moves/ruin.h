@@ -10,7 +10,6 @@ constexpr double split_share = 0.5;          // how often a string spares some w
 constexpr double split_more_share = 0.01;    // and each time one more of them
 constexpr double whole_trip_share = 0.05;    // how often a trip is removed whole
 constexpr Int longest_whole_trip = 25;       // if it has no more stops than this
-constexpr double make_room_share = 0.5;      // how often strings are removed around one left out
 
 // Return how many stops a string has at most: as many as each of so many trips has on average, or
 // less.
@@ -20,6 +19,9 @@ double longest_string(const Searcher& searcher, Int trips);
 
 // Draw how many strings are removed: fewer if they are long.
 Int draw_strings(double longest, View<std::uint64_t, 1> rng);
+
+// Draw near whom strings are removed: a random customer, or every other time one of those left out.
+Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int, 1> absent);
 
 // How many routes customers are removed from, and near whom those are.
 struct Chosen {

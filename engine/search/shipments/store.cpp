@@ -213,10 +213,7 @@ private:
         const Fleet& now = searcher_.now;
         const double longest = longest_string(searcher_, searcher_.count->active);
         Int strings = draw_strings(longest, searcher_.rng);
-        Int seed = draw_customer(data_, now, searcher_.count->focus, searcher_.rng);
-        if (removed.count > 0 && uniform(searcher_.rng) < make_room_share) {
-            seed = removed.absent[below(searcher_.rng, removed.count)];
-        }
+        const Int seed = draw_seed(data_, searcher_, removed.absent.first(removed.count));
         const View<const std::int32_t, 1> near = data_.near[seed];
         Int node = seed;
         for (Int rank = 0; strings > 0 && node >= 0; ++rank) {
