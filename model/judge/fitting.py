@@ -25,6 +25,9 @@ SPARE = 8
 ROUTES_SHARE = 0.9
 """Share of the time in which routes are tried, before plans with the best ones are judged."""
 
+ALONE_SHARE = 0.5
+"""Share of the time in which a customer is put alone, before those who go with him are, too."""
+
 
 def spot_of(place: Place) -> tuple[object, ...]:
     """Return what places have in common that differ only in where a drone is recovered."""
@@ -35,10 +38,6 @@ def spot_of(place: Place) -> tuple[object, ...]:
 def vehicle_of(place: Place) -> tuple[object, ...]:
     """Return what the places of one vehicle have in common."""
     return (place.vehicle,)
-
-
-ALONE_SHARE = 0.5
-"""Share of the time in which a customer is put alone, before those who go with him are, too."""
 
 
 @dataclass(frozen=True)

@@ -177,7 +177,8 @@ class Replanning:
             return _bound_reasons(self.problem, vehicle, node in carriers)
         if time.perf_counter() >= until:
             return unexplained(self.problem)
-        return tuple(self._reason(solution, kind, node, until)
+        plan = self._later(solution)
+        return tuple(self._reason(plan, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
 
     def _beginning(self, bridge: _Bridge, handed: Solution, options: PlanOptions,
@@ -201,7 +202,7 @@ class Replanning:
         """Return what is left, those at their places in `first` who keep them."""
         if not self.past.orders:
             return left.problem
-        here = {node: index for index, node in enumerate(left.nodes)}
+        here = left.numbers
         pinned = {here[node] for node in self.past.pinned if node in here}
         orders = [[here[node] for node in order if node in here]
                   for order in self.past.orders.values()]
@@ -241,21 +242,30 @@ class Replanning:
         kept = self._kept.get(vehicle)
         return 0 if kept is None else len(kept.route.trips)
 
-    def _reason(self, solution: Solution, kind: int, node: int, until: float) -> Reason:
-        """Return why vehicles of a type don't serve a customer who is free to be served by any."""
-        name = self.problem.vehicle_types[kind].id
+    def _later(self, solution: Solution) -> Solution:
+        """Return what vehicles do on trips that are yet to begin, as a plan of what is left."""
         left = self._left
-        types = [] if left is None else left.from_depot(kind, node)
-        if left is None or not types:
-            return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")
+        if left is None:
+            return Solution(())
         vehicles = [Vehicle(route.vehicle_type, route.vehicle) for route in solution.routes]
         routes = [Route(own, vehicle.number, route.trips[self._trips_kept(vehicle):])
                   for vehicle, route in zip(vehicles, solution.routes, strict=True)
                   if (own := left.later(vehicle)) is not None
                   and (own >= left.num_plain or vehicle not in self._kept)]
         here = left.numbers
-        plan = renumbered(Solution(tuple(routes)), lambda there: here.get(there, there))
-        reason = explain_type(left.problem, plan, types[0], here[node], until)
+        return renumbered(Solution(tuple(routes)), lambda there: here.get(there, there))
+
+    def _reason(self, plan: Solution, kind: int, node: int, until: float) -> Reason:
+        """Return why vehicles of a type don't serve a customer who is free to be served by any.
+
+        `plan` is of what is left.
+        """
+        name = self.problem.vehicle_types[kind].id
+        left = self._left
+        types = [] if left is None else left.from_depot(kind, node)
+        if left is None or not types:
+            return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")
+        reason = explain_type(left.problem, plan, types[0], left.numbers[node], until)
         return replace(reason, vehicle_type=kind)
 
 
