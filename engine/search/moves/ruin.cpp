@@ -98,7 +98,7 @@ Int draw_strings(double longest, View<std::uint64_t, 1> rng) {
 
 Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int, 1> absent) {
     const Int seed = draw_customer(data, searcher.now, searcher.count->focus, searcher.rng);
-    if (absent.size() == 0 || uniform(searcher.rng) >= make_room_share) return seed;
+    if (absent.empty() || uniform(searcher.rng) >= make_room_share) return seed;
     return absent[below(searcher.rng, absent.size())];
 }
 
