@@ -13,6 +13,9 @@ from model.judge.loads import trip_loads
 from model.problem import FULL_SPEED, REST, Break, Problem, VehicleType
 from model.solution import BreakPlace, Route, TakenBreak, Trip
 
+ON_A_LEG: tuple[BreakPlace, ...] = "departure", "way", "arrival"
+"""In which order breaks lie between two stops."""
+
 
 class BreakDecision(NamedTuple):
     """Which break is taken between which stops."""

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from itertools import islice, product
 from typing import Literal, NamedTuple
 
+from model.judge.breaks import ON_A_LEG, BreakDecision
 from model.judge.past import Vehicle
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision
 from model.problem import Problem, Shipment
@@ -149,9 +150,23 @@ def _without_stop(trip: TripDecision, stop: int) -> Iterator[TripDecision]:
     for stops in product(*ways):
         sorties = tuple([replace(sortie, launch_stop=launch, recovery_stop=recovery)
                          for sortie, (launch, recovery) in zip(trip.sorties, stops, strict=True)])
-        breaks = tuple([each._replace(stop=max(0, each.stop - (each.stop >= stop)))
-                        for each in trip.breaks])
-        yield replace(trip, nodes=nodes, sorties=sorties, operations=operations, breaks=breaks)
+        yield replace(trip, nodes=nodes, sorties=sorties, operations=operations,
+                      breaks=_without_leg(trip.breaks, stop))
+
+
+def _without_leg(breaks: Sequence[BreakDecision], stop: int) -> tuple[BreakDecision, ...]:
+    """Return the breaks of a trip without a stop, those of the two legs there on one.
+
+    Those behind the stop lie at its end where they else would lie before others.
+    """
+    kept = list[BreakDecision]()
+    for each in breaks:
+        place = each.place
+        if each.stop == stop and kept and kept[-1].stop == stop - 1 and (
+                ON_A_LEG.index(place) < ON_A_LEG.index(kept[-1].place)):
+            place = "arrival"
+        kept.append(each._replace(stop=max(0, each.stop - (each.stop >= stop)), place=place))
+    return tuple(kept)
 
 
 def _places_instead(index: int, gone: int) -> tuple[int, ...]:

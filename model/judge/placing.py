@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 from itertools import pairwise
 
-from model.judge.breaks import BreakDecision, begin_of, broken_breaks, is_due
+from model.judge.breaks import ON_A_LEG, BreakDecision, begin_of, broken_breaks, is_due
 from model.judge.driving import Excess, excesses, is_out
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import REST, Break, DrivingRules, Problem, VehicleType
@@ -12,9 +12,6 @@ from model.solution import BreakPlace, Route, Trip
 
 AT_STOPS: tuple[BreakPlace, ...] = "departure", "arrival"
 """Where a stated break is put between two stops."""
-
-ON_A_LEG: tuple[BreakPlace, ...] = "departure", "way", "arrival"
-"""In which order breaks lie between two stops."""
 
 
 def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
