@@ -271,8 +271,8 @@ def _unassigned(problem: Problem, solution: Solution,
     room, unexplained = MOST_REASONS, 0
     for node in solution.unassigned:
         shipment = problem.shipment_at.get(node)
-        # Of one that was aboard a vehicle which broke down the delivery alone is left out.
-        if shipment is not None and node != shipment.pickup and shipment.pickup in left_out:
+        # Of one that was aboard a vehicle which broke down not all ends are.
+        if shipment is not None and node != next(filter(left_out.__contains__, shipment.nodes)):
             continue
         reasons = one_per_type(problem, why(node)) if room > 0 else []
         room -= len(reasons)

@@ -44,7 +44,6 @@ from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.replanning.parted import PartlyFetchedError
 from model.replanning.replan import Replanning, SettledPartError, Terms
 from model.replanning.workers import TooManyTypesError
 from model.solution import Solution
@@ -239,11 +238,6 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
                        message=f"By replan.freeze_before this has happened, and can't have: "
                        f"{violation.message}. Correct the plan, or the rest of the request.")
             for violation in error.violations]) from error
-    except PartlyFetchedError as error:
-        raise InvalidRequestError([InputError(
-            code="SHIPMENTS_UNDER_WAY", path="$.replan.unavailable",
-            message=f"By replan.freeze_before {error}: leave it out here, or state the rest as "
-            "a shipment of its own.")]) from error
     except TooManyTypesError as error:
         raise InvalidRequestError([InputError(
             code="TOO_MANY_VEHICLES", path="$.replan.plan.routes",

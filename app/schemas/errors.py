@@ -123,7 +123,6 @@ ErrorCode = Literal[
     "NO_WAY_AROUND",
     "BEYOND_FORMAT",
     "TOO_MANY_REVISITS",
-    "SHIPMENTS_UNDER_WAY",
 ]
 
 _STATED_CODES = frozenset(get_args(ErrorCode))

@@ -200,8 +200,8 @@ class LeftOutInput(_Plan):
         """Return a shipment's ends as the customers that they are, but for pickups made already."""
         delivery = end_name(self.id, "delivery")
         pickups = [end_name(self.id, "pickup", part) for part in self.parts or (None,)]
-        if served.issuperset(pickups) and delivery not in served:
-            pickups = []
+        if delivery not in served:
+            pickups = [name for name in pickups if name not in served]
         return [LeftOutInput(id=name) for name in (*pickups, delivery)]
 
 
@@ -249,7 +249,7 @@ class PlanInput(_Plan):
     def _name_ends(self) -> Self:
         """Name all ends of shipments left out as the customers that they are.
 
-        Of one that was fetched by a vehicle which broke down the delivery alone is left out.
+        Of one that a vehicle fetched which broke down what is yet to be served is left out.
         """
         if any(left_out.kind == "shipment" for left_out in self.unassigned):
             served = self._served()

@@ -63,11 +63,10 @@ def hover_energy(energy: Energy, duration: int, weight: int) -> int:
 def weights_aboard(problem: Problem, energy: Energy, nodes: Sequence[int]) -> list[int]:
     """Return what is aboard on each leg of a sortie to some customers, the way home last."""
     customers = [problem.customer_at(node) for node in nodes]
-    weights = [sum([customer.demand[energy.dimension] for customer in customers])]
     # A truck's drone has from there what it delivers.
     within = brought_within(problem, nodes) if problem.shipments else ()
-    weights[0] += sum([flown_out(problem, node)[energy.dimension] for node in nodes
-                       if node in problem.shipment_at and node not in within])
+    weights = [sum([(customer.demand if node in within else flown_out(problem, node))[
+        energy.dimension] for node, customer in zip(nodes, customers, strict=True)])]
     for node, customer in zip(nodes, customers, strict=True):
         change = change_aboard(problem, node) or customer.taken_in
         weights.append(weights[-1] - customer.demand[energy.dimension] + change[energy.dimension])

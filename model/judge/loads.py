@@ -94,8 +94,8 @@ def sortie_loads(problem: Problem, sortie: Sortie) -> list[Amount]:
     load = (0,) * problem.num_dimensions
     loads, within = [load], brought_within(problem, sortie.nodes)
     for visit in reversed(sortie.visits):
-        if visit.node not in within:
-            load = _plus(load, flown_out(problem, visit.node))
+        load = _plus(load, problem.customer_at(visit.node).demand if visit.node in within
+                     else flown_out(problem, visit.node))
         loads.append(load)
     loads.reverse()
     taken = (0,) * problem.num_dimensions

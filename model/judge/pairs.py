@@ -1,6 +1,7 @@
 """Shipments: both ends on one trip, pickup first, and how long the parcel is under way."""
 
 from collections.abc import Iterator, Sequence
+from operator import add
 
 from model.problem import Problem, VehicleType
 from model.solution import Trip
@@ -28,10 +29,10 @@ def brought_within(problem: Problem, nodes: Sequence[int]) -> set[int]:
 
 def flown_out(problem: Problem, node: int) -> tuple[int, ...]:
     """Return what a truck's drone brings to a customer, from aboard its truck."""
-    each = problem.shipment_at.get(node)
+    each, demand = problem.shipment_at.get(node), problem.customer_at(node).demand
     if each is None or node != each.delivery:
-        return problem.customer_at(node).demand
-    return each.total
+        return demand
+    return tuple(map(add, each.total, demand))
 
 
 def flown_back(problem: Problem, node: int) -> tuple[int, ...]:

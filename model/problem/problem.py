@@ -5,6 +5,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
+from operator import add
 from typing import TypeVar
 
 import numpy as np
@@ -43,7 +44,7 @@ class Problem:
     must_serve: bool = False  # whoever states no cost of being left out; for people
     incompatible_goods: tuple[IncompatibleGoods, ...] = ()
     relations: tuple[Relation, ...] = ()
-    shipments: tuple[Shipment, ...] = ()  # whose ends are customers that ask for nothing else
+    shipments: tuple[Shipment, ...] = ()  # whose pickups are customers that ask for nothing else
     choices: tuple[tuple[int, ...], ...] = ()
     """Nodes of one customer's places, of which one is used, his own first. It alone has a cost of
     being left out."""
@@ -354,7 +355,8 @@ class Problem:
         """Return the most that a customer alone asks to be aboard, by dimension."""
         each, customer = self.shipment_at.get(node), self.customer_at(node)
         if each is not None:
-            return each.total if node == each.delivery else each.change_at(node)
+            return (tuple(map(add, each.total, customer.demand)) if node == each.delivery
+                    else each.change_at(node))
         return tuple(map(max, customer.demand, customer.taken_in))
 
     def setup_between(self, origin: int, to: int) -> int:

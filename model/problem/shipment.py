@@ -50,10 +50,12 @@ class Shipment:
 
     def require_ends(self, ends: Sequence[Customer]) -> None:
         """Refuse ends, in the order of `nodes`, that ask for something else, or not for one parcel.
+
+        Where it is delivered something may come from the depot as well.
         """
         for end in ends:
-            require(not any(end.demand) and not any(end.pickup), f"customer {end.id} demand",
-                    end.demand)
+            brings = any(end.demand) and end is not ends[-1]
+            require(not brings and not any(end.pickup), f"customer {end.id} demand", end.demand)
             for part in self.parts:
                 require(len(part.amount) == len(end.demand), f"shipment {self.id} amount",
                         part.amount)

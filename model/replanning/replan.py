@@ -82,10 +82,8 @@ class Replanning:
             If that doesn't fit the problem.
         TooManyTypesError
             If more vehicles are under way than can be planned for.
-        PartlyFetchedError
-            If a vehicle breaks down with a part of a shipment.
         """
-        parted = {} if terms.now is None else parted_shipments(
+        parted = [] if terms.now is None else parted_shipments(
             problem, terms.plan, terms.now, terms.unavailable)
         problem = with_parted(problem, parted)
         terms = replace(terms, plan=with_charging(problem, terms.plan))
@@ -100,13 +98,15 @@ class Replanning:
             raise SettledPartError(_as_given(terms.plan, self._settled, unreadable))
         on_the_way = {*past.carriers(), *(
             node for kept in self._kept.values() for node in kept.served)}
-        self.stranded = {each.delivery: vehicle for each, vehicle in parted.items()
-                         if each.delivery not in on_the_way} | _stranded(
+        self.stranded = {each.left[-1]: each.vehicle for each in parted
+                         if each.left[-1] not in on_the_way} | _stranded(
                              problem, self._kept, terms)
         """Whose parcels vehicles have aboard that are unavailable, and which."""
         back = past.now if terms.parcels_back is None else terms.parcels_back
+        # What is yet to be fetched of a shipment is so on the trip that brings the rest.
+        waiting = {node for each in parted for node in each.left if each.left[-1] in self.stranded}
         self.past = replace(past, returned=dict.fromkeys(
-            problem.all_places(self.stranded), back))
+            problem.all_places({*self.stranded, *waiting}), back))
         workers = find_workers(problem, self.past, self._kept)
         self._through = _through(problem, terms.plan, self.past, self._kept, workers)
         if self._through:

@@ -272,6 +272,11 @@ bool is_walked(const ProblemData& data, const Fleet& fleet, Int slot) {
            !limits_travel(data.type[route.type]);
 }
 
+// Whether a part of a shipment comes from the depot, or its trip has to wait for it there.
+bool comes_in_part(const ProblemData& data, Int delivery) {
+    return release_of(data.place[0][delivery]) > 0 || total_delivered(data.amount, delivery) > 0;
+}
+
 }  // namespace
 
 void scan_pair(const Insertion& insertion, Int slot) {
@@ -279,7 +284,8 @@ void scan_pair(const Insertion& insertion, Int slot) {
     const Fleet& fleet = searcher.now;
     const Int k = fleet.route[slot].type;
     if (!data.can(k, 0, node)) return;
-    const bool walked = is_walked(data, fleet, slot);
+    const bool walked =
+        is_walked(data, fleet, slot) && !comes_in_part(data, data.pair[node].partner);
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
         const Trip& trip = fleet.trip(slot, index);
         if (!goods_may_join(data, fleet, slot, index, node)) continue;

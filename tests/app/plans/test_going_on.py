@@ -6,7 +6,7 @@ import httpx
 import pytest
 
 from app.schemas.response import PlanReply
-from tests.app.plans.asking import judged, refused
+from tests.app.plans.asking import judged
 
 Request = dict[str, Any]
 
@@ -105,8 +105,8 @@ def test_others_bring_a_shipment_that_a_broken_vehicle_has_fetched(
     replanned(searching, street, alone, later, **terms | {"parcels_back": later})
 
 
-def test_what_is_fetched_in_part_nobody_can_take_over(searching: httpx.Client,
-                                                      street: Request) -> None:
+def test_others_fetch_what_a_broken_vehicle_has_not_of_a_shipment(searching: httpx.Client,
+                                                                  street: Request) -> None:
     pickups = [{"id": name, "location": [place, 0], "amount": [1]}
                for place, name in ((1, "x"), (2, "y"))]
     street |= {"customers": [], "shipments": [
@@ -115,9 +115,32 @@ def test_what_is_fetched_in_part_nobody_can_take_over(searching: httpx.Client,
                    ("delivery", "s1", 180, 180), ("depot", "hub", 360, 360))
     stops = tour["routes"][0]["trips"][0]["stops"]
     stops[1]["part"], stops[2]["part"] = "x", "y"
-    terms = {"plan": tour, "unavailable": ["van-1"]}
-    asked = street | {"replan": terms | {"freeze_before": 90}}
-    assert refused(searching, asked, "/plan") == [("SHIPMENTS_UNDER_WAY", "$.replan.unavailable")]
+    terms = {"unavailable": ["van-1"], "parcels_back": 200}
+    plan = replanned(searching, street, tour, 90, **terms)
+    assert plan["replan"]["parcels"] == [
+        {"id": "s1/delivery", "vehicle": "van-1", "back": 200, "depot": "hub", "by": "van-2"}]
+    assert times(plan, "van-2") == [("hub", 200, 200), ("s1", 320, 320), ("s1", 380, 380),
+                                    ("hub", 560, 560)]
+    for path in "/explain", "/fit":
+        problem = street | {"replan": {"plan": tour, "freeze_before": 90, **terms}}
+        body = {"problem": problem, "plan": plan, "shipment": "s1"}
+        reply = searching.post(path, json=body)
+        assert (reply.status_code, reply.json()["here"]["vehicle"]) == (200, "van-2"), reply.text
+    for later in 210, 350, 400, 600:
+        again = replanned(searching, street, plan, later, **terms | {
+            "parcels_back": max(later, 200)})
+        assert again["routes"] == plan["routes"]
+    both = {"unavailable": ["van-1", "van-2"], "parcels_back": 900}
+    street["fleet"][0]["count"] = 3
+    third = replanned(searching, street, plan, 300, **both)
+    assert times(third, "van-3") == [("hub", 900, 900), ("s1", 1020, 1020), ("s1", 1080, 1080),
+                                     ("hub", 1260, 1260)]
+    third = replanned(searching, street, plan, 350, **both)
+    assert times(third, "van-3") == [("hub", 900, 900), ("s1", 1080, 1080), ("hub", 1260, 1260)]
+    street["fleet"][0] |= {"count": 2, "capacity": [1]}
+    assert [left["id"] for left in replanned(searching, street, tour, 90, **terms)["unassigned"]
+            ] == ["s1"]
+    street["fleet"][0]["capacity"] = [10]
     plan = replanned(searching, street, tour, 130, unavailable=["van-1"])
     assert [each["id"] for each in plan["replan"]["parcels"]] == ["s1/delivery"]
     assert times(plan, "van-2") == [("hub", 130, 130), ("s1", 310, 310), ("hub", 490, 490)]

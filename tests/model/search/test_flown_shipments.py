@@ -1,6 +1,7 @@
 """Shipments that drones fetch or deliver, searched for and tried one by one."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from model.problem import Problem
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
 from tests.model.search.test_optimum import (
-    TURNS, long_sorties, missed_seeds, one_drone, searched_cost,
+    MINUTE, TURNS, long_sorties, missed_seeds, one_drone, searched_cost,
 )
 from tests.model.tiny import with_energy, with_gaps
 from tests.model.tiny_breaks import with_breaks
@@ -27,7 +28,23 @@ def drawn_parts(rng: np.random.Generator) -> Problem:
     return with_flown_parts(rng, one_drone(rng))
 
 
-@pytest.mark.parametrize(("draw", "seeds"), [(drawn_problem, (0, 1)), (drawn_parts, (0, 5))])
+def drawn_in_part(rng: np.random.Generator) -> Problem:
+    """Return a problem of shipments with which something is delivered that comes from the depot."""
+    problem = drawn_problem(rng)
+    customers = list(problem.customers)
+    for each in problem.shipments:
+        opened = int(rng.integers(0, 8)) * MINUTE
+        for node in each.nodes:
+            index, brought = node - problem.num_depots, rng.integers(0, 3, problem.num_dimensions)
+            customers[index] = replace(
+                customers[index], release_time=opened,
+                demand=tuple(brought.tolist()) if node == each.delivery else (
+                    customers[index].demand))
+    return replace(problem, customers=tuple(customers))
+
+
+@pytest.mark.parametrize(("draw", "seeds"), [
+    (drawn_problem, (0, 1)), (drawn_parts, (0, 5)), (drawn_in_part, (0, 3))])
 def test_search_finds_the_cheapest_way_to_fly_shipments(
         draw: Callable[[np.random.Generator], Problem], seeds: tuple[int, ...]) -> None:
     assert missed_seeds(draw, seeds) == []

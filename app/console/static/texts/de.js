@@ -1716,7 +1716,6 @@ export default {
     PINNED_TO_UNAVAILABLE: 'Das Fahrzeug, an dem dieser Kunde festgehalten ist, ist ausgefallen.',
     TIMES_DISORDERED: 'Zeiten stehen nicht der Reihe nach.',
     FLIGHTS_ON_PLANE: 'Flüge brauchen Längen und Breiten; dieses Problem liegt auf einer Ebene.',
-    SHIPMENTS_UNDER_WAY: 'Ein ausgefallenes Fahrzeug hat eine Sendung erst zum Teil geholt: verfügbar lassen.',
     TOO_MANY_REVISITS: 'Zu viele Orte, zu denen Fahrzeuge zurückkommen: revisits weglassen.',
     NO_FLIGHTS: 'In diesem Plan fliegt keine Drohne.',
     NO_WAY_AROUND: 'An den Flugverbotszonen führt kein Weg vorbei.',

@@ -1685,7 +1685,6 @@ export default {
     PINNED_TO_UNAVAILABLE: 'The vehicle to which this customer is pinned has broken down.',
     TIMES_DISORDERED: 'Times are not in order.',
     FLIGHTS_ON_PLANE: 'Flights need longitudes and latitudes; this problem lies on a plane.',
-    SHIPMENTS_UNDER_WAY: 'A broken vehicle has fetched a part of a shipment, and not the rest: leave it available.',
     TOO_MANY_REVISITS: 'There are too many places to come back to: leave revisits out.',
     NO_FLIGHTS: 'No drone flies in this plan.',
     NO_WAY_AROUND: 'There is no way around the no-fly areas.',
