@@ -6,6 +6,8 @@ Energies are integer microjoules, powers milliwatts, so that power times millise
 from dataclasses import dataclass
 from itertools import pairwise
 
+from model.problem.quantities import Microjoules, Milliseconds, Parts, require_units
+
 MAX_POINTS = 24
 """Most weights at which powers are stated."""
 
@@ -25,15 +27,15 @@ MAX_BATTERY = 1_000_000
 class Energy:
     """A battery, and powers by the weight aboard: linear between points, and on beyond the last."""
 
-    available: int  # what a sortie may take, without the reserve
+    available: Microjoules  # what a sortie may take, without the reserve
     usable_share: float  # of the battery; for people
-    weights: tuple[int, ...]  # (point,) ascending from 0, in parts of the dimension that weighs
+    weights: tuple[Parts, ...]  # (point,) ascending from 0, of the dimension that weighs
     cruise: tuple[int, ...]  # (point,) power in level flight
     hover: tuple[int, ...]  # (point,)
     climb: tuple[int, ...]  # (point,)
     descent: tuple[int, ...]  # (point,)
-    climb_duration: int = 0  # ms of each leg
-    descent_duration: int = 0
+    climb_duration: Milliseconds = 0  # of each leg
+    descent_duration: Milliseconds = 0
     dimension: int = 0  # of demands, which weighs
     lands: bool = True  # at customers; else it hovers there
     preset: str | None = None  # name of the published model that the powers are from; for people
@@ -45,9 +47,9 @@ class Energy:
             raise ValueError(f"energy weights: {self.weights!r} is not allowed")
         if any(upper <= lower for lower, upper in pairwise(self.weights)):
             raise ValueError(f"energy weights: {self.weights!r} is not allowed")
-        for name in ("available", "climb_duration", "descent_duration", "dimension"):
-            if getattr(self, name) < 0:
-                raise ValueError(f"energy {name}: {getattr(self, name)!r} is not allowed")
+        require_units(self, "energy")
+        if self.dimension < 0:
+            raise ValueError(f"energy dimension: {self.dimension!r} is not allowed")
         if not 0 < self.usable_share <= 1:
             raise ValueError(f"energy usable_share: {self.usable_share!r} is not allowed")
         if not 0 <= self.charge <= MAX_POWER:

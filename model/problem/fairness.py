@@ -3,7 +3,9 @@
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from model.problem.quantities import require_rate
+from model.problem.quantities import (
+    Count, Milliseconds, Money, MoneyPerHour, require_rate, require_units,
+)
 
 Measure = Literal["duration", "stops", "load", "distance"]
 
@@ -30,18 +32,15 @@ class Before(NamedTuple):
 class Fairness:
     """Prices of a plan as a whole."""
 
-    makespan_cost_per_hour: float = 0.0  # of the latest end of all vehicles, since plan start
+    makespan_cost_per_hour: MoneyPerHour = 0.0  # of the latest end of all, since plan start
     balance: Balance | None = None
-    min_vehicles: int = 0  # how many are to be used
-    too_few_cost: float = 0.0  # of each vehicle fewer, more than using one costs
+    min_vehicles: Count = 0  # how many are to be used
+    too_few_cost: Money = 0.0  # of each vehicle fewer, more than using one costs
     before: tuple[Before, ...] = ()  # vehicles that are used in any case
-    last_end: int = 0  # ms; when those of them are done that do nothing more
+    last_end: Milliseconds = 0  # when those of them are done that do nothing more
 
     def __post_init__(self) -> None:
-        require_rate("makespan_cost_per_hour", self.makespan_cost_per_hour)
-        require_rate("too_few_cost", self.too_few_cost)
-        if self.min_vehicles < 0:
-            raise ValueError(f"min_vehicles: {self.min_vehicles} is negative")
+        require_units(self, "fairness")
 
     @property
     def is_stated(self) -> bool:

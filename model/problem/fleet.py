@@ -9,7 +9,10 @@ from model.problem.customer import Customer
 from model.problem.driving import DrivingRules
 from model.problem.energy import Energy
 from model.problem.overtime import Overtime
-from model.problem.quantities import FULL_SPEED, UNLIMITED, require, require_quantity, require_rate
+from model.problem.quantities import (
+    FULL_SPEED, UNLIMITED, Count, Microjoules, Millimetres, Milliseconds, Money, MoneyPerHour,
+    MoneyPerKm, MoneyPerLoadKm, Parts, Rate, TimeLimit, require, require_units,
+)
 from model.problem.storms import Storms, require_storms
 
 Pickups = Literal["any", "last"]
@@ -19,7 +22,7 @@ Pickups = Literal["any", "last"]
 class SpeedProfile:
     """Speed by time of day, piecewise constant, as a share of the matrix speed."""
 
-    times: tuple[int, ...]  # (change,) ms, strictly increasing
+    times: tuple[Milliseconds, ...]  # (change,) strictly increasing
     factors: tuple[int, ...]  # (change + 1,) in 1..FULL_SPEED; the first holds before times[0]
 
     def __post_init__(self) -> None:
@@ -28,32 +31,32 @@ class SpeedProfile:
             require(1 <= factor <= FULL_SPEED, "speed profile factor", factor)
         for time, following in zip(self.times, self.times[1:], strict=False):
             require(time < following, "speed profile times", self.times)
-        for time in self.times:
-            require_quantity("speed profile time", time)
+        require_units(self, "speed profile")
 
 
 @dataclass(frozen=True)
 class DroneType:
     """Equal drones that ride on each truck of a type."""
 
-    count: int
-    capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
+    count: Count
+    capacity: tuple[Parts, ...]  # (dimension,)
     travel: int  # index into Problem.travel
-    endurance: int = UNLIMITED  # ms from take-off to the beginning of recovery
+    endurance: TimeLimit = UNLIMITED  # from take-off to the beginning of recovery
     endurance_includes_waiting: bool = True  # False: to the drone's arrival there
-    launch_duration: int = 0
-    recovery_duration: int = 0
-    service_duration: int | None = None  # None: the customer's
-    service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
-    max_customers_per_sortie: int = 1
-    max_range: int | None = None  # mm to customers from where it is launched, and recovered
+    launch_duration: Milliseconds = 0
+    recovery_duration: Milliseconds = 0
+    service_duration: Milliseconds | None = None  # None: the customer's
+    service_durations: Mapping[str, Milliseconds] = field(default_factory=dict)
+    """By customer's id, instead."""
+    max_customers_per_sortie: Count = 1
+    max_range: Millimetres | None = None  # to customers from where it is launched, and recovered
     straight: int = 0  # index into Problem.travel, whose distances tell that
     storms: Storms = ()  # no flight may be in the air then
-    cost_per_km: float = 0.0
-    cost_per_hour: float = 0.0
+    cost_per_km: MoneyPerKm = 0.0
+    cost_per_hour: MoneyPerHour = 0.0
     energy: Energy | None = None  # what a sortie may take of the battery; None: any
-    swap_duration: int = 0  # of the battery, before each launch of a trip but the first
-    batteries: int | None = None  # for each trip, all drones' together; None: enough
+    swap_duration: Milliseconds = 0  # of the battery, before each launch of a trip but the first
+    batteries: Count | None = None  # for each trip, all drones' together; None: enough
     has_launched: bool = False  # on the trip that its truck is on, before it goes on
     id: str | None = None  # among the types of drones on a truck; for people
 
@@ -61,19 +64,8 @@ class DroneType:
         require(self.count >= 1, "drone count", self.count)
         require(self.max_customers_per_sortie >= 1, "drone max_customers_per_sortie",
                  self.max_customers_per_sortie)
-        for amount in self.capacity:
-            require_quantity("drone capacity", amount)
-        require_quantity("drone endurance", self.endurance, UNLIMITED)
-        require_quantity("drone launch_duration", self.launch_duration)
-        require_quantity("drone recovery_duration", self.recovery_duration)
-        for duration in (self.service_duration or 0, *self.service_durations.values()):
-            require_quantity("drone service_duration", duration)
-        require_quantity("drone swap_duration", self.swap_duration)
-        require_quantity("drone batteries", self.batteries or 0)
-        require_quantity("drone max_range", self.max_range or 0)
+        require_units(self, "drone")
         require_storms("drone storms", self.storms)
-        require_rate("drone cost_per_km", self.cost_per_km)
-        require_rate("drone cost_per_hour", self.cost_per_hour)
 
     def service_at(self, customer: Customer) -> int:
         """Return how long it serves a customer."""
@@ -86,31 +78,32 @@ class VehicleType:
     """`count` equal trucks, with their drones if `drones` is set, or drones that fly themselves."""
 
     id: str
-    count: int
-    capacity: tuple[int, ...]  # (dimension,) parts, by Problem.amount_decimals
+    count: Count
+    capacity: tuple[Parts, ...]  # (dimension,)
     travel: int  # index into Problem.travel; of flights if it flies
     depot: int = 0  # home depot, a node: where a trip may end and the next begin
-    fixed_cost: float = 0.0  # per vehicle used
-    cost_per_km: float = 0.0
-    cost_per_hour: float = 0.0  # of working time
-    cost_per_stop: float = 0.0  # per customer served by the truck
-    cost_per_load_km: float = 0.0  # per unit of the first dimension aboard
+    fixed_cost: Money = 0.0  # per vehicle used
+    cost_per_km: MoneyPerKm = 0.0
+    cost_per_hour: MoneyPerHour = 0.0  # of working time
+    cost_per_stop: Money = 0.0  # per customer served by the truck
+    cost_per_load_km: MoneyPerLoadKm = 0.0  # per unit of the first dimension aboard
     speed_profile: SpeedProfile | None = None
-    earliest: int = 0  # shift
-    latest: int = UNLIMITED
-    last_by_shift: int = UNLIMITED  # last end, with overtime, if its depot didn't close before
-    max_working_duration: int | None = None
-    max_trip_distance: int | None = None
-    max_travel_duration: int | None = None  # on legs, of all its trips together
+    earliest: Milliseconds = 0  # shift
+    latest: TimeLimit = UNLIMITED
+    last_by_shift: TimeLimit = UNLIMITED  # last end, with overtime, if its depot is open
+    max_working_duration: Milliseconds | None = None
+    max_trip_distance: Millimetres | None = None
+    max_travel_duration: Milliseconds | None = None  # on legs, of all its trips together
     overtime: Overtime | None = None  # None: shift and working duration can't be exceeded
-    max_trips: int = 1
-    max_stops: int | None = None  # customers that the truck itself serves on a trip
-    max_sorties: int | None = None  # on a trip, of all drones together
-    max_airborne: int | None = None  # of a truck's drones, at once
+    max_trips: Count = 1
+    max_stops: Count | None = None  # customers that the truck itself serves on a trip
+    max_sorties: Count | None = None  # on a trip, of all drones together
+    max_airborne: Count | None = None  # of a truck's drones, at once
     truck_waits: bool = False  # drones are launched and recovered at the same stop
-    reload_duration: int = 0  # at the depot between trips
+    reload_duration: Milliseconds = 0  # at the depot between trips
     skills: frozenset[str] = frozenset()
-    service_durations: Mapping[str, int] = field(default_factory=dict)  # by customer's id, instead
+    service_durations: Mapping[str, Milliseconds] = field(default_factory=dict)
+    """By customer's id, instead."""
     pickups: Pickups = "any"  # "last": on each trip after all deliveries, of which there is one
     has_delivered: bool = False  # on its trip, before it begins
     lifo: bool = False  # only what was loaded last can be unloaded
@@ -119,43 +112,32 @@ class VehicleType:
     start: int | None = None  # where its first trip begins, a node; None: at the depot
     end: int | None = None  # where its last trip ends
     reload_depots: tuple[int, ...] = ()  # other nodes where a trip may end and the next begin
-    initial_load: tuple[int, ...] = ()  # what its trip carries beside its customers'; (): nothing
-    charge_left: tuple[int, ...] = ()  # of each drone, by number, at the beginning; (): full
-    busy_until: int = 0  # its trip may begin sooner, and drones take off, but no truck leave
-    works_since: int | None = None  # its work counts from then; None: from its departure
+    initial_load: tuple[Parts, ...] = ()  # what its trip carries beside its customers'; (): nothing
+    charge_left: tuple[Microjoules, ...] = ()  # of each drone, by number, at first; (): full
+    busy_until: Milliseconds = 0  # its trip may begin before, and drones fly, but no truck leave
+    works_since: Milliseconds | None = None  # its work counts from then; None: from its departure
     part_of: str | None = None  # id of the type of which these are some vehicles; None: all
     numbers: tuple[int, ...] = ()  # of these there, from 0, ascending; (): all
     flies: bool = False  # by itself, from depots: served by it is served by drone
-    endurance: int = UNLIMITED  # of one that flies: ms from a trip's take-off to its landing
-    launch_duration: int = 0  # of one that flies, as each trip begins
-    recovery_duration: int = 0  # of one that flies, as each trip ends
+    endurance: TimeLimit = UNLIMITED  # of one that flies: from a trip's take-off to its landing
+    launch_duration: Milliseconds = 0  # of one that flies, as each trip begins
+    recovery_duration: Milliseconds = 0  # of one that flies, as each trip ends
     energy: Energy | None = None  # of one that flies: what a trip may take of the battery
-    max_range: int | None = None  # of one that flies: mm to customers from a trip's ends
+    max_range: Millimetres | None = None  # of one that flies: to customers from a trip's ends
     storms: Storms = ()  # of one that flies: no trip may be in the air then
     straight: int = 0  # index into Problem.travel, whose distances tell that
     breaks: tuple[Break, ...] = ()  # of each driver, in the order in which they are taken
     driving: DrivingRules | None = None  # None: drivers need no rest beside their breaks
-    co2_kg_per_km: float | None = None  # of the truck, for replies alone
-    co2_kg_per_kwh: float | None = None  # of the energy that its drones use
+    co2_kg_per_km: Rate | None = None  # of the truck, for replies alone
+    co2_kg_per_kwh: Rate | None = None  # of the energy that its drones use
 
     def __post_init__(self) -> None:
+        require_units(self, f"vehicle type {self.id}")
         require(self.count >= 1, f"vehicle type {self.id} count", self.count)
         require(self.max_trips >= 1, f"vehicle type {self.id} max_trips", self.max_trips)
         has_numbers = len(self.numbers) in (0, self.count)
         require(has_numbers, f"vehicle type {self.id} numbers", self.numbers)
-        for amount in self.capacity:
-            require_quantity(f"vehicle type {self.id} capacity", amount)
-        require(self.earliest <= self.latest <= UNLIMITED, f"vehicle type {self.id} latest",
-                 self.latest)
-        for duration in self.service_durations.values():
-            require_quantity(f"vehicle type {self.id} service_durations", duration)
-        for name in ("earliest", "reload_duration", "busy_until", "max_working_duration",
-                     "max_trip_distance", "max_travel_duration", "max_stops", "max_sorties",
-                     "max_airborne"):
-            require_quantity(f"vehicle type {self.id} {name}", getattr(self, name) or 0)
-        for name in ("fixed_cost", "cost_per_km", "cost_per_hour", "cost_per_stop",
-                     "cost_per_load_km", "co2_kg_per_km", "co2_kg_per_kwh"):
-            require_rate(f"vehicle type {self.id} {name}", getattr(self, name) or 0.0)
+        require(self.earliest <= self.latest, f"vehicle type {self.id} latest", self.latest)
         require(self.max_airborne != 0, f"vehicle type {self.id} max_airborne", self.max_airborne)
         require(self.drones is not None or not self.more_drones,
                 f"vehicle type {self.id} more_drones", self.more_drones)
@@ -171,9 +153,6 @@ class VehicleType:
     def _require_flight(self) -> None:
         """Raise `ValueError` unless what is said of flights makes sense."""
         name = f"vehicle type {self.id}"
-        require_quantity(f"{name} endurance", self.endurance, UNLIMITED)
-        require_quantity(f"{name} launch_duration", self.launch_duration)
-        require_quantity(f"{name} recovery_duration", self.recovery_duration)
         is_said = (self.endurance != UNLIMITED or self.launch_duration > 0
                    or self.recovery_duration > 0 or self.energy is not None
                    or self.max_range is not None or bool(self.storms))
@@ -186,9 +165,9 @@ class VehicleType:
     def _require_beginning(self) -> None:
         """Raise `ValueError` unless what is said of a vehicle's only trip makes sense."""
         for load, most in zip(self.initial_load, self.capacity, strict=bool(self.initial_load)):
-            require_quantity(f"vehicle type {self.id} initial_load", load, most)
-        since = self.works_since or 0
-        require_quantity(f"vehicle type {self.id} works_since", since, self.earliest)
+            require(load <= most, f"vehicle type {self.id} initial_load", load)
+        require((self.works_since or 0) <= self.earliest, f"vehicle type {self.id} works_since",
+                self.works_since)
         require(len(self.charge_left) in (0, 1 if self.flies else self.num_drones),
                 f"vehicle type {self.id} charge_left", self.charge_left)
         require(self.max_trips == 1 or not self.has_begun, f"vehicle type {self.id} max_trips",

@@ -2,18 +2,15 @@
 
 from dataclasses import dataclass
 
-from model.problem.quantities import UNLIMITED
+from model.problem.quantities import UNLIMITED, MoneyPerHour, TimeLimit, require_units
 
 
 @dataclass(frozen=True)
 class Overtime:
     """Work past the end of the shift, or the longest working duration, whichever is longer past."""
 
-    cost_per_hour: float  # beside that of working time
-    max_duration: int = UNLIMITED
+    cost_per_hour: MoneyPerHour  # beside that of working time
+    max_duration: TimeLimit = UNLIMITED
 
     def __post_init__(self) -> None:
-        if not 0 <= self.cost_per_hour < float("inf"):
-            raise ValueError(f"overtime cost_per_hour: {self.cost_per_hour!r} is not allowed")
-        if not 0 <= self.max_duration <= UNLIMITED:
-            raise ValueError(f"overtime max_duration: {self.max_duration!r} is not allowed")
+        require_units(self, "overtime")

@@ -2,8 +2,15 @@
 
 Inside `model`, times are integer milliseconds since plan start, distances integer millimetres,
 amounts integer thousandths or smaller parts, so that simulator, search and checker agree exactly.
-Costs are floats.
+Costs are floats. A field's type says what its numbers are counted in, by which they are checked.
+
 """
+
+import sys
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, fields
+from functools import cache
+from typing import Annotated, Any, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -48,15 +55,69 @@ MS_PER_HOUR = 3_600_000
 MM_PER_KM = 1_000_000
 
 
+@dataclass(frozen=True)
+class Unit:
+    """Powers of the units that a number is counted in, and the largest that is allowed."""
+
+    time: int = 0
+    length: int = 0
+    amount: int = 0
+    money: int = 0
+    most: float = MAX_QUANTITY
+
+
+Milliseconds = Annotated[int, Unit(time=1)]
+TimeLimit = Annotated[int, Unit(time=1, most=UNLIMITED)]
+"""Milliseconds, `UNLIMITED` if there is no limit."""
+Millimetres = Annotated[int, Unit(length=1)]
+Parts = Annotated[int, Unit(amount=1)]
+"""Of an amount, by `Problem.amount_decimals`."""
+Count = Annotated[int, Unit()]
+Microjoules = Annotated[int, Unit(time=1, most=2**62)]
+"""Milliwatts times milliseconds."""
+Rate = Annotated[float, Unit(most=sys.float_info.max)]
+Money = Annotated[float, Unit(money=1, most=sys.float_info.max)]
+MoneyPerHour = Annotated[float, Unit(money=1, time=-1, most=sys.float_info.max)]
+MoneyPerKm = Annotated[float, Unit(money=1, length=-1, most=sys.float_info.max)]
+MoneyPerLoadKm = Annotated[float, Unit(money=1, length=-1, amount=-1, most=sys.float_info.max)]
+
+
+def unit_of(annotation: Any) -> Unit | None:
+    """Return what the numbers of a field are counted in, by its type: one, or several of a kind."""
+    if isinstance(annotation, Unit):
+        return annotation
+    return next(filter(None, map(unit_of, get_args(annotation))), None)
+
+
+@cache
+def units_of(owner: type[Any]) -> Mapping[str, Unit]:
+    """Return the units of the fields of a data class that hold numbers with one."""
+    found = {field.name: unit_of(field.type) for field in fields(owner)}
+    return {name: unit for name, unit in found.items() if unit is not None}
+
+
+def require_units(owner: object, name: str) -> None:
+    """Raise `ValueError` unless all numbers that have a unit are finite and from 0 to its most."""
+    kind: Any = type(owner)
+    for field, unit in units_of(kind).items():
+        value = getattr(owner, field)
+        for number in _numbers(value) if isinstance(value, tuple | Mapping) else (value or 0,):
+            require(0 <= number <= unit.most, f"{name} {field}", number)
+
+
+def _numbers(values: Iterable[Any] | Mapping[Any, Any]) -> Iterator[Any]:
+    """Yield the numbers in tuples, one within another, or in a mapping."""
+    for value in values.values() if isinstance(values, Mapping) else values:
+        if isinstance(value, tuple):
+            yield from _numbers(value)
+        else:
+            yield value
+
+
 def require(condition: bool, name: str, value: object) -> None:
     """Raise `ValueError` naming the field and its value unless `condition` holds."""
     if not condition:
         raise ValueError(f"{name}: {value!r} is not allowed")
-
-
-def require_quantity(name: str, value: int, limit: int = MAX_QUANTITY) -> None:
-    """Raise `ValueError` unless a quantity is between 0 and its limit."""
-    require(0 <= value <= limit, name, value)
 
 
 def require_rate(name: str, value: float) -> None:

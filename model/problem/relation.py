@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal, NamedTuple
 
-from model.problem.quantities import MAX_QUANTITY, UNLIMITED, require
+from model.problem.quantities import UNLIMITED, Milliseconds, require, require_units
 
 MOST_RELATIONS = 62
 """Most relations that keep customers together; likewise apart, incompatible goods counted."""
@@ -49,8 +49,8 @@ class Relation:
     kind: RelationKind
     nodes: tuple[int, ...]
     scope: Literal["vehicle", "trip"] = "vehicle"
-    min_lag: int = 0  # ms from the start of service at any to that at all who are named behind
-    max_lag: int | None = None  # ms to that of who is named next
+    min_lag: Milliseconds = 0  # from the start of service at any to that at all named behind
+    max_lag: Milliseconds | None = None  # to that of who is named next
     across: bool = False  # any vehicles serve them, of `before`
     ranks: tuple[int, ...] = ()  # of nodes in the order, where some are missing; (): none is
 
@@ -59,10 +59,9 @@ class Relation:
         require(len(set(self.nodes)) == len(self.nodes) >= 2, name, self.nodes)
         require(self.kind == "before" or (self.min_lag, self.max_lag) == (0, None), name,
                 (self.min_lag, self.max_lag))
-        require(0 <= self.min_lag <= (UNLIMITED if self.max_lag is None else self.max_lag),
+        require_units(self, name)
+        require(self.min_lag <= (UNLIMITED if self.max_lag is None else self.max_lag),
                 f"{name} min_lag", self.min_lag)
-        require(max(self.min_lag, self.max_lag or 0) <= MAX_QUANTITY, f"{name} max_lag",
-                self.max_lag)
         require(self.kind != "before" or len(self.nodes) <= MOST_IN_ORDER * MOST_PLACES, name,
                 self.nodes)
         require(not self.across or (self.kind, self.scope) == ("before", "vehicle"), name,

@@ -2,10 +2,9 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import chain
 
 from model.problem.customer import Customer
-from model.problem.quantities import require, require_quantity
+from model.problem.quantities import MAX_QUANTITY, Milliseconds, Parts, require, require_units
 
 MOST_DETOUR = 10**9
 """The largest multiple of a direct leg, in thousandths."""
@@ -14,7 +13,7 @@ MOST_PICKUPS = 8
 """At most so many places where one shipment is fetched."""
 
 
-Amount = tuple[int, ...]  # (dimension,) parts
+Amount = tuple[Parts, ...]  # (dimension,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,16 +34,16 @@ class Shipment:
     pickup: int  # node
     delivery: int  # node, reached later
     amount: Amount  # aboard between
-    max_time_between: int | None = None  # from the end of service there to its start here
+    max_time_between: Milliseconds | None = None  # from the end of service there to its start here
     max_detour: int | None = None  # the same, in thousandths of the direct leg's duration
     more: tuple[Part, ...] = ()  # what else is fetched, elsewhere
 
     def __post_init__(self) -> None:
         require(len(self.more) < MOST_PICKUPS, f"shipment {self.id} pickups", len(self.parts))
-        for amount in chain.from_iterable(part.amount for part in self.parts):
-            require_quantity(f"shipment {self.id} amount", amount)
-        require_quantity(f"shipment {self.id} amount", max(self.total, default=0))
-        require_quantity(f"shipment {self.id} max_time_between", self.max_time_between or 0)
+        for each in (self, *self.more):
+            require_units(each, f"shipment {self.id}")
+        most = max(self.total, default=0)
+        require(most <= MAX_QUANTITY, f"shipment {self.id} amount", most)
         require(self.max_detour is None or 1000 <= self.max_detour <= MOST_DETOUR,
                 f"shipment {self.id} max_detour", self.max_detour)
 

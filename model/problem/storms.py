@@ -2,13 +2,13 @@
 
 from itertools import pairwise
 
-from model.problem.quantities import UNLIMITED, require
+from model.problem.quantities import UNLIMITED, TimeLimit, require
 
 MAX_STORMS = 16
 """How often a day is too windy, at most."""
 
-Storms = tuple[tuple[int, int], ...]
-"""From and until when nothing may be in the air, ascending, in ms; the last may never end."""
+Storms = tuple[tuple[TimeLimit, TimeLimit], ...]
+"""From and until when nothing may be in the air, ascending; the last may never end."""
 
 
 def require_storms(name: str, storms: Storms) -> None:

@@ -1,17 +1,17 @@
 """Random masked rollouts of packed problems, recorded step by step."""
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from model.engine.instance import Instance, pack
 from model.policy import problem_features
 from model.policy.decision_features import Rollouts, Scene
-from model.problem import (
-    UNLIMITED, UNREACHABLE, Customer, DrivingRules, DroneType, Energy, FloatArray, Overtime,
-    Problem, Relation, SpeedProfile, Travel, VehicleType,
-)
+from model.problem import UNREACHABLE, FloatArray, Problem, Travel
+from model.problem.quantities import Unit, units_of
 from model.simulation.actions import NUM_KINDS, RETURN, legal_actions
 from model.simulation.state import State, by_term, empty_outlooks
 from model.solution import COST_TERMS
@@ -124,108 +124,24 @@ class Units:
     amount: int = 1
     money: float = 1.0
 
-    def limit(self, time: int) -> int:
-        """Convert a time that may be without limit."""
-        return time if time >= UNLIMITED else time * self.time
+    def factor(self, unit: Unit) -> float:
+        """Return by what numbers of a unit grow."""
+        times = (self.length**unit.length, self.time**unit.time, self.amount**unit.amount)
+        return math.prod(times) * self.money**unit.money
 
-    def amounts(self, amounts: tuple[int, ...]) -> tuple[int, ...]:
-        """Convert a demand or a capacity."""
-        return tuple(amount * self.amount for amount in amounts)
-
-    def customer(self, customer: Customer) -> Customer:
-        """Convert a customer."""
-        late, early = customer.late_cost_per_hour, customer.early_cost_per_hour
-        left_out, longest = customer.unassigned_cost, customer.max_time_aboard
-        return replace(
-            customer, demand=self.amounts(customer.demand), pickup=self.amounts(customer.pickup),
-            unassigned_cost=None if left_out is None else left_out * self.money,
-            service_duration=self.time * customer.service_duration,
-            setup_duration=self.time * customer.setup_duration,
-            max_time_aboard=None if longest is None else self.time * longest,
-            earliest=self.time * customer.earliest, latest=self.limit(customer.latest),
-            gaps=tuple((self.time * closes, self.time * opens) for closes, opens in customer.gaps),
-            release_time=self.time * customer.release_time,
-            late_cost_per_hour=None if late is None else late * self.money / self.time,
-            late_cost=customer.late_cost * self.money,
-            early_cost_per_hour=early * self.money / self.time)
-
-    def energy(self, energy: Energy) -> Energy:
-        """Convert a battery."""
-        return replace(energy, available=self.time * energy.available,
-                       weights=self.amounts(energy.weights),
-                       climb_duration=self.time * energy.climb_duration,
-                       descent_duration=self.time * energy.descent_duration)
-
-    def durations(self, durations: Mapping[str, int]) -> dict[str, int]:
-        """Convert durations by name."""
-        return {name: self.time * duration for name, duration in durations.items()}
-
-    def overtime(self, overtime: Overtime) -> Overtime:
-        """Convert overtime."""
-        return Overtime(self.money / self.time * overtime.cost_per_hour,
-                        self.limit(overtime.max_duration))
-
-    def drones(self, drones: DroneType) -> DroneType:
-        """Convert a drone type."""
-        service = drones.service_duration
-        return replace(
-            drones, capacity=self.amounts(drones.capacity), endurance=self.limit(drones.endurance),
-            launch_duration=self.time * drones.launch_duration,
-            recovery_duration=self.time * drones.recovery_duration,
-            service_duration=None if service is None else self.time * service,
-            service_durations=self.durations(drones.service_durations),
-            swap_duration=self.time * drones.swap_duration,
-            storms=tuple((self.time * begin, self.limit(end)) for begin, end in drones.storms),
-            max_range=None if drones.max_range is None else self.length * drones.max_range,
-            cost_per_km=self.money / self.length * drones.cost_per_km,
-            cost_per_hour=self.money / self.time * drones.cost_per_hour,
-            energy=None if drones.energy is None else self.energy(drones.energy))
-
-    def vehicle_type(self, kind: VehicleType) -> VehicleType:
-        """Convert a vehicle type."""
-        working, distance, profile = (kind.max_working_duration, kind.max_trip_distance,
-                                      kind.speed_profile)
-        return replace(
-            kind, capacity=self.amounts(kind.capacity), fixed_cost=self.money * kind.fixed_cost,
-            cost_per_km=self.money / self.length * kind.cost_per_km,
-            cost_per_hour=self.money / self.time * kind.cost_per_hour,
-            cost_per_stop=self.money * kind.cost_per_stop,
-            cost_per_load_km=self.money / self.length / self.amount * kind.cost_per_load_km,
-            overtime=None if kind.overtime is None else self.overtime(kind.overtime),
-            earliest=self.time * kind.earliest, latest=self.limit(kind.latest),
-            max_working_duration=None if working is None else self.time * working,
-            max_travel_duration=(None if kind.max_travel_duration is None
-                                 else self.time * kind.max_travel_duration),
-            max_range=None if kind.max_range is None else self.length * kind.max_range,
-            max_trip_distance=None if distance is None else self.length * distance,
-            reload_duration=self.time * kind.reload_duration,
-            service_durations=self.durations(kind.service_durations),
-            endurance=self.limit(kind.endurance),
-            launch_duration=self.time * kind.launch_duration,
-            recovery_duration=self.time * kind.recovery_duration,
-            storms=tuple((self.time * begin, self.limit(end)) for begin, end in kind.storms),
-            energy=None if kind.energy is None else self.energy(kind.energy),
-            speed_profile=None if profile is None else SpeedProfile(
-                tuple(self.time * change for change in profile.times), profile.factors),
-            breaks=tuple(replace(
-                each, duration=self.time * each.duration, earliest=self.time * each.earliest,
-                latest=self.limit(each.latest)) for each in kind.breaks),
-            driving=None if kind.driving is None else self.driving(kind.driving),
-            drones=None if kind.drones is None else self.drones(kind.drones),
-            more_drones=tuple(map(self.drones, kind.more_drones)))
-
-    def driving(self, rules: DrivingRules) -> DrivingRules:
-        """Convert driving rules."""
-        return replace(
-            rules, max_driving=self.limit(rules.max_driving), rest=self.time * rules.rest,
-            split=tuple(self.time * part for part in rules.split),
-            max_work=self.limit(rules.max_work))
-
-    def relation(self, relation: Relation) -> Relation:
-        """Convert a relation."""
-        most = relation.max_lag
-        return replace(relation, min_lag=self.time * relation.min_lag,
-                       max_lag=None if most is None else self.time * most)
+    def converted(self, value: Any, unit: Unit | None = None) -> Any:
+        """Convert a data class or what one of its fields holds."""
+        if is_dataclass(value) and not isinstance(value, type):
+            units = units_of(type(value))
+            return replace(value, **{each.name: self.converted(
+                getattr(value, each.name), units.get(each.name)) for each in fields(value)})
+        if isinstance(value, tuple):
+            return tuple([self.converted(each, unit) for each in value])
+        if isinstance(value, Mapping):
+            return {name: self.converted(each, unit) for name, each in value.items()}
+        if unit is None or value is None or value == unit.most:
+            return value
+        return type(value)(value * self.factor(unit))
 
     def travel(self, travel: Travel) -> Travel:
         """Convert legs."""
@@ -236,15 +152,10 @@ class Units:
 def in_other_units(problem: Problem, units: Units) -> Problem:
     """Return the same problem with every number in other units."""
     return replace(
-        problem, customers=tuple(map(units.customer, problem.customers)),
-        vehicle_types=tuple(map(units.vehicle_type, problem.vehicle_types)),
-        travel=tuple(map(units.travel, problem.travel)),
-        shipments=tuple(replace(
-            each, amount=units.amounts(each.amount), more=tuple(
-                replace(part, amount=units.amounts(part.amount)) for part in each.more))
-            for each in problem.shipments),
-        relations=tuple(map(units.relation, problem.relations)),
+        problem, travel=tuple(map(units.travel, problem.travel)),
         vehicle_costs=None if problem.vehicle_costs is None
         else problem.vehicle_costs * units.money,
         coordinates=problem.coordinates * units.length,
-        unassigned_cost=units.money * problem.unassigned_cost)
+        unassigned_cost=units.money * problem.unassigned_cost,
+        **{name: units.converted(getattr(problem, name)) for name in (
+            "depots", "customers", "vehicle_types", "shipments", "relations")})

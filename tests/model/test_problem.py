@@ -5,6 +5,20 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.problem import Customer, Depot, Overtime, VehicleType
+from model.problem.quantities import units_of
+
+STATED = (Customer("a", (1,)), Depot("a"), VehicleType("a", 1, (1,), 0), Overtime(1.0))
+
+
+@pytest.mark.parametrize(("stated", "field"), [
+    (each, field) for each in STATED for field in units_of(type(each))])
+def test_no_number_is_less_than_nothing_or_more_than_can_be_counted(stated, field):
+    for number in (-1, units_of(type(stated))[field].most * 2, float("nan")):
+        several = isinstance(getattr(stated, field), tuple | dict)
+        with pytest.raises(ValueError, match=f" {field}: "):
+            replace(stated, **{field: (number,) if several else number})
+
 
 def test_a_table_has_a_row_a_type_and_a_column_a_customer(tiny_problem, customers, truck):
     problem = tiny_problem(*customers, truck=truck)
