@@ -22,9 +22,10 @@ from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
+from model.replanning.reasons import barred_reason, bound_reasons
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.rested import has_clock
-from model.replanning.workers import Worker, find_workers, vehicle_name
+from model.replanning.workers import Worker, find_workers
 from model.solution import Route, Solution, renumbered
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
@@ -174,11 +175,11 @@ class Replanning:
         carriers = self.problem.at_all_places(self.past.carriers())
         vehicle = carriers.get(node) or self.past.pinned.get(node)
         if vehicle is not None:
-            return _bound_reasons(self.problem, vehicle, node in carriers)
+            return bound_reasons(self.problem, vehicle, node in carriers)
         if time.perf_counter() >= until:
             return unexplained(self.problem)
         plan = self._later(solution)
-        return tuple(self._reason(plan, kind, node, until)
+        return tuple(self._reason(solution, plan, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
 
     def _beginning(self, bridge: _Bridge, handed: Solution, options: PlanOptions,
@@ -255,7 +256,8 @@ class Replanning:
         here = left.numbers
         return renumbered(Solution(tuple(routes)), lambda there: here.get(there, there))
 
-    def _reason(self, plan: Solution, kind: int, node: int, until: float) -> Reason:
+    def _reason(self, solution: Solution, plan: Solution, kind: int, node: int,
+                until: float) -> Reason:
         """Return why vehicles of a type don't serve a customer who is free to be served by any.
 
         `plan` is of what is left.
@@ -265,6 +267,9 @@ class Replanning:
         types = [] if left is None else left.from_depot(kind, node)
         if left is None or not types:
             return Reason(kind, "FLEET_EXHAUSTED", f"No vehicle of {name} can begin another trip.")
+        barred = barred_reason(self.problem, self.past, left, solution, plan, (kind, node), until)
+        if barred is not None:
+            return barred
         reason = explain_type(left.problem, plan, types[0], left.numbers[node], until)
         return replace(reason, vehicle_type=kind)
 
@@ -373,16 +378,3 @@ def _relayed(listener: Listener, first_cost: float, bridge: _Bridge) -> Listener
                                      plan=lambda: bridge.whole(progress.plan())))
 
     return Listener(listener.should_stop, relay)
-
-
-def _bound_reasons(problem: Problem, vehicle: Vehicle, is_aboard: bool) -> tuple[Reason, ...]:
-    """Return why a customer is unassigned whom one vehicle alone may serve."""
-    name = vehicle_name(problem, vehicle)
-    if is_aboard:
-        code, why = "ABOARD", f"Its parcel is aboard {name}"
-    else:
-        code, why = "PINNED", f"It is pinned to {name}"
-    return tuple(
-        Reason(kind, code, f"{why}, which has no room or time for it." if kind == vehicle.type
-               else f"{why}.")
-        for kind in range(len(problem.vehicle_types)))

@@ -146,6 +146,42 @@ def test_others_fetch_what_a_broken_vehicle_has_not_of_a_shipment(searching: htt
     assert times(plan, "van-2") == [("hub", 130, 130), ("s1", 310, 310), ("hub", 490, 490)]
 
 
+@pytest.mark.parametrize(("relation", "why"), [
+    ({"kind": "together", "customers": ["a", "c"]},
+     "It is to be served together with a, which van-1 has served, and that does nothing more."),
+    ({"kind": "before", "customers": ["a", "c"]},
+     "It is to be served together with a, which van-1 has served, and that does nothing more."),
+    ({"kind": "apart", "customers": ["d", "c"]}, "It is kept apart from d, whom van serves.")])
+def test_who_may_not_join_whom_vehicles_serve_is_told_by_which_relation(
+        searching: httpx.Client, street: Request, relation: Request, why: str) -> None:
+    street["customers"].append({"id": "d", "location": [-1, 0], "demand": [1]})
+    street["fleet"][0]["max_trips"] = 2
+    street["relations"] = [relation]
+    tour = TOUR | {"routes": [*TOUR["routes"], *plan_of(
+        ("depot", "hub", 0, 0), ("customer", "d", 60, 60), ("depot", "hub", 120, 120))["routes"]]}
+    tour["routes"][1] |= {"vehicle": "van-2"}
+    plan = replanned(searching, street, tour, 150, unavailable=["van-1"])
+    assert plan["unassigned"] == [{"id": "c", "reasons": [{
+        "vehicle_type": "van", "code": "RELATION", "message": why,
+        "remedy": "fits without its relations"}]}]
+    street["relations"] = []
+    assert replanned(searching, street, tour, 150, unavailable=["van-1"])["unassigned"] == []
+
+
+def test_who_may_not_join_what_vehicles_have_carried_is_told_so(searching: httpx.Client,
+                                                                street: Request) -> None:
+    street["customers"] = [each | {"goods": [name]} for each, name in zip(
+        street["customers"], ["food", "food", "paint"], strict=True)]
+    street["incompatible_goods"] = [{"goods": ["food", "paint"], "scope": "vehicle"}]
+    street["fleet"][0] |= {"count": 1, "max_trips": 2}
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("customer", "b", 180, 240),
+                   ("depot", "hub", 360, 360))
+    plan = replanned(searching, street, tour, 150)
+    assert plan["unassigned"] == [{"id": "c", "reasons": [{
+        "vehicle_type": "van", "code": "GOODS", "remedy": None,
+        "message": "Its goods may not join what van has carried today."}]}]
+
+
 def test_reply_tells_of_parcels_of_a_trip_that_vanishes(searching: httpx.Client,
                                                         street: Request) -> None:
     plan = replanned(searching, street, TOUR, 30, unavailable=["van-1"], parcels_back=500)
