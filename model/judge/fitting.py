@@ -81,17 +81,22 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
     together = [Fit(trial, along[vehicle]) for vehicle, trial in moved.items()]
     is_complete = fits.is_complete and in_time
     if all(find_place(bench.plan.solution, unit.node) for unit in companions):
-        return _joined([*together, *fits.places, *fits.others], bench, count, is_complete)
+        return _joined([*together, *fits.places, *fits.others], bench, count, spot, is_complete)
     if any(not new_violations(bench, each.trial) for each in together):
-        return _joined(together, bench, count, is_complete)
+        return _joined(together, bench, count, spot, is_complete)
     return replace(fits, is_complete=is_complete)
 
 
-def _joined(fits: Iterable[Fit], bench: Bench, count: int, is_complete: bool) -> Fits:
+def _joined(fits: Iterable[Fit], bench: Bench, count: int,
+            spot: Callable[[Place], tuple[object, ...]], is_complete: bool) -> Fits:
     """Return the best of some fits, and the best of each vehicle that has none of these."""
     ranked = sorted(fits, key=lambda fit: fit.rank)
     allowed = [fit for fit in ranked if not new_violations(bench, fit.trial)]
-    places = (allowed or ranked)[:count]
+    spots: dict[tuple[object, ...], Fit] = {}
+    for fit in allowed or ranked:
+        if fit.trial.place is not None:
+            spots.setdefault(spot(fit.trial.place), fit)
+    places = [*spots.values()][:count]
     seen = {_vehicle(fit) for fit in places}
     others: dict[Vehicle | None, Fit] = {}
     for fit in ranked:

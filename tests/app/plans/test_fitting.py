@@ -148,6 +148,15 @@ def test_each_vehicle_is_told_once_if_that_is_asked_for(client: httpx.Client,
     assert own["truck-1"]
 
 
+def test_each_vehicle_is_told_once_if_companions_may_move_too(client: httpx.Client,
+                                                              asked: Request) -> None:
+    """A is on truck-1, and nobody has room for D: truck-2 for neither with A nor without."""
+    asked["problem"]["relations"] = [{"kind": "together", "customers": ["A", "D"]}]
+    asked["new_customer"]["demand"] = [16]
+    told = fitted(client, asked | {"one_per_vehicle": True})
+    assert sorted(place["vehicle"] for place in told["places"]) == ["truck-1", "truck-2"]
+
+
 def test_customers_of_the_plan_are_put_elsewhere_or_on_drones(client: httpx.Client) -> None:
     example = documented("explain")
     body = {"problem": example["problem"], "plan": example["plan"], "customer": "C", "count": 20}
