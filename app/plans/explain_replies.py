@@ -115,8 +115,9 @@ def placed_reply(bench: Bench, trial: Trial, companions: Sequence[Unit] = ()) ->
     problem = bench.problem
     ends = [{**place_reply(problem, node), **_at_place(problem, trial, (node, found, halt), moved),
              "arrival": whole(halt.arrival)} for node, found, halt in placed]
-    _, found, _ = placed[0]
-    reply = {"vehicle": vehicle_name(problem, trial.solution.routes[found.route]),
+    node, found, _ = placed[0]
+    at = {name: what for name, what in place_reply(problem, node).items() if name == "alternative"}
+    reply = {"vehicle": vehicle_name(problem, trial.solution.routes[found.route]), **at,
              **_at_place(problem, trial, placed[0], moved)}
     if bench.shipment is None:
         return reply

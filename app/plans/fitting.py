@@ -62,7 +62,7 @@ def answer_fit(body: ReceivedBody, bounds: Bounds,
         **subject_reply(bench),
         "cost": cost_reply(evaluation.cost),
         "here": here_reply(bench),
-        "places": [_place_reply(bench, fit) | {"route": _route(task, bench, fit.trial)}
+        "places": [_place_reply(bench, fit) | {"route": _route(task, fit.bench, fit.trial)}
                    for fit in fits.places],
         "others": [_place_reply(bench, fit) for fit in fits.others],
         "complete": fits.is_complete,
@@ -123,7 +123,7 @@ def _with_nodes(solution: Solution, nodes: Iterable[int]) -> Solution:
 def _place_reply(bench: Bench, fit: Fit) -> Data:
     broken = new_violations(bench, fit.trial)
     return {
-        **placed_reply(bench, fit.trial, fit.companions),
+        **placed_reply(fit.bench, fit.trial, fit.companions),
         **companions_reply(bench.problem, fit.companions),
         "cost": more_than_without(bench, fit.trial),
         "feasible": not broken,

@@ -7,7 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from app.schemas.check import PlannedProblem
 from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.hindrances import StormReply, ZoneReply
-from app.schemas.plan import PART_TEXT
+from app.schemas.plan import ALTERNATIVE_TEXT, PART_TEXT
 from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
 from app.schemas.shipment import EndKind
 from app.schemas.times import InstantReply, WordsReply
@@ -76,6 +76,7 @@ class PlacedReply(_Reply):
     """Where and when a customer is served; of a shipment, its first end."""
 
     vehicle: str | None = Field(description="Name of the vehicle. Null: none.")
+    alternative: str | None = Field(None, description=f"{ALTERNATIVE_TEXT} Left out where it is.")
     by: Literal["truck", "drone"] | None = Field(
         description="Who comes; `drone` if one comes to any end of a shipment. Null: nobody.")
     window: int | None = Field(

@@ -41,7 +41,7 @@ class FitRequest(CheckRequest):
         """The problem, the new customer or shipment being its last."""
         customers, added = self.problem.customers, self.new_shipment
         if self.new_customer is not None:
-            return self.problem.model_copy(update={"customers": [*customers, self.new_customer]})
+            return self.problem.with_customer(self.new_customer)
         if added is not None:
             return self.problem.model_copy(update={
                 "customers": [*customers, *added.ends()],
@@ -53,8 +53,7 @@ class FitRequest(CheckRequest):
         if self.new_shipment is not None:
             return path.replace(f"$.problem.shipments[{len(self.problem.shipments)}]",
                                 "$.new_shipment")
-        return path.replace(f"$.problem.customers[{len(self.problem.customers)}]",
-                            "$.new_customer")
+        return path.replace(f"$.problem.customers[{self.problem.num_stated}]", "$.new_customer")
 
 
 class FitPlaceReply(PlacedReply):

@@ -373,6 +373,20 @@ class PlanRequest(Input):
         return self
 
     @property
+    def num_stated(self) -> int:
+        """How many customers are stated; places and ends that count as such come behind them."""
+        others = [len(customer.alternatives) for customer in self.customers]
+        ends = [len(each.named_ends()) for each in self.shipments]
+        return len(self.customers) - sum(others) - sum(ends)
+
+    def with_customer(self, customer: CustomerInput) -> Self:
+        """Return the request with another customer, the last of those stated."""
+        stated = [*self.customers[:self.num_stated], customer]
+        others = [place for each in stated for place in each.others()]
+        ends = [end for each in self.shipments for end in each.ends()]
+        return self.model_copy(update={"customers": [*stated, *others, *ends]})
+
+    @property
     def day(self) -> Day | None:
         """The day of the plan; None if it is not stated."""
         return None if self.plan_start is None else Day.of(self.plan_start, self.time_zone)

@@ -137,6 +137,14 @@ class Bench:
             judged = {**judged, index: timed.judged}
         return Trial(None, plan, self.setting.judge(self.problem, plan, judged)), judged
 
+    def at_place(self, place: int) -> "Bench":
+        """Return what tries the customer at another of his places, of the plan without him."""
+        solution = self.left_out.solution
+        own = self.problem.places_of(self.node)
+        others = [node for node in solution.unassigned if node not in own]
+        return Bench(self.problem, replace(solution, unassigned=(*others, place)), place,
+                     self.setting, self.judged)
+
     def _best(self, problem: Problem, ways: Sequence[RouteDecision], index: int) -> TimedRoute:
         """Return the best of several ways to go on with a route."""
         return min([time_route(problem, way, f"routes[{index}]", self.setting.past)

@@ -45,6 +45,7 @@ class Fit:
     """A plan with the customer or shipment, and who is served by that vehicle, too, by relations.
     """
 
+    bench: Bench  # by which it was tried: the customer's at that place of his
     trial: Trial
     companions: tuple[Unit, ...] = ()
 
@@ -68,8 +69,21 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
     """Return the best places found by an instant, `count` at most.
 
     `until` is on `time.perf_counter`; of places that are one `spot`, the best counts. Of what was
-    tried by then, one place is told in any case.
+    tried by then, one place is told in any case. A customer of several places is put at each.
     """
+    places = bench.problem.places_of(bench.node) if bench.done_by is None else ()
+    benches = [bench, *[bench.at_place(place) for place in places if place != bench.node]]
+    found = [_fits_at(each, count, share_over(1 / (len(benches) - number), until), spot)
+             for number, each in enumerate(benches)]
+    if len(found) == 1:
+        return found[0]
+    return _joined([fit for each in found for fit in (*each.places, *each.others)], bench, count,
+                   spot, all(each.is_complete for each in found))
+
+
+def _fits_at(bench: Bench, count: int, until: float,
+             spot: Callable[[Place], tuple[object, ...]]) -> Fits:
+    """Return the best places where the customer is served at one place of his."""
     companions = companions_to(bench)
     fits, vehicles = _alone(bench, count, share_over(ALONE_SHARE, until) if companions else until,
                             spot)
@@ -78,7 +92,7 @@ def find_fits(bench: Bench, count: int, until: float = math.inf,
     along = {vehicle: not_with(bench, companions, vehicle) for vehicle in vehicles}
     moved, in_time = move_all(bench, {vehicle: units for vehicle, units in along.items() if units},
                               until)
-    together = [Fit(trial, along[vehicle]) for vehicle, trial in moved.items()]
+    together = [Fit(bench, trial, along[vehicle]) for vehicle, trial in moved.items()]
     is_complete = fits.is_complete and in_time
     if all(find_place(bench.plan.solution, unit.node) for unit in companions):
         return _joined([*together, *fits.places, *fits.others], bench, count, spot, is_complete)
@@ -95,7 +109,8 @@ def _joined(fits: Iterable[Fit], bench: Bench, count: int,
     spots: dict[tuple[object, ...], Fit] = {}
     for fit in allowed or ranked:
         if fit.trial.place is not None:
-            spots.setdefault(spot(fit.trial.place), fit)
+            at = () if spot is vehicle_of else (fit.bench.node,)
+            spots.setdefault((*at, *spot(fit.trial.place)), fit)
     places = [*spots.values()][:count]
     seen = {_vehicle(fit) for fit in places}
     others: dict[Vehicle | None, Fit] = {}
@@ -121,9 +136,10 @@ def _alone(bench: Bench, count: int, until: float,
         vehicles.setdefault(draft.place.vehicle, []).append(draft)
     some = takewhile(lambda _: time.perf_counter() < until,
                      [some for vehicle, some in vehicles.items() if vehicle not in chosen])
-    others = [Fit(each.trial) for each in chain.from_iterable(
+    others = [Fit(bench, each.trial) for each in chain.from_iterable(
         best_of(bench, "vehicle", drafts) for drafts in some)]
-    return Fits(tuple(map(Fit, places)), tuple(sorted(others, key=lambda fit: fit.rank)),
+    return Fits(tuple([Fit(bench, trial) for trial in places]),
+                tuple(sorted(others, key=lambda fit: fit.rank)),
                 is_complete and time.perf_counter() < until), [*vehicles]
 
 

@@ -157,6 +157,40 @@ def test_each_vehicle_is_told_once_if_companions_may_move_too(client: httpx.Clie
     assert sorted(place["vehicle"] for place in told["places"]) == ["truck-1", "truck-2"]
 
 
+@pytest.mark.parametrize("one_per_vehicle", [False, True])
+def test_a_customer_of_several_places_is_put_at_each(client: httpx.Client, asked: Request,
+                                                     one_per_vehicle: bool) -> None:
+    home = fitted(client, asked | {"count": 20})["places"]
+    own = min(place["cost"]["total"] for place in home)
+    asked["new_customer"]["alternatives"] = [
+        {"id": "desk", "location": asked["problem"]["depots"][0]["location"], "cost": 0.5},
+        {"id": "far", "location": [90, 90]}]
+    told = fitted(client, asked | {"count": 20, "one_per_vehicle": one_per_vehicle})
+    first = told["places"][0]
+    assert (first["alternative"], first["cost"]["total"]) == ("desk", pytest.approx(0.5))
+    if one_per_vehicle:
+        vehicles = [place["vehicle"] for place in told["places"]]
+        assert len({*vehicles}) == len(vehicles)
+    else:
+        assert {place.get("alternative") for place in told["places"]} == {None, "desk", "far"}
+        assert own == pytest.approx(min(place["cost"]["total"] for place in told["places"]
+                                        if "alternative" not in place))
+    problem = asked["problem"] | {
+        "customers": [*asked["problem"]["customers"], asked["new_customer"]]}
+    routes = [route for route in asked["plan"]["routes"] if route["vehicle"] != first["vehicle"]]
+    plan = {"routes": [*routes, first["route"]]}
+    verdict = judged(client, problem, plan)
+    assert verdict["feasible"]
+    assert verdict["cost"]["total"] == pytest.approx(told["cost"]["total"] + 0.5)
+    again = fitted(client, {"problem": problem, "plan": plan, "customer": "D", "count": 20,
+                            "one_per_vehicle": one_per_vehicle})
+    assert again["here"]["alternative"] == "desk"
+    assert again["here"]["saving"]["total"] == pytest.approx(0.5)
+    if not one_per_vehicle:
+        assert own == pytest.approx(min(place["cost"]["total"] for place in again["places"]
+                                        if "alternative" not in place))
+
+
 def test_customers_of_the_plan_are_put_elsewhere_or_on_drones(client: httpx.Client) -> None:
     example = documented("explain")
     body = {"problem": example["problem"], "plan": example["plan"], "customer": "C", "count": 20}

@@ -147,6 +147,9 @@ test('changes, places and rules are told in words', () => {
   assert.deepEqual(placeInWords({ vehicle: 'van-1', by: 'truck', service_start: 3600,
     position: { own_trip: false, after: 'A', recovered_at: null }, companions: ['C', 's1'] }),
   ['van-1 with C, s1', 'after A, 1:00']);
+  assert.deepEqual(placeInWords({ vehicle: 'van-1', by: 'truck', service_start: 3600,
+    alternative: 'locker', position: { own_trip: false, after: 'A', recovered_at: null } }),
+  ['van-1', 'at locker, after A, 1:00']);
   assert.deepEqual(visitNamesOf({ customers: [{ id: 'C' }], shipments: [
     { id: 's1', amount: [1], pickup: {}, delivery: {} }] }, ['C', 's1']),
   ['C', 's1/pickup', 's1/delivery']);

@@ -509,6 +509,7 @@ export default {
     drone: 'eine Drohne von {{vehicle}}',
     flight: 'von {{from}}, zurück bei {{back}}, {{at}}',
     after: 'nach {{stop}}',
+    at: 'bei {{place}}',
     onOwnTrip: 'auf einer eigenen Fahrt',
   },
   name: {

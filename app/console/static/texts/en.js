@@ -495,6 +495,7 @@ export default {
     drone: 'a drone of {{vehicle}}',
     flight: 'from {{from}}, back at {{back}}, {{at}}',
     after: 'after {{stop}}',
+    at: 'at {{place}}',
     onOwnTrip: 'on a trip of its own',
   },
   name: {

@@ -18,21 +18,22 @@ export function moveInWords(index, id, place) {
 
 /** Return who serves a customer or shipment at a place that was found, and where in its work. */
 export function placeInWords(place) {
-  const { vehicle, position, service_start: start, companions } = place;
+  const { vehicle, alternative, position, service_start: start, companions } = place;
   const along = (who) => (
     companions ? t('why.goingAlong', { who, names: companions.join(', ') }) : who);
   const ends = endsInWords(place);
   if (ends) return [along(vehicle), ends];
+  const other = alternative ? `${t('place.at', { place: alternative })}, ` : '';
   const at = clock(start);
   if (position.recovered_at) {
     const own = position.own_trip ? `${t('place.ownTrip')}, ` : '';
     const flight = { from: position.after, back: position.recovered_at, at };
-    return [along(t('place.drone', { vehicle })), own + t('place.flight', flight)];
+    return [along(t('place.drone', { vehicle })), other + own + t('place.flight', flight)];
   }
   const where = position.own_trip
     ? t('place.ownTrip')
     : t('place.after', { stop: position.after });
-  return [along(vehicle), `${where}, ${at}`];
+  return [along(vehicle), `${other}${where}, ${at}`];
 }
 
 /** Return broken rules in words, each once; `routes` name the vehicles that break them. */
