@@ -2,8 +2,8 @@
 
 Inside `model`, times are integer milliseconds since plan start, distances integer millimetres,
 amounts integer thousandths or smaller parts, so that simulator, search and checker agree exactly.
-Costs are floats. A field's type says what its numbers are counted in, by which they are checked.
-
+Costs are floats. A field's type says what its numbers are counted in, by which they are checked,
+and converted from requests.
 """
 
 import sys

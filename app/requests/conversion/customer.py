@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 
 from app.requests.conversion.amounts import counted
-from app.requests.conversion.units import optional_thousandths, thousandths
+from app.requests.conversion.units import by_name, thousandths
 from app.schemas.customer import CustomerInput
 from model.problem import UNLIMITED, Customer
 
@@ -15,10 +15,10 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int],
     windows = stated.windows
     first, last = windows[0], windows[-1]
     return Customer(
+        **by_name(stated, Customer),
         id=stated.id,
         demand=counted(stated.demand, decimals),
         pickup=() if stated.pickup is None else counted(stated.pickup, decimals),
-        service_duration=thousandths(stated.service_duration),
         earliest=thousandths(first.earliest),
         latest=UNLIMITED if last.latest is None else thousandths(last.latest),
         late_cost_per_hour=last.late_cost_per_hour,
@@ -26,14 +26,9 @@ def to_customer(stated: CustomerInput, decimals: Sequence[int],
         early_cost_per_hour=first.early_cost_per_hour,
         served_by=stated.served_by,
         skills=frozenset(stated.skills),
-        release_time=thousandths(stated.release_time),
-        unassigned_cost=stated.unassigned_cost,
         gaps=() if first is last else tuple(
             [(thousandths(window.latest or 0.0), thousandths(following.earliest))
              for window, following in pairwise(windows)]),
-        max_time_aboard=optional_thousandths(stated.max_time_aboard),
         goods=frozenset(stated.goods),
-        setup_duration=thousandths(stated.setup_duration),
         site=site,
-        launch=stated.launch,
     )

@@ -7,12 +7,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from app.requests.conversion.units import thousandths
+from app.requests.conversion.units import by_name
 from app.schemas.customer import CustomerInput
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import DepotInput, PlanRequest
 from app.schemas.vehicle import PlaceInput, VehicleTypeInput
-from model.problem import UNLIMITED, BoolArray, Depot
+from model.problem import BoolArray, Depot
 
 Place = DepotInput | PlaceInput | CustomerInput | LaunchSiteInput
 Path = tuple[str | int, ...]
@@ -59,7 +59,9 @@ class PlacedRequest:
         """
         request = self.request
         sites: list[tuple[Depot, Place, Path]] = [
-            (_launch_site(site), site, ("launch_sites", index, "location"))
+            (Depot(site.id, "launch_site", stop_cost=site.cost,
+                   **by_name(site.time_window, Depot)),
+             site, ("launch_sites", index, "location"))
             for index, site in enumerate(request.launch_sites)]
         if not any(revisits(kind) for kind in request.fleet):
             return sites
@@ -101,22 +103,11 @@ class PlacedRequest:
     @cached_property
     def depots(self) -> tuple[Depot, ...]:
         """The nodes where trips may begin or end."""
-        depots = [_depot(depot) for depot in self.request.depots]
+        depots = [Depot(depot.id, **by_name(depot, Depot), **by_name(depot.time_window, Depot))
+                  for depot in self.request.depots]
         depots += [stand.depot for _, stand in self._stands]
         depots += [site for site, *_ in self._sites]
         return tuple(depots if self.nowhere is None else [*depots, NOWHERE])
-
-    @property
-    def launches(self) -> list[bool]:
-        """Whether drones may take off, by depot."""
-        stated = [depot.launch for depot in self.request.depots]
-        return stated + [True] * (len(self.depots) - len(stated))
-
-    @property
-    def stocks(self) -> list[tuple[int | None, int | None]]:
-        """The batteries, and places to charge, of who flies from each depot; None: enough."""
-        stated = [(depot.batteries, depot.chargers) for depot in self.request.depots]
-        return [*stated, *[(None, None)] * (len(self.depots) - len(stated))]
 
     @property
     def names(self) -> list[tuple[str, str]]:
@@ -165,19 +156,6 @@ class PlacedRequest:
 def revisits(kind: VehicleTypeInput) -> bool:
     """Tell whether trucks of a type may come back to places for their drones."""
     return kind.revisits and any(drones.count > 0 for drones in kind.drone_types)
-
-
-def _depot(stated: DepotInput) -> Depot:
-    hours = stated.time_window
-    return Depot(stated.id, earliest=thousandths(hours.earliest),
-                 latest=UNLIMITED if hours.latest is None else thousandths(hours.latest))
-
-
-def _launch_site(stated: LaunchSiteInput) -> Depot:
-    window = stated.time_window
-    return Depot(stated.id, "launch_site", earliest=thousandths(window.earliest),
-                 latest=UNLIMITED if window.latest is None else thousandths(window.latest),
-                 stop_cost=stated.cost)
 
 
 class Places(NamedTuple):

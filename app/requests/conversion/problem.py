@@ -14,13 +14,13 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.service import with_service_durations
 from app.requests.conversion.travels import Travels
-from app.requests.conversion.units import optional_thousandths, thousandths
+from app.requests.conversion.units import by_name, optional_thousandths
 from app.requests.conversion.vehicle import to_vehicle_type
 from app.schemas.customer import place_name
 from app.schemas.relation import RelationInput
 from app.schemas.request import PlanRequest
 from model.problem import (
-    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, Part, Problem, Relation,
+    Balance, Customer, Fairness, FloatArray, IncompatibleGoods, Part, Problem, Relation,
     Shipment,
 )
 
@@ -56,7 +56,8 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     unassigned_cost, fairness = _large_prices(request, fairness, lambda: default_unassigned_cost(
         customers, vehicle_types, travels.built(), decimals, fairness, relations) + _dearest(costs))
     return Problem(
-        depots=_depots(placed),
+        depots=tuple([replace(depot, site=site)
+                      for depot, site in zip(depots, sites, strict=False)]),
         customers=customers,
         vehicle_types=vehicle_types,
         travel=travels.built(),
@@ -72,13 +73,6 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         shipments=shipments, choices=_choices(request, len(depots)),
         fairness=fairness,
     )
-
-
-def _depots(placed: PlacedRequest) -> tuple[Depot, ...]:
-    return tuple([
-        replace(depot, site=site, launch=launch, batteries=batteries, chargers=chargers)
-        for depot, site, launch, (batteries, chargers)
-        in zip(placed.depots, placed.sites, placed.launches, placed.stocks, strict=False)])
 
 
 def _serving_costs(request: PlanRequest, groups: Sequence[Group],
@@ -163,8 +157,8 @@ def _relations(request: PlanRequest, num_depots: int) -> tuple[Relation, ...]:
 
     return tuple(Relation(each.kind, tuple([
         place for name in named(each) for place in places.get(node[name], (node[name],))
-    ]), each.scope, thousandths(each.min_lag), optional_thousandths(each.max_lag),
-        each.kind == "before" and not each.same_vehicle)
+    ]), each.scope, across=each.kind == "before" and not each.same_vehicle,
+        **by_name(each, Relation))
         for each in request.relations)
 
 
@@ -193,6 +187,6 @@ def _with_shipments(request: PlanRequest, customers: tuple[Customer, ...],
         first, *more = (Part(num_depots + index, customers[index].demand) for index in pickups)
         shipments.append(Shipment(
             stated.id, first.pickup, num_depots + delivery, first.amount,
-            optional_thousandths(stated.max_time_between),
-            optional_thousandths(stated.max_detour), tuple(more)))
+            max_detour=optional_thousandths(stated.max_detour), more=tuple(more),
+            **by_name(stated, Shipment)))
     return tuple(changed), tuple(shipments)

@@ -1,5 +1,13 @@
 """Between the wire's units and the integer thousandths inside `model`."""
 
+from collections.abc import Callable
+from dataclasses import fields
+from functools import cache
+from typing import Any
+
+from app.schemas.fields import Input
+from model.problem.quantities import units_of
+
 
 def thousandths(value: float) -> int:
     """Return seconds as ms or metres as mm, rounded to the nearest."""
@@ -9,6 +17,29 @@ def thousandths(value: float) -> int:
 def optional_thousandths(value: float | None) -> int | None:
     """Return `thousandths`, or None for no limit."""
     return None if value is None else round(value * 1000)
+
+
+def by_name(stated: Input, kind: Any, prefix: str = "") -> dict[str, Any]:
+    """Return the fields of a data class that a request states by the same names behind a prefix.
+
+    They are numbers that have a unit and flags. Seconds become ms and metres mm; what is null keeps
+    the default.
+    """
+    conversions = _conversions(kind)
+    return {prefix + name: conversions[prefix + name](value) for name, value in stated
+            if isinstance(value, int | float) and prefix + name in conversions}
+
+
+@cache
+def _conversions(kind: Any) -> dict[str, Callable[[Any], Any]]:
+    """Return what makes fields of a data class from the wire's."""
+    flags = {each.name: bool for each in fields(kind) if each.type is bool}
+    return flags | {name: thousandths if unit.time + unit.length == 1 else _as_it_is
+                    for name, unit in units_of(kind).items()}
+
+
+def _as_it_is(value: Any) -> Any:
+    return value
 
 
 def whole(value: int) -> float:

@@ -1,6 +1,7 @@
 """Requests become problems with the numbers worked out by hand."""
 
 import json
+from dataclasses import fields
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,19 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.problem import to_problem
 from app.requests.conversion.travels import Travels
 from app.requests.reading import read_request
+from app.schemas.customer import CustomerInput
+from app.schemas.driving import DrivingRulesInput
+from app.schemas.drones import DronesInput
+from app.schemas.fields import Input
+from app.schemas.request import DepotInput
+from app.schemas.vehicle import BreakInput, VehicleTypeInput
 from model.judge.check import check
 from model.judge.placing import with_due_breaks
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import UNLIMITED, UNREACHABLE, IncompatibleGoods, Overtime, Problem, SpeedProfile
+from model.problem import (
+    UNLIMITED, UNREACHABLE, Break, Customer, Depot, DrivingRules, DroneType, IncompatibleGoods,
+    Overtime, Problem, SpeedProfile, VehicleType,
+)
 from model.solution import Solution
 
 Request = dict[str, Any]
@@ -127,6 +137,17 @@ def test_every_quantity_is_held_as_thousandths(smallest: Request) -> None:
     assert (drones.swap_duration, drones.batteries) == (400, 5)
     assert (drones.service_duration, drones.cost_per_km, drones.cost_per_hour) == (300, 8, 9)
     assert problem.travel[drones.travel].duration[0, 1] == 600_000
+
+
+@pytest.mark.parametrize(("stated", "kind"), [
+    (VehicleTypeInput, VehicleType), (DronesInput, DroneType), (CustomerInput, Customer),
+    (DepotInput, Depot), (BreakInput, Break), (DrivingRulesInput, DrivingRules)])
+def test_numbers_that_a_request_states_by_name_have_a_unit(stated: type[Input],
+                                                           kind: type[Any]) -> None:
+    plain = {each.name for each in fields(kind)
+             if each.type in (int, float, int | None, float | None)}
+    nodes = {"depot", "end"}
+    assert plain & stated.model_fields.keys() <= nodes
 
 
 def test_what_is_picked_up_counts_in_the_same_steps(smallest: Request) -> None:
