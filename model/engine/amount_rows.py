@@ -7,6 +7,9 @@ import numpy as np
 from model.engine.breaks import limits_loads
 from model.problem import Customer, IntArray, Problem
 
+DIMENSIONS_PER_TIER = 3
+"""How many dimensions of load are looked at together."""
+
 
 def padded(amount: Sequence[int], length: int) -> tuple[int, ...]:
     """Return so many dimensions of an amount, zero in those that the problem doesn't have."""

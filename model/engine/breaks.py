@@ -12,6 +12,9 @@ from model.problem import MAX_BREAKS, REST, UNLIMITED, DrivingRules, IntArray, V
 NONE = -2**58
 """An instant earlier than any that occurs."""
 
+Fields = dict[str, int | Sequence[int]]
+"""What a row for the engine says, by its fields."""
+
 PLACES: tuple[Literal["departure", "way", "arrival"], ...] = "departure", "way", "arrival"
 
 
@@ -30,43 +33,36 @@ def limits_loads(kind: VehicleType) -> bool:
     return any(each.max_load is not None for each in kind.breaks)
 
 
-def _most_aboard(kind: VehicleType, room: int) -> tuple[int, ...]:
+def _most_aboard(kind: VehicleType) -> list[int]:
     """Return what may be aboard at most during each break, beside what is at the beginning."""
+    room = len(one(dtype_of("tandem_vehicle_type")).capacity)
     taken, loads = kind.initial_load or (0,) * len(kind.capacity), list[int]()
     for each in kind.breaks:
         most = [UNLIMITED * 2] * room
         if each.max_load is not None:
             most[:len(taken)] = [a - b for a, b in zip(each.max_load, taken, strict=True)]
         loads += most
-    return (*loads, *(0,) * (MAX_BREAKS * room - len(loads)))
+    return loads
 
 
-def driver_row(kind: VehicleType, room: int) -> tuple[int | tuple[int, ...], ...]:
-    """Return what `tandem_vehicle_type` says of its driver, loads in so many dimensions."""
-    return *_break_row(kind, room), *_driving_row(kind.driving)
-
-
-def _break_row(kind: VehicleType, room: int) -> tuple[int | tuple[int, ...], ...]:
-    """Return how many breaks a driver has, since when, and what `tandem_vehicle_type` says of them.
-    """
-    breaks = kind.breaks
-    columns: tuple[Sequence[int], ...] = (
-        [each.earliest for each in breaks], [each.latest for each in breaks],
-        [each.duration for each in breaks], [each.after_departure for each in breaks],
-        [each.anywhere for each in breaks], [not each.paid for each in breaks])
-    rest = (0,) * (MAX_BREAKS - len(breaks))
-    since = NONE if kind.works_since is None else kind.works_since
-    return (len(breaks), since, *((*map(int, column), *rest) for column in columns),
-            _most_aboard(kind, room))
-
-
-def _driving_row(rules: DrivingRules | None) -> tuple[int | tuple[int, ...], ...]:
-    """Return whether a driver has to rest, and what `tandem_vehicle_type` says of that."""
-    if rules is None:
-        return 0, (0, 0, 0), UNLIMITED, UNLIMITED, 0, 0, 0, 1
-    return (1, (rules.rest, *(rules.split or (0, 0))), rules.max_driving, rules.max_work,
-            rules.driven_before, rules.worked_before,
-            int(rules.half_rested_before), int(rules.while_drones_fly))
+def driver_fields(kind: VehicleType) -> Fields:
+    """Return what `tandem_vehicle_type` says of its driver."""
+    breaks, rules = kind.breaks, kind.driving or DrivingRules(UNLIMITED, 0)
+    return {
+        "breaks": len(breaks),
+        "breaks_since": NONE if kind.works_since is None else kind.works_since,
+        "break_earliest": [each.earliest for each in breaks],
+        "break_latest": [each.latest for each in breaks],
+        "break_duration": [each.duration for each in breaks],
+        "break_after_departure": [each.after_departure for each in breaks],
+        "break_anywhere": [each.anywhere for each in breaks],
+        "break_unpaid": [not each.paid for each in breaks],
+        "break_max_load": _most_aboard(kind), "must_rest": kind.driving is not None,
+        "rest_durations": (rules.rest, *(rules.split or (0, 0))),
+        "max_driving": rules.max_driving, "max_work": rules.max_work,
+        "driven_before": rules.driven_before, "worked_before": rules.worked_before,
+        "half_rested_before": rules.half_rested_before,
+        "rests_in_flights": rules.while_drones_fly}
 
 
 def longest_travel(kind: VehicleType) -> int:

@@ -9,12 +9,12 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.amount_rows import num_tiers, padded, write_amounts
+from model.engine.amount_rows import (
+    DIMENSIONS_PER_TIER, num_tiers, padded, write_amounts,
+)
 from model.engine.asked import (
     clash_by_themselves, company_rows, has_setups, most_asked_for, setup_rows, weight_rows,
 )
-from model.engine.battery_rows import battery_row, full_row, powers_row
-from model.engine.breaks import driver_row, longest_travel
 from model.engine.drone_types import NO_ROW, Kind, all_kinds
 from model.engine.hour_rows import write_hours
 from model.engine.library import dtype_of
@@ -25,36 +25,20 @@ from model.engine.pair_rows import (
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
 from model.engine.serving import in_range, vehicle_costs
-from model.engine.share_rows import UNUSED, write_shares
+from model.engine.share_rows import write_shares
+from model.engine.type_rows import limit, most_sorties, rate_row, write_type
 from model.engine.variants import (
-    Variant, Way, durations_of, index_of, variant_of, way_of, ways_of, weighed_variant_of,
-    write_legs,
+    Variant, Way, durations_of, variant_of, ways_of, weighed_variant_of, write_legs,
 )
 from model.problem import (
-    MAX_DIMENSIONS, MAX_STORMS, MS_PER_HOUR, UNLIMITED, BoolArray, Customer, DroneType, FloatArray,
-    IntArray, Problem, VehicleType, shares_chargers,
+    BoolArray, Customer, FloatArray, IntArray, Problem, shares_chargers,
 )
-
-DIMENSIONS_PER_TIER = 3
-"""How many dimensions of load are looked at together."""
-
-MAX_TIERS = -(-MAX_DIMENSIONS // DIMENSIONS_PER_TIER)
-
-MOST_DRONES = 256
-"""How many drones of a truck may be charged aboard."""
 
 MAX_NEIGHBOURS = 24
 """How many nearest customers of each node are kept."""
 
 FAR = 2**58
 """An instant later than any that occurs."""
-
-ANY, LAST, BEGUN = range(3)
-
-WORK_RATES = "time", "overtime"
-"""The rates per hour of what a vehicle's work costs."""
-
-NO_PROFILE = -1
 
 AMOUNTS = 2 * DIMENSIONS_PER_TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
@@ -178,18 +162,13 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
         variants = [variant_of(each, problem, durations) for each in (kind, kind.drones)]
         if kind.flies:
             variants[1] = weighed_variant_of(kind, problem, durations)
-        instance.type[row, index] = _type_row(kind, ways, drone_row,
-                                              shares_chargers(problem, kind), *variants)
+        write_type(instance.type[row, index], kind, ways, drone_row=drone_row,
+                   variant=variants[0], drone_variant=variants[1],
+                   shares_chargers=shares_chargers(problem, kind))
         if charge_left := problem.vehicle_types[part_of].charge_left:
             instance.type[row, index].first_charge[: len(charge_left)] = charge_left
         instance.reload[row, index, list(kind.reload_places)] = True
-        drones = kind.drones
-        worked = _worked(kind) / MS_PER_HOUR * kind.cost_per_hour
-        instance.rate[row, index] = (
-            kind.fixed_cost + worked, kind.cost_per_km, kind.cost_per_stop, kind.cost_per_hour,
-            _overtime_rate(kind),
-            drones.cost_per_km if drones else 0.0, drones.cost_per_hour if drones else 0.0,
-            kind.cost_per_load_km / 10**problem.amount_decimals[0])
+        instance.rate[row, index] = rate_row(kind, 10**problem.amount_decimals[0])
         if kind.speed_profile is not None:
             changes = len(kind.speed_profile.times)
             instance.profile_time[row, index, :changes] = kind.speed_profile.times
@@ -198,7 +177,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
                 instance.type[row])
     if instance.hub.shape[1]:
         instance.hub[row, :problem.num_depots] = [
-            (_limit(depot.batteries), _limit(depot.chargers)) for depot in problem.depots]
+            (limit(depot.batteries), limit(depot.chargers)) for depot in problem.depots]
     if problem.forbids_launches:
         instance.no_launch[row, :problem.num_nodes] = [
             not problem.may_launch_at(node) for node in range(problem.num_nodes)]
@@ -269,101 +248,6 @@ def _customer_row(customer: Customer) -> tuple[Any, ...]:
             customer.latest, padded(customer.demand, DIMENSIONS_PER_TIER))
 
 
-def _type_row(kind: VehicleType, ways: Sequence[Way], drone_row: int, shares: bool, variant: int,
-              drone_variant: int) -> tuple[Any, ...]:
-    drones = kind.drones
-    load = kind.initial_load or (0,) * len(kind.capacity)
-    free = [most - taken for most, taken in zip(kind.capacity, load, strict=True)]
-    energy = kind.energy if drones is None else drones.energy
-    room = MAX_TIERS * DIMENSIONS_PER_TIER
-    travel = index_of(ways, way_of(kind, True))
-    return (
-        kind.count, travel, kind.depot, kind.begins_at, kind.ends_at,
-        _changes_ends(kind), kind.earliest, kind.busy_until,
-        int(kind.works_since is not None), *_limits_of_work(kind),
-        _limit(kind.max_trip_distance), longest_travel(kind), kind.max_trips,
-        _limit(kind.max_stops), _most_sorties(kind), kind.most_airborne, int(kind.truck_waits),
-        kind.reload_duration,
-        NO_PROFILE if kind.speed_profile is None else len(kind.speed_profile.times), drone_row,
-        *(_itself(kind, travel) if drones is None else _drones(drones, ways)), variant,
-        drone_variant, *battery_row(energy), int(kind.flies), int(kind.takes_batteries),
-        kind.trips_uncharged, int(shares), _pickup_order(kind), int(kind.lifo), load[0],
-        padded(free, room), padded(() if drones is None else drones.capacity, room),
-        *powers_row(energy), full_row(energy, MOST_DRONES),
-        *_storm_rows(kind if kind.flies else drones), *driver_row(kind, room), UNUSED, 0)
-
-
-def _overtime_rate(kind: VehicleType) -> float:
-    """Return what an hour of overtime costs; nothing where there can't be any."""
-    has_limit = kind.latest < UNLIMITED or kind.max_working_duration is not None
-    return kind.overtime.cost_per_hour if kind.overtime and has_limit else 0.0
-
-
-def _pickup_order(kind: VehicleType) -> int:
-    if kind.pickups == "last" and not kind.has_delivered:
-        return LAST
-    return BEGUN if kind.pickups == "last" or kind.lifo else ANY
-
-
-def _changes_ends(kind: VehicleType) -> int:
-    """Tell whether trips of a type, if there are several, don't all begin and end at one place."""
-    places = {kind.begins_at, kind.ends_at, *kind.reload_places}
-    return int(kind.max_trips > 1 and places != {kind.depot})
-
-
-def _limit(stated: int | None) -> int:
-    return UNLIMITED if stated is None else stated
-
-
-def _most_sorties(kind: VehicleType) -> int:
-    """Return how many sorties may be flown on a trip, and there are batteries for."""
-    batteries = None if kind.drones is None else kind.drones.batteries
-    return min(_limit(kind.max_sorties), _limit(batteries))
-
-
-def _limits_of_work(kind: VehicleType) -> tuple[int, int, int, int]:
-    """Return the last end and the longest working duration, with overtime and without.
-
-    The working duration is what is left of it when a vehicle may begin.
-    """
-    longest, over = kind.max_working_duration, kind.overtime.max_duration if kind.overtime else 0
-    usual = UNLIMITED if longest is None else longest - _worked(kind)
-    return (min(UNLIMITED, kind.latest + over),
-            UNLIMITED if longest is None or over == UNLIMITED else usual + over,
-            kind.latest, usual)
-
-
-def _drones(drones: DroneType, ways: Sequence[Way]) -> tuple[int, ...]:
-    out, home = (index_of(ways, Way(drones.travel, sets_up)) for sets_up in (True, False))
-    straight = out if drones.max_range is None else index_of(ways, Way(drones.straight, False))
-    relaunch = drones.launch_duration + drones.swap_duration
-    return (drones.count, out, home, drones.endurance, int(drones.endurance_includes_waiting),
-            relaunch if drones.has_launched else drones.launch_duration, relaunch,
-            drones.recovery_duration, straight, _limit(drones.max_range))
-
-
-def _itself(kind: VehicleType, travel: int) -> tuple[int, ...]:
-    """Return what is said of drones, of a vehicle that has none; it may fly by itself."""
-    if not kind.flies:
-        return (0,) * 10
-    return (0, travel, travel, kind.endurance, 1, kind.launch_duration, kind.launch_duration,
-            kind.recovery_duration, travel, UNLIMITED)
-
-
-def _storm_rows(
-    flyer: DroneType | VehicleType | None,
-) -> tuple[int, tuple[int, ...], tuple[int, ...]]:
-    """Return how often it storms, from when, and until when."""
-    storms = () if flyer is None else flyer.storms
-    return (len(storms), padded([begin for begin, _ in storms], MAX_STORMS),
-            padded([end for _, end in storms], MAX_STORMS))
-
-
-def _worked(kind: VehicleType) -> int:
-    """Return how long a vehicle has worked when it may begin."""
-    return 0 if kind.works_since is None else kind.earliest - kind.works_since
-
-
 def _pack_compatibility(instance: Instance, row: int, problem: Problem,
                         kinds: Sequence[Kind]) -> None:
     """Write which types may serve which customers, by truck and by drone. In place."""
@@ -390,7 +274,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem,
         if index == part_of:
             served = fits & (by_drone if kind.flies else by_truck)
             instance.can_drive[row, index, customers] = served & (kind.max_stops != 0)
-        can_launch = _most_sorties(kind) > 0 and problem.vehicle_types[part_of].max_sorties != 0
+        can_launch = most_sorties(kind) > 0 and problem.vehicle_types[part_of].max_sorties != 0
         if kind.drones is not None and can_launch and (index != part_of or drone_row == NO_ROW):
             payload = instance.type[row, index].payload[dimensions]
             fits &= by_drone & (most <= payload).all(axis=1)

@@ -9,9 +9,11 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from model.engine.instance import ANY, DIMENSIONS_PER_TIER, FAR, Instance
+from model.engine.amount_rows import DIMENSIONS_PER_TIER
+from model.engine.instance import FAR, Instance
 from model.engine.library import dtype_of
 from model.engine.records import Records
+from model.engine.type_rows import ANY
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
 Float32Array = NDArray[np.float32]

@@ -3,9 +3,10 @@
 import numpy as np
 
 from model.engine.drone_types import any_aboard
-from model.engine.instance import FAR, NO_PROFILE, WORK_RATES, Instance
+from model.engine.instance import FAR, Instance
 from model.engine.library import dtype_of
 from model.engine.records import Records
+from model.engine.type_rows import NO_PROFILE, WORK_RATES
 from model.problem import UNLIMITED
 
 

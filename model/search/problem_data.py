@@ -5,10 +5,11 @@ from collections.abc import Hashable
 import numpy as np
 
 from model.engine.alarm import Alarm
-from model.engine.instance import WORK_RATES, Instance
+from model.engine.instance import Instance
 from model.engine.leg import are_the_same_back
 from model.engine.library import dtype_of
 from model.engine.records import Records
+from model.engine.type_rows import WORK_RATES
 from model.problem import (
     MM_PER_KM, MS_PER_HOUR, UNLIMITED, BoolArray, IntArray, Problem, limits_chargers,
 )

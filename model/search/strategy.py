@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from model.engine.drone_types import all_kinds
-from model.engine.instance import WORK_RATES, Instance
+from model.engine.instance import Instance
 from model.engine.records import Records
+from model.engine.type_rows import WORK_RATES
 from model.problem import UNLIMITED, BoolArray, IntArray, Problem, limits_chargers
 from model.search.route.layout import MOST_VISITS, Strategy
 

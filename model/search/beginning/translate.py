@@ -5,10 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from model.engine.amount_rows import DIMENSIONS_PER_TIER
 from model.engine.breaks import NONE, PLACES, BrokenRoute, resting_in_gap
-from model.engine.instance import DIMENSIONS_PER_TIER, NO_PROFILE
 from model.engine.library import call, dtype_of, packed
 from model.engine.records import Record, Records, one, read_rows
+from model.engine.type_rows import NO_PROFILE
 from model.problem import FloatArray, IntArray, Problem
 from model.search.route.engine import INFEASIBLE
 from model.search.route.layout import (

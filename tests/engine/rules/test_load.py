@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from model.engine.amount_rows import DIMENSIONS_PER_TIER
 from model.engine.header import dtype_of
-from model.engine.instance import DIMENSIONS_PER_TIER, pack
+from model.engine.instance import pack
 from model.engine.records import Record, Records
 from model.judge.check import check
 from model.judge.timing import RouteDecision, TripDecision, schedule

@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from model.engine.instance import FAR, NO_PROFILE, pack
+from model.engine.instance import FAR, pack
+from model.engine.type_rows import NO_PROFILE
 from model.problem import UNLIMITED, Problem, Shipment, Travel
 from model.problem.quantities import MAX_QUANTITY
 from model.problem.shipment import MOST_DETOUR
