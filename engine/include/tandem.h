@@ -627,13 +627,14 @@ typedef struct tandem_move {
     int64_t kind;
     int64_t slot;
     int64_t first;
-    int64_t last;
+    int64_t last; /* of a pair on a trip of its own, how the delivery is flown */
     int64_t drone;
     int64_t sortie;
     int64_t type;
     int64_t halt;    /* the launch site */
     int64_t landing; /* that of recovery, if there are two; of a pair, the stop */
-    int64_t late;    /* not 0: a pair is flown to after others from and to the same stops */
+    int64_t late;    /* 1: a pair is flown to after others from and to the same stops; 2: its
+                        delivery from the last of several pickups behind a stop */
     int32_t end[8];  /* of several pickups, in order: the stop times 8, and the pickup's number */
 } tandem_move;
 

@@ -32,6 +32,12 @@ inline bool brings(View<const Pair, 1> pairs, Int node, Int delivery) {
     return pairs[node].partner == delivery;
 }
 
+// Whether a truck that picks up at a node gives a drone launched there what that delivers at another:
+// it is launched no sooner than service is over.
+inline bool hands_over(View<const Pair, 1> pairs, Int node, Int delivery) {
+    return is_pickup(pairs, node) && brings(pairs, node, delivery);
+}
+
 // Who stands for a node where customers are inserted or left out: of a shipment's ends its first
 // pickup, of a customer's places the first.
 inline Int unit_of(View<const Pair, 1> pairs, Int node) {
@@ -132,7 +138,7 @@ inline Int excess_between(View<const Int, 1> max_between, Int pickup, Int left, 
 // truck before it is delivered.
 //
 // A part is aboard from the stop on where its truck picks it up, or recovers the drone that does.
-// It leaves at a later one, where its truck delivers it, or launches the drone that does.
+// It leaves at a later one, where its truck delivers it, or there or later with a drone.
 class WholePairs {
 public:
     explicit WholePairs(View<const Pair, 1> pairs) : pairs_(pairs) {}

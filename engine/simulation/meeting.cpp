@@ -78,10 +78,17 @@ struct NextLaunch {
     Int takeoff;
 };
 
+// When the launch to a customer can begin, the crew being free from `free` on.
+Int ready_to_launch(const Setting& setting, const Vehicle& vehicle, Int node, Int free) {
+    return hands_over(setting.pair, vehicle.node, node) ? std::max(free, vehicle.service_end)
+                                                        : free;
+}
+
 // The drone that can be launched first from `free` on; `launched` is how many launches of the trip
 // come before.
-NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int here, Int to,
-                       Int free, Int launched, Airspace airspace) {
+NextLaunch next_launch(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+                       Int to, Int free, Int launched, Airspace airspace) {
+    const Int here = vehicle.node;
     NextLaunch next{-1, 0};
     if (airspace == Airspace::none) return next;
     for (Int d = 0; d < drones.size(); ++d) {
@@ -91,9 +98,9 @@ NextLaunch next_launch(const Setting& setting, View<const Drone, 1> drones, Int 
         const DroneKind drone_kind = drone_kind_of(setting, drone.row);
         const Flight flight =
             drone_kind.flight(here, drone.node, is_recovered(drone, Recovery::meet) ? to : here);
-        Int begin = free;
+        Int begin = ready_to_launch(setting, vehicle, drone.node, free);
         if (charges_aboard(drone_kind.type)) {
-            begin = std::max(free, flight.charged_launch(drone.kept, drone.since));
+            begin = std::max(begin, flight.charged_launch(drone.kept, drone.since));
         }
         const Int soonest = flight.held_takeoff(take_off(drone_kind.type, begin, launched));
         if (next.drone < 0 || soonest < next.takeoff) next = {d, soonest};
@@ -162,7 +169,7 @@ Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drone
     while (waiting + looping > 0) {
         const Airspace airspace = airspace_beside(setting.type, drones, looping + leaving);
         const auto [launched, takeoff] =
-            next_launch(setting, drones, here, to, free, before, airspace);
+            next_launch(setting, vehicle, drones, to, free, before, airspace);
         Int begin = takeoff;
         if (launched >= 0) {
             begin = launch_begin(setting.types[drones[launched].row], takeoff, before);
@@ -302,19 +309,22 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
     return chosen;
 }
 
-bool order_may_change(const VehicleType& type) {
-    return are_several(type) || limits_airborne(type);
+bool order_may_change(const Setting& setting) {
+    return are_several(setting.type) || limits_airborne(setting.type) || some_paired(setting.pair);
 }
 
 bool order_is_open(const Setting& setting, const Vehicle& vehicle) {
-    return order_may_change(setting.type) && vehicle.flying > 0 &&
+    return order_may_change(setting) && vehicle.flying > 0 &&
            longest_work(setting.type) < unlimited;
 }
 
-Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
-                    Int takeoff) {
-    if (!order_may_change(setting.type)) return takeoff;
-    return take_off(type, vehicle.crew, vehicle.launched);
+Takeoffs takeoffs(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
+                  Int node) {
+    const Int last = take_off(type, ready_to_launch(setting, vehicle, node, vehicle.free),
+                              vehicle.launched + vehicle.flying);
+    if (!order_may_change(setting)) return {last, last};
+    return {last, take_off(type, ready_to_launch(setting, vehicle, node, vehicle.crew),
+                           vehicle.launched)};
 }
 
 Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,

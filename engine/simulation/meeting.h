@@ -32,16 +32,21 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
                View<const Drone, 1> drones, Int node);
 
 // Whether drones may be launched in another order than they were chosen in: those of another type,
-// or which come back to where they are launched.
-bool order_may_change(const VehicleType& type);
+// which come back to where they are launched, or carry what the truck picks up there.
+bool order_may_change(const Setting& setting);
 
 // Tell whether another drone in flight may be the first, so that working may begin sooner.
 bool order_is_open(const Setting& setting, const Vehicle& vehicle);
 
-// When a drone takes off at the soonest that does at `takeoff` behind all in flight: it may be
+// When a drone takes off to a customer: behind all in flight, and at the soonest, as it may be
 // launched before these.
-Int soonest_takeoff(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
-                    Int takeoff);
+struct Takeoffs {
+    Int last;
+    Int soonest;
+};
+
+Takeoffs takeoffs(const Setting& setting, const Vehicle& vehicle, const VehicleType& type,
+                  Int node);
 
 // End of the launches and recoveries at a stop, arrival at the next, end of the recoveries there;
 // -1 each if some sortie can be recovered at neither, or is launched too late, or a break can't be

@@ -81,8 +81,7 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
     const Windows place = setting.node[node];
     const DroneKind drone_kind = drone_kind_of(setting, drone.row);
     const Int flight = drone_kind.out(vehicle.node, node);
-    const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
-    const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
+    const auto [takeoff, soonest] = takeoffs(setting, vehicle, drone_kind.type, node);
     if (unreachable(flight) || !drone_kind.in_range(vehicle.node, node) ||
         place.too_late(soonest + flight)) {
         return Verdict::no;
@@ -185,7 +184,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
             add_if_legal(verdict, {node, false});
         }
         if (room.sortie && instance.can_fly(b, k, node) && may_launch(setting, vehicle, node) &&
-            (!is_delivery(setting.pair, node) || was_aboard(open, node))) {
+            (!is_delivery(setting.pair, node) || is_aboard(open, node))) {
             const Verdict verdict = is_held || is_idle
                                         ? Verdict::unsure
                                         : judge_launch(open, *earliest, node, outlooks[found]);

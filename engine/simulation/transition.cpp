@@ -242,9 +242,8 @@ bool launch(OpenVehicle& open, Int node) {
     if (chosen < 0) return false;
     Drone& drone = drones[chosen];
     const DroneKind drone_kind = drone_kind_of(setting, drone.row);
-    const Int takeoff = take_off(drone_kind.type, vehicle.free, vehicle.launched + vehicle.flying);
+    const auto [takeoff, soonest] = takeoffs(setting, vehicle, drone_kind.type, node);
     const Int flight = drone_kind.out(vehicle.node, node);
-    const Int soonest = soonest_takeoff(setting, vehicle, drone_kind.type, takeoff);
     if (unreachable(flight) || !drone_kind.in_range(vehicle.node, node) ||
         place.too_late(soonest + flight)) {
         return false;

@@ -278,17 +278,15 @@ Int last_aboard(const OpenVehicle& open) {
     return aboard.empty() ? no_delivery : aboard.back();
 }
 
-bool was_aboard(const OpenVehicle& open, Int delivery) {
+bool is_aboard(const OpenVehicle& open, Int delivery) {
     const auto& [setting, vehicle, log, drones] = open;
-    const Int here = log.count.stops - 1;
-    const View<LoggedStop, 1> stops = log.stop.first(here);
+    const View<LoggedStop, 1> stops = log.stop.first(log.count.stops);
     const View<LoggedSortie, 1> sorties = log.sortie.first(log.count.sorties);
     return std::ranges::all_of(pickups_of(setting.pair, delivery), [&](Int pickup) {
         return std::any_of(stops.begin(), stops.end(),
                            [&](const LoggedStop& stop) { return stop.node == pickup; }) ||
                std::any_of(sorties.begin(), sorties.end(), [&](const LoggedSortie& sortie) {
-                   return sortie.node == pickup && sortie.recovery_stop != in_flight &&
-                          sortie.recovery_stop < here;
+                   return sortie.node == pickup && sortie.recovery_stop != in_flight;
                });
     });
 }

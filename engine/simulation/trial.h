@@ -38,9 +38,8 @@ constexpr Int no_delivery = -1;
 // Where the shipment is delivered that came aboard last, `no_delivery` if none is aboard.
 Int last_aboard(const OpenVehicle& open);
 
-// Tell whether all of a shipment was aboard as the vehicle came to the stop where it is, by its
-// delivery.
-bool was_aboard(const OpenVehicle& open, Int delivery);
+// Tell whether all of a shipment is aboard, or picked up where the vehicle is, by its delivery.
+bool is_aboard(const OpenVehicle& open, Int delivery);
 
 // Tell whether the trip may end at a place that is not where the route may: if another follows.
 //

@@ -328,12 +328,14 @@ private:
         const DroneKind drone_kind = drone_kind_of(setting_, sortie.row);
         const Windows place = drone_kind.node[customer];
         const bool is_flying = sortie.recovery_stop == in_flight;
+        // Until all is done at a stop, it is left as service is over.
+        const Int free = hands_over(setting_.pair, node, customer) ? std::max(free_, leave_) : free_;
         const Int takeoff = charges_aboard(drone_kind.type)
-                                ? charged_takeoff(setting_, log_, index, first_, free_, launched_)
-                                : sortie_takeoff(setting_, log_, sortie, free_, launched_);
+                                ? charged_takeoff(setting_, log_, index, first_, free, launched_)
+                                : sortie_takeoff(setting_, log_, sortie, free, launched_);
         const Int arrival = takeoff + drone_kind.out(node, customer);
         // Who is still in flight may be launched before others.
-        const bool may_be_sooner = writes && is_flying && order_may_change(setting_.type);
+        const bool may_be_sooner = writes && is_flying && order_may_change(setting_);
         if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
         const Int start = place.start_of_service(arrival);
         const Int served = place.end_of_service(arrival);
@@ -350,7 +352,7 @@ private:
             if (aboard_too_long(customer, std::min(departure_, takeoff), start)) {
                 return std::nullopt;
             }
-            if (!served_.empty() && !is_brought_soon(customer, sortie.launch_stop, start)) {
+            if (!served_.empty() && !is_brought_soon(customer, sortie.launch_stop + 1, start)) {
                 return std::nullopt;
             }
         }
@@ -492,7 +494,7 @@ Int excess_of_pairs(const Setting& setting, const VehicleLog& log) {
         deliver(log.stop[index].node, log.stop[index].start, index);
     }
     for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
-        if (sortie.launch_stop >= first) deliver(sortie.node, sortie.start, sortie.launch_stop);
+        if (sortie.launch_stop >= first) deliver(sortie.node, sortie.start, sortie.launch_stop + 1);
     }
     return most;
 }

@@ -6,6 +6,10 @@ from operator import add
 from model.problem import Problem, VehicleType
 from model.solution import Trip
 
+BEFORE_ALL = -2
+BEFORE_DRONES = -1
+"""In place of an instant at a stop: a truck delivers, and picks up for drones launched there."""
+
 
 def change_aboard(problem: Problem, node: int) -> tuple[int, ...] | None:
     """Return by how much a stop at a shipment's end changes what is aboard; None elsewhere."""
@@ -42,18 +46,29 @@ def flown_back(problem: Problem, node: int) -> tuple[int, ...]:
         problem.customer_at(node).taken_in)
 
 
+def hands_over(problem: Problem, node: int, nodes: Sequence[int]) -> bool:
+    """Tell whether a drone launched at a stop brings what its truck picks up there, to `nodes`."""
+    each = problem.shipment_at.get(node)
+    return each is not None and node != each.delivery and each.delivery in nodes
+
+
 def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
     """Yield whoever serves an end of a shipment whose others aren't where they should be, and why.
 
-    As part of a path. A parcel is aboard its truck from the stop on where that picks it up, or
-    recovers the drone that does; it is so as the truck comes to the stop where it delivers it, or
-    launches the drone that does. Both ends may be served on one sortie, if there are two.
+    As part of a path. A parcel is aboard its truck once that has picked it up at a stop, or has
+    recovered the drone that did; it is so before the truck comes to the stop where it delivers it,
+    or before it launches the drone that does. Both ends may be served on one sortie, if there are
+    two.
     """
     within = {node for sortie in trip.sorties for node in brought_within(problem, sortie.nodes)}
-    position = {stop.node: (f".stops[{index}]", index) for index, stop in trip.numbered_stops}
+    position = dict[int, tuple[str, tuple[int, int]]]()
+    for index, stop in trip.numbered_stops:
+        each = problem.shipment_at.get(stop.node)
+        delivers = each is not None and stop.node == each.delivery
+        position[stop.node] = f".stops[{index}]", (index, BEFORE_ALL if delivers else BEFORE_DRONES)
     position |= _flown_ends(problem, trip)
     driven = {stop.node for stop in trip.customer_stops}
-    for node, (where, index) in position.items():
+    for node, (where, counts) in position.items():
         each = problem.shipment_at.get(node)
         if each is None:
             continue
@@ -61,23 +76,29 @@ def parted(problem: Problem, trip: Trip) -> Iterator[tuple[str, str]]:
         if not position.keys() >= {*others}:
             yield where, f"the other end of shipment {each.id} isn't on this trip"
         elif node == each.delivery and node not in within and (
-                max(position[other][1] for other in others) >= index):
+                max(position[other][1] for other in others) > counts):
             yield where, (f"shipment {each.id} is delivered before it is picked up"
                           if driven.issuperset((node, *others)) else
                           f"shipment {each.id} isn't aboard as its truck comes to where it leaves")
 
 
-def _flown_ends(problem: Problem, trip: Trip) -> Iterator[tuple[int, tuple[str, int]]]:
-    """Yield ends of shipments that drones visit, as part of a path, and at which stop they count.
+def _flown_ends(problem: Problem,
+                trip: Trip) -> Iterator[tuple[int, tuple[str, tuple[int, int]]]]:
+    """Yield ends of shipments that drones visit, as part of a path, and from when they count.
 
-    That is where the drone of a pickup is recovered, and where that of a delivery is launched.
+    That is the stop and the instant at which the drone of a pickup is recovered, or that of a
+    delivery takes off; what a delivery's own sortie fetches afterwards is never there before.
     """
     for index, sortie in enumerate(trip.sorties):
         for number, visit in enumerate(sortie.visits):
             each = problem.shipment_at.get(visit.node)
-            if each is not None:
-                stop = sortie.launch_stop if visit.node == each.delivery else sortie.recovery_stop
-                yield visit.node, (f".sorties[{index}].visits[{number}]", stop)
+            if each is None:
+                continue
+            counts = sortie.recovery_stop, sortie.recovery_time
+            if visit.node == each.delivery:
+                fetches = not {*each.pickups}.isdisjoint(sortie.nodes)
+                counts = sortie.launch_stop, BEFORE_ALL if fetches else sortie.launch_time
+            yield visit.node, (f".sorties[{index}].visits[{number}]", counts)
 
 
 def times_between(problem: Problem, kind: VehicleType,

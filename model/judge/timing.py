@@ -16,6 +16,7 @@ from model.judge.flown_trips import charged_start, excess_of
 from model.judge.holding import held
 from model.judge.lags import Awaited, awaited, waits_of
 from model.judge.launches import launch_begins, launch_duration
+from model.judge.pairs import hands_over
 from model.judge.past import KnownTrip, resumed_service
 from model.judge.takeoff import charged_launch, held_takeoff, rest_after
 from model.problem import DroneType, Problem, VehicleType
@@ -204,10 +205,12 @@ def _by_arrival(sorties: tuple[SortieDecision, ...], stop: int, flights: dict[in
 
 
 def _operate(problem: Problem, kind: VehicleType, decision: TripDecision, stop: int, time: int,
-             flights: dict[int, _Flight], known: KnownTrip | None = None, now: int = 0) -> int:
+             served: int, flights: dict[int, _Flight], known: KnownTrip | None = None,
+             now: int = 0) -> int:
     """Launch and recover at a stop from `time` on, in place; return when all is done.
 
-    What is known stays, and nothing else begins before `now`.
+    What a truck picks up there, until `served`, is launched no sooner. What is known stays, and
+    nothing else begins before `now`.
     """
     operations: Iterable[Operation]
     if decision.operations is None:
@@ -225,7 +228,8 @@ def _operate(problem: Problem, kind: VehicleType, decision: TripDecision, stop: 
             visits = with_setups(problem, decision.nodes[sortie.launch_stop], fact.visits)
             flights[index] = _flight(problem, drones, decision, sortie, time, visits)
         elif is_launch:
-            begin = max(time, earliest, charged_launch(problem, drones, path, rest))
+            loaded = served if hands_over(problem, path[0], sortie.nodes) else 0
+            begin = max(time, earliest, loaded, charged_launch(problem, drones, path, rest))
             soonest = begin + launch_duration(drones, not flights)
             time = held_takeoff(problem, drones, path, soonest)
             flights[index] = _fly(problem, drones, decision, sortie, time)
@@ -315,8 +319,8 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
             departure = start + vehicle_type.service_at(customer)
         if drones is not None and decision.sorties:
             departure = max(departure,
-                            _operate(problem, vehicle_type, decision, index,
-                                     start if node < first else arrival + setup, flights))
+                            _operate(problem, vehicle_type, decision, index, start if node < first
+                                     else arrival + setup, departure, flights))
         stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
         return Trip(tuple(stops), (), tuple(breaks), decision.charges)
@@ -351,7 +355,7 @@ def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecis
             ready = start
         if drones is not None and decision.sorties:
             departure = max(departure, _operate(problem, vehicle_type, decision, index, ready,
-                                                flights, known, now))
+                                                departure, flights, known, now))
         departure = departure if problem.is_nowhere(node) else max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure

@@ -15,6 +15,7 @@ from model.judge.energy import Rest, charges, first_rest, sortie_energy
 from model.judge.flown_trips import excess_of
 from model.judge.holding import held
 from model.judge.launches import launch_duration
+from model.judge.pairs import hands_over
 from model.judge.takeoff import charged_launch, held_takeoff
 from model.judge.timing import Operation
 from model.problem import UNREACHABLE, Problem, VehicleType
@@ -24,7 +25,7 @@ from model.search.regions.region import customers_of
 from tests.model.fliers import without_taken
 from tests.model.open_trip import (
     MOST_TIMED, Flight, OpenTrip, back_at, by_return, cannot_be_flown, drained, drones_of,
-    excess_of_charge, in_storm, keeps_lags, lasts, preferred, timed_trips,
+    excess_of_charge, in_storm, keeps_lags, lasts, preferred, served_at, timed_trips,
 )
 from tests.model.tiny_company import companions
 from tests.model.tiny_hours import keeps_day
@@ -111,12 +112,13 @@ def _rest(problem: Problem, kind: VehicleType, trip: Trip, drone: int, stop: int
 
 
 def _at_this_stop(problem: Problem, kind: VehicleType, recovered: OpenTrip,
-                  arrived: list[Operation], crew: int, rests: dict[int, Rest | None],
-                  loops: list[int]) -> list[Operation]:
+                  arrived: list[Operation], crew: int, served: int,
+                  rests: dict[int, Rest | None], loops: list[int]) -> list[Operation]:
     """Return what is done at the last stop, the crew being free from `crew` on.
 
-    What can be launched first is, of sorties whose drones have come aboard as `rests` says; loops
-    are recovered behind, or while a launch is held back.
+    What can be launched first is, of sorties whose drones have come aboard as `rests` says, and
+    with what is picked up there once it is `served`; loops are recovered behind, or while a launch
+    is held back.
     """
     launches = list(rests)
     decision, order, back = recovered.decision(), list(arrived), dict[int, int]()
@@ -127,7 +129,8 @@ def _at_this_stop(problem: Problem, kind: VehicleType, recovered: OpenTrip,
         drones, path = drones_of(kind, recovered, index), decision.path_of(
             decision.sorties[index])
         lasting = launch_duration(drones, is_first=not launched)
-        begin = max(crew, charged_launch(problem, drones, path, rests[index]))
+        loaded = served if hands_over(problem, path[0], path[1:-1]) else 0
+        begin = max(crew, loaded, charged_launch(problem, drones, path, rests[index]))
         return held_takeoff(problem, drones, path, begin + lasting), lasting
 
     def may_fly(index: int) -> bool:
@@ -190,7 +193,9 @@ def _settle_flights(problem: Problem, vehicle: Vehicle, to: int) -> Vehicle | No
                     *(timed.sorties[index].recovery_time for index, _ in arrived)])
         rests = {index: _rest(problem, vehicle_type, timed, trip.flights[index].drone, here)
                  for index in flying}
-        operations = _at_this_stop(problem, vehicle_type, rough, arrived, crew, rests, loops)
+        operations = _at_this_stop(problem, vehicle_type, rough, arrived, crew,
+                                   served_at(problem, vehicle_type, timed.stops[here]), rests,
+                                   loops)
         settled = _recovered(trip, to, loops, flying, operations)
         timed = _timed(problem, vehicle, settled)
         arrivals = {}
@@ -232,6 +237,10 @@ def after(problem: Problem, vehicle: Vehicle, kind: int, node: int) -> Vehicle |
 
 def _launched(problem: Problem, vehicle: Vehicle, node: int) -> Vehicle | None:
     trip, vehicle_type = vehicle.trips[-1], problem.vehicle_types[vehicle.kind]
+    each = problem.shipment_at.get(node)
+    if each is not None and node == each.delivery and any(
+            trip.flights[index].customer in each.pickups for index in trip.flying):
+        return None  # it isn't aboard
     busy = {trip.flights[index].drone for index in trip.flying}
     free = [drone for drone in range(vehicle_type.num_drones) if drone not in busy]
     if len(vehicle_type.drone_types) > 1:

@@ -17,7 +17,7 @@ from model.judge.timing import (
     Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
 )
 from model.problem import DroneType, Problem, VehicleType
-from model.solution import Route, Sortie, Trip
+from model.solution import Route, Sortie, Stop, Trip
 
 MOST_TIMED = 1000
 """Lists of trips whose times are kept, and answers: those that the next actions ask for again."""
@@ -120,6 +120,13 @@ def in_range(problem: Problem, drones: DroneType, node: int, customer: int) -> b
 def drones_of(kind: VehicleType, trip: OpenTrip, index: int) -> DroneType:
     """Return the type of drones one of which flies a sortie."""
     return kind.drone_type(trip.flights[index].drone)
+
+
+def served_at(problem: Problem, kind: VehicleType, stop: Stop) -> int:
+    """Return when a truck has done its own service at a stop."""
+    if stop.node < problem.num_depots:
+        return stop.service_start
+    return stop.service_start + kind.service_at(problem.customer_at(stop.node))
 
 
 def back_at(problem: Problem, kind: VehicleType, trip: OpenTrip, index: int, take_off: int) -> int:

@@ -277,15 +277,15 @@ Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1>
     return {cost, time, cum, depart};
 }
 
-// How many ways there are to deliver what a route fetches alone: by truck, by a drone of a row, or
-// on the sortie that fetches it.
+// How many ways there are to deliver what a route fetches alone: by truck, on the sortie that
+// fetches it, or by a drone of a row from where the route ends, or from the pickup's stop and back
+// there or to the end.
 Int ways_to_deliver(const ProblemData& data, Int k, Int node) {
     const bool flies = is_pickup(data.pair, node) && data.can(k, 1, data.pair[node].partner);
-    return flies ? num_drone_rows(data.type, k) + 2 : 1;
+    return flies ? ways_to_bring * num_drone_rows(data.type, k) + 2 : 1;
 }
 
-// Lets a route deliver what it fetches alone in one of these ways, another drone from where the
-// route ends; false if it may not. In place.
+// Lets a route deliver what it fetches alone in one of these ways; false if it may not. In place.
 bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, Int way) {
     if (!is_pickup(data.pair, node)) return true;
     const auto& [route, stops, sorties] = sequence;
@@ -294,16 +294,18 @@ bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, 
         insert_stops(sequence, end, {{delivery, customer_stop}});
         return true;
     }
-    if (way > num_drone_rows(data.type, route.type)) {
-        const bool fetched = route.sorties > 0;
+    const bool fetched = route.sorties > 0;
+    if (way == 1) {
         const Int row = fetched ? row_of_drone(data.type, route.type, sorties[0].drone) : 0;
         if (!fetched || data.visits[row] < 2 || !data.can(row, 1, delivery)) return false;
         join_sortie(sorties[0], 1, delivery);
         return true;
     }
-    const Int row = drone_row_at(data.type, route.type, way - 1);
-    if (!data.can(row, 1, delivery)) return false;
-    add_sortie(route, sorties, end, end, first_drone(data.type, route.type, row), delivery);
+    const Int row = drone_row_at(data.type, route.type, (way - 2) / ways_to_bring);
+    const Int bringing = (way - 2) % ways_to_bring;
+    if (!data.can(row, 1, delivery) || (bringing > 0 && fetched)) return false;
+    const auto [launch, recovery] = bringing_flight(bringing, end);
+    add_sortie(route, sorties, launch, recovery, first_drone(data.type, route.type, row), delivery);
     return true;
 }
 

@@ -42,6 +42,7 @@ public:
         if (brings) add_driven(node, pickups);
         if (fetches) add_driven(delivery_, deliveries);
         if (fetches && brings) fly_both();
+        fly_on();
         for (const EndPlace& pickup : pickups.items()) {
             for (const EndPlace& delivery : deliveries.items()) join(pickup, delivery);
         }
@@ -66,12 +67,20 @@ private:
         });
     }
 
+    // Lists sorties that deliver from the stop where the truck picks up. In place.
+    void fly_on() {
+        for_each_flight_on(node, delivery_, [&](const EndPlace& pickup, EndPlace delivery) {
+            delivery.from = 0;
+            pairs_.add({pickup.cost + delivery.cost, pickup, delivery});
+        });
+    }
+
     // Lists a shipment at two places if the truck holds it between, and a drone flies one. In
     // place.
     void join(const EndPlace& pickup, const EndPlace& delivery) {
         const double cost = pickup.cost + delivery.cost;
         if ((pickup.row == by_wheels && delivery.row == by_wheels) ||
-            pickup.aboard() >= delivery.leaves() || is_dear(cost)) {
+            pickup.aboard() > delivery.leaves() || is_dear(cost)) {
             return;
         }
         const Int first = pickup.aboard() / 2, behind = (delivery.leaves() + 1) / 2;
@@ -91,10 +100,11 @@ private:
 
     Int drone_for(const EndPlace& place) const {
         if (place.row < 0) return nowhere;
-        return free_drone(data, fleet, slot, {2 * place.first, 2 * place.last}, place.row);
+        return free_drone(data, fleet, slot, {place.launch(), place.recovery()}, place.row);
     }
 
     static Int kind_of(const PairPlace& place) {
+        if (place.delivery.flies_on()) return from_pickup;
         if (place.pickup.row == by_wheels) return by_truck_and_drone;
         if (place.delivery.row == by_wheels) return by_drone_and_truck;
         return place.delivery.row == by_same ? on_one_flight : by_drones;
@@ -111,8 +121,10 @@ private:
         move.landing = brings ? delivery.last : pickup.last;
         move.drone = fetches ? fetching : bringing;
         move.sortie = bringing;
+        const bool relays = fetches && brings && pickup.last == delivery.first;
+        move.late = relays ? 1 : 0;
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
-        if (!brings || !flies_beside(delivery)) return;
+        if (!brings || relays || delivery.flies_on() || !flies_beside(delivery)) return;
         move.late = 1;
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }

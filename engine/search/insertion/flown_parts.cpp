@@ -43,9 +43,17 @@ public:
         for (Int end = 0; end <= pickups_.count; ++end) {
             flies = add_flown(end_node(end), places(end)) || flies;
             add_driven(end_node(end), places(end));
-            places(end).sort();
+        }
+        EndPlaces& deliveries = places(pickups_.count);
+        for (Int end = 0; end < pickups_.count; ++end) {
+            for_each_flight_on(end_node(end), delivery_, [&](const EndPlace&, EndPlace delivery) {
+                delivery.from = end;
+                deliveries.add(delivery);
+                flies = true;
+            });
         }
         if (!flies) return;
+        for (Int end = 0; end <= pickups_.count; ++end) places(end).sort();
         for (Int last = 0; last < places(pickups_.count).items().size(); ++last) combine(last);
         combined_.sort();
         for (const Combination& each : combined_.items()) {
@@ -88,11 +96,13 @@ private:
 
     // The next place of a pickup, from one on, where it is aboard before the delivery leaves.
     Int next_place(Int end, Int from, const Choice& choice) {
-        const Int leaves = place_of(pickups_.count, choice).leaves();
+        const EndPlace& delivery = place_of(pickups_.count, choice);
         const View<const EndPlace, 1> items = places(end).items();
         for (Int place = from; place < items.size(); ++place) {
             const EndPlace& pickup = items[place];
-            if (pickup.aboard() < leaves || (!pickup.is_flown() && pickup.aboard() == leaves)) {
+            const bool is_last = delivery.from == end;
+            if (is_last ? !pickup.is_flown() && pickup.aboard() == delivery.leaves()
+                        : pickup.aboard() <= delivery.leaves()) {
                 return place;
             }
         }
@@ -139,6 +149,7 @@ private:
             move.sortie = drone_for(delivery, {});
             if (move.sortie < 0) return;
         }
+        move.late = delivery.flies_on() ? from_last_pickup : delivery.is_flown() ? 1 : 0;
         if (!note_pickups(choice, move)) return;
         move.first = move.end[0] / most_pickups;
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
@@ -151,7 +162,9 @@ private:
         std::array<std::pair<Int, Int>, most_pickups> order;
         order.fill({far, 0});
         for (Int end = 0; end < pickups_.count; ++end) {
-            order[std::size_t(end)] = {place_of(end, choice).first, end};
+            // Of those behind a stop that is last from where the delivery is flown on.
+            const Int last = place_of(pickups_.count, choice).from == end ? 1 : 0;
+            order[std::size_t(end)] = {2 * place_of(end, choice).first + last, end};
         }
         std::sort(order.begin(), order.end());
         for (Int rank = 0; rank < pickups_.count; ++rank) {
@@ -187,7 +200,7 @@ private:
     // A drone of a place's row that is free then; `nowhere` if there is none.
     Int drone_for(const EndPlace& place, const Noted& noted) const {
         const Int drone =
-            free_drone(data, fleet, slot, {2 * place.first, 2 * place.last}, place.row);
+            free_drone(data, fleet, slot, {place.launch(), place.recovery()}, place.row);
         if (drone < 0 || !noted.takes(drone, place)) return drone;
         const Int first = first_drone(data.type, route.type, place.row);
         for (Int other = first; other < first + data.type[place.row].drones; ++other) {

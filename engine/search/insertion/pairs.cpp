@@ -350,7 +350,11 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
             }
             for_each_server(data, move.type, partner, [&](Int bringing) {
                 move.sortie = bringing;
-                best.try_move(price_move(data, fleet, move, node, best.cost), move);
+                const Int ways = fetching < 0 && bringing >= 0 ? ways_to_bring : 1;
+                for (move.last = 0; move.last < ways; ++move.last) {
+                    best.try_move(price_move(data, fleet, move, node, best.cost), move);
+                }
+                move.last = 0;
             });
         });
     }

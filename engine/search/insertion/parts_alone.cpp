@@ -34,7 +34,7 @@ Int most_orders_of(Int count, bool by_drone) {
 
 // The ways in which a vehicle of a type serves a shipment on a trip of its own: by truck in several
 // orders, or so that drones fetch all pickups from where the trip begins, or one on some flights,
-// the shortest first, and perhaps deliver from where it ends.
+// the shortest first, and perhaps deliver from where it ends, or from the last pickup by truck.
 class PartWays {
 public:
     PartWays(const ProblemData& data, Int k, Int node, bool by_drone, Int flights)
@@ -47,7 +47,7 @@ public:
           orders_(orders_of(pickups_.count, most_orders_of(pickups_.count, by_drone))),
           flights_(std::min(flights, pickups_.count * (pickups_.count + 1) / 2)),
           fetchings_(by_drone ? 1 + rows_ * (1 + pickups_.count * flights_) : 1),
-          bringings_(by_drone ? 1 + rows_ : 1) {}
+          bringings_(by_drone ? 1 + ways_to_bring * rows_ : 1) {}
 
     Int number() const { return by_drone_ && rows_ == 0 ? 0 : orders_ * fetchings_ * bringings_; }
 
@@ -62,7 +62,7 @@ public:
         move.drone = move.halt = 0;
         Int driven = 0;
         return note_fetching(fetching, order, start, move, driven) &&
-               (bringing == 0 || note_bringing(bringing - 1, start + driven + 1, move));
+               (bringing == 0 || note_bringing(bringing - 1, start, driven, move));
     }
 
 private:
@@ -104,12 +104,16 @@ private:
         return true;
     }
 
-    // Notes that a drone of a row, by its place among them, delivers from the trip's end.
-    bool note_bringing(Int place, Int end, Move& move) const {
-        const Int row = drone_row_at(data_.type, k_, place);
-        if (!data_.can(row, 1, delivery_)) return false;
+    // Notes that a drone of a row delivers from the trip's end, or the last of so many pickups by
+    // truck; false if that may not be.
+    bool note_bringing(Int number, Int start, Int driven, Move& move) const {
+        const Int row = drone_row_at(data_.type, k_, number / ways_to_bring);
+        const Int way = number % ways_to_bring;
+        if (!data_.can(row, 1, delivery_) || (way > 0 && driven == 0)) return false;
         move.sortie = first_drone(data_.type, k_, row);
-        move.last = move.landing = end;
+        const auto [launch, recovery] = bringing_flight(way, start + driven + 1);
+        move.last = launch;
+        move.landing = recovery;
         return true;
     }
 

@@ -112,6 +112,51 @@ struct TripScan {
         });
     }
 
+    // Calls `visit` with each place where the truck may serve a pickup and launch a drone that
+    // delivers there, and with each such flight.
+    template <class Visit>
+    void for_each_flight_on(Int pickup, Int delivery, const Visit& visit) const {
+        if (!data.can(route.type, 1, delivery) || !allows_stops(type, stops_on(trip) + 1) ||
+            !may_launch(type, route, fleet.sortie[slot], trip)) {
+            return;
+        }
+        const Newcomer driven = newcomer(pickup);
+        for_each_row(delivery, delivery, [&](Int row) {
+            const VehicleType& drone = data.type[row];
+            if (!may_meet(drone, pickup, delivery)) return;
+            const Leg out = leg(legs_of(data.leg, drone.drone_travel), pickup, delivery);
+            const Windows place = data.place.by_air(drone)[delivery];
+            for (Int p = trip.first; p < trip.last; ++p) {
+                const auto [there, on, distance] = detour(driven, p);
+                const double cost = double(distance) * rate.distance + rate.stop;
+                if (is_dear(cost) || driven.place.too_late(stops[p].leave + there.duration)) {
+                    continue;
+                }
+                for_each_landing(row, pickup, delivery, p, [&](Int recovery, Leg home) {
+                    const double flown =
+                        flown_cost(data.rate[row], out.distance + home.distance);
+                    if (!is_dear(cost + flown) &&
+                        Flight{drone, place, out.duration, home.duration}.can_serve()) {
+                        visit(EndPlace{cost, by_wheels, p, p}, EndPlace{flown, row, p, recovery});
+                    }
+                });
+            }
+        });
+    }
+
+    // Calls `visit` with each stop from where a drone is launched at a pickup behind one on, where
+    // it may be recovered that delivers, and its leg there; the stop before stands for the pickup.
+    template <class Visit>
+    void for_each_landing(Int row, Int pickup, Int delivery, Int behind, const Visit& visit) const {
+        const LegRow onward = legs_from(data.leg, data.type[row].home_travel, delivery);
+        const bool crosses = data.strategy.crossings && !waits_for_drones(type);
+        const Int latest = crosses ? std::min(trip.last, behind + max_span) : behind;
+        for (Int p = data.strategy.loops ? behind : behind + 1; p <= latest; ++p) {
+            const Int node_there = p == behind ? pickup : stops[p].node;
+            if (may_meet(data.type[row], node_there, delivery)) visit(p, leg_to(onward, node_there));
+        }
+    }
+
     // Adds where the truck may serve an end. In place.
     template <class Places>
     void add_driven(Int end, Places& places) const {

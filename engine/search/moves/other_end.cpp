@@ -66,14 +66,16 @@ public:
 
 private:
     // Notes until when the shipment is aboard by the other end, or from when by the others, in half
-    // stops. In place.
+    // stops: until before the stop where the truck delivers it. In place.
     void note_others() {
         const auto is_other = [&](Int there) {
             return comes_first_ ? there == data.pair[node].partner
                                 : is_paired(data.pair, there) && brings(data.pair, there, node);
         };
         for (Int p = trip.first; p <= trip.last; ++p) {
-            if (stops[p].kind == customer_stop && is_other(stops[p].node)) other_ = 2 * p;
+            if (stops[p].kind == customer_stop && is_other(stops[p].node)) {
+                other_ = 2 * p - (comes_first_ ? 1 : 0);
+            }
         }
         for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
             if (!std::any_of(sortie.nodes, sortie.nodes + sortie.count, is_other)) continue;
@@ -83,7 +85,7 @@ private:
 
     // Whether the end may be served so that the shipment is aboard from when, or until when.
     bool is_in_order(Int aboard, Int leaves) const {
-        return comes_first_ ? aboard < other_ : other_ < leaves;
+        return comes_first_ ? aboard <= other_ : other_ <= leaves;
     }
 
     template <class Add>

@@ -84,11 +84,26 @@ bool reaches(const Truck& truck, const DroneData& drone_data, const Sortie& sort
                        [&](Int customer) { return in_range(truck.data, type, node, customer); });
 }
 
-// Launch a sortie from `node` once the truck's crew is free. In place; false if not allowed.
-bool fly_out(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums& sums) {
+// Return when the launch of a sortie at `node` can begin, by what the truck does there.
+TimeSegment ready_to_launch(const Truck& truck, const Sortie& sortie, Int node,
+                            const BlockSums& sums) {
+    const auto is_handed = [&](Int delivery) {
+        return hands_over(truck.data.pair, node, delivery);
+    };
+    if (!some_paired(truck.data.pair) ||
+        std::none_of(sortie.nodes, sortie.nodes + sortie.count, is_handed)) {
+        return {sums.free_d, sums.free_c};
+    }
+    return {std::max(sums.free_d, sums.served_d), std::max(sums.free_c, sums.served_c)};
+}
+
+// Launch a sortie from `node` once the truck is ready. In place; false if not allowed.
+bool fly_out(const Truck& truck, const DroneData& drone_data, Sortie& sortie, Int node,
+             BlockSums& sums) {
     const VehicleType& type = drone_data.type;
-    Int d = take_off(type, sums.free_d, sums.launched);
-    Int c = take_off(type, sums.free_c, sums.launched);
+    const TimeSegment ready = ready_to_launch(truck, sortie, node, sums);
+    Int d = take_off(type, ready.d, sums.launched);
+    Int c = take_off(type, ready.c, sums.launched);
     const Int takeoff = TimeSegment{d, c}.at(sums.time);
     const Int held = soonest_takeoff(drone_data, sortie, node, takeoff);
     if (held > takeoff) c = held;
@@ -183,14 +198,35 @@ bool has_airspace(const VehicleType& type, View<const Sortie, 1> sorties, Int in
     return true;
 }
 
+// Tell whether a drone that has still to be recovered at stop `p` fetches what a sortie delivers.
+bool is_on_its_way(View<const Pair, 1> pairs, View<const Sortie, 1> sorties, Int index, Int p,
+                   Int oldest) {
+    const Sortie& sortie = sorties[index];
+    for (Int other = oldest; other < sorties.size() && sorties[other].launch <= p; ++other) {
+        const Sortie& fetching = sorties[other];
+        if (other == index || fetching.recovery != p || fetching.state == sortie_done) continue;
+        for (Int visit = 0; visit < fetching.count; ++visit) {
+            const Int node = fetching.nodes[visit];
+            if (is_pickup(pairs, node) && std::find(sortie.nodes, sortie.nodes + sortie.count,
+                                                    pairs[node].partner) !=
+                                              sortie.nodes + sortie.count) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
 // Tell whether a sortie is to be launched or recovered at stop `p` next.
-bool is_due(const VehicleType& type, View<const Sortie, 1> sorties, Int index, Int p,
+bool is_due(const Truck& truck, View<const Sortie, 1> sorties, Int index, Int p,
             const BlockSums& sums) {
     const Sortie& sortie = sorties[index];
     if (sortie.state == sortie_flies) return sortie.recovery == p;
     return sortie.state == sortie_waits && sortie.launch == p &&
            is_aboard(sorties, index, sums.oldest) &&
-           (!limits_airborne(type) || has_airspace(type, sorties, index, p, sums));
+           (!limits_airborne(truck.type) || has_airspace(truck.type, sorties, index, p, sums)) &&
+           (!some_paired(truck.data.pair) ||
+            !is_on_its_way(truck.data.pair, sorties, index, p, sums.oldest));
 }
 
 // Return when the launch or recovery of a sortie that is due can begin, doubled.
@@ -198,14 +234,15 @@ bool is_due(const VehicleType& type, View<const Sortie, 1> sorties, Int index, I
 // A drone that is there is recovered before another is launched.
 Int twice_begin(const Truck& truck, const Sortie& sortie, Int node, const BlockSums& sums) {
     const DroneData drone_data = truck.drone_data(sortie);
-    const Int free = std::max(sums.time + sums.free_d, sums.free_c);
     if (sortie.state == sortie_flies) {
+        const Int free = TimeSegment{sums.free_d, sums.free_c}.at(sums.time);
         const Int flight = leg(drone_data.homeward, sortie.nodes[sortie.count - 1], node).duration;
         const Int ready = std::max(sums.time + sortie.ready_d, sortie.ready_c);
         return 2 * std::max(free, ready + flight);
     }
+    const Int ready = ready_to_launch(truck, sortie, node, sums).at(sums.time);
     const Int takeoff =
-        soonest_takeoff(drone_data, sortie, node, take_off(drone_data.type, free, sums.launched));
+        soonest_takeoff(drone_data, sortie, node, take_off(drone_data.type, ready, sums.launched));
     return 2 * launch_begin(drone_data.type, takeoff, sums.launched) + 1;
 }
 
@@ -215,7 +252,7 @@ Int next_operation(const Truck& truck, View<Sortie, 1> sorties, Int p, Int node,
     Int chosen = -1, earliest = none;
     for (Int index = sums.oldest; index < sorties.size() && sorties[index].launch <= p; ++index) {
         Sortie& sortie = sorties[index];
-        if (!is_due(truck.type, sorties, index, p, sums)) continue;
+        if (!is_due(truck, sorties, index, p, sums)) continue;
         if (sortie.state == sortie_waits) {
             const DroneData drone_data = truck.drone_data(sortie);
             if (charges_aboard(drone_data.type)) {
@@ -248,7 +285,7 @@ bool operate(const Truck& truck, View<Sortie, 1> sorties, Int p, Int node, Block
         const DroneData drone_data = truck.drone_data(sortie);
         const bool allowed = sortie.state == sortie_flies
                                  ? bring_home(drone_data, sortie, node, sums)
-                                 : fly_out(drone_data, sortie, node, sums);
+                                 : fly_out(truck, drone_data, sortie, node, sums);
         if (!allowed || !reaches(truck, drone_data, sortie, node)) return false;
     }
     for (Int index = sums.oldest; index < count && sorties[index].launch <= p; ++index) {
@@ -354,6 +391,8 @@ Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties,
             if (leave == far) return -1;
             served_c = std::max(served_c, leave);
         }
+        sums.served_d = served_d;
+        sums.served_c = served_c;
         if (!operate(truck, sorties, p, stop.node, sums)) return -1;
         d = std::max(served_d, sums.free_d);
         c = std::max(served_c, sums.free_c);

@@ -24,6 +24,8 @@ struct BlockSums {
     Int time = 0;
     Int free_d = 0;  // when the truck has nothing to do for drones
     Int free_c = 0;
+    Int served_d = 0;  // when its own service at the stop is over
+    Int served_c = 0;
     Int hi = far;  // the last arrival that keeps all rules
     Int lo = none;
     Int dep = far;         // the last that costs nothing

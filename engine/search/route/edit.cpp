@@ -56,9 +56,26 @@ void add_flights(const Sequence& sequence, const Move& move, const Pickups& pick
         if (drone < 0) continue;
         add_sortie(route, sorties, stop, stop + fetching_span(move, rank), drone, node);
     }
-    if (move.sortie < 0) return;
+    if (move.sortie < 0 || move.late == from_last_pickup) return;
     const auto add = move.late != 0 ? add_sortie : add_first_sortie;
     add(route, sorties, move.last, move.landing, move.sortie, delivery);
+}
+
+// Serve both ends of a shipment on the empty trip that begins at stop `start`. In place.
+void begin_pair(const Sequence& sequence, Int start, const Move& move, Int pickup, Int delivery) {
+    const auto& [route, stops, sorties] = sequence;
+    Int end = start + 1;
+    if (move.drone >= 0) {
+        add_sortie(route, sorties, start, start, move.drone, pickup);
+    } else {
+        insert_stops(sequence, end++, {{pickup, customer_stop}});
+    }
+    if (move.sortie >= 0) {
+        const auto [launch, recovery] = bringing_flight(move.last, end);
+        add_sortie(route, sorties, launch, recovery, move.sortie, delivery);
+    } else {
+        insert_stops(sequence, end, {{delivery, customer_stop}});
+    }
 }
 
 // Let the sortie that fetches a shipment alone deliver it, too. In place.
@@ -112,12 +129,18 @@ void insert_parts(const Sequence& sequence, const Move& move, const Pickups& pic
                   Int delivery) {
     add_flights(sequence, move, pickups, delivery);
     if (move.sortie < 0) insert_stops(sequence, move.last + 1, {{delivery, customer_stop}});
+    Int driven = 0;
     for (Int rank = pickups.count - 1; rank >= 0; --rank) {
         const auto [node, stop] = picked_as(move, pickups, rank);
         if (fetching_drone(move, rank) < 0) {
             insert_stops(sequence, stop + 1, {{node, customer_stop}});
+            ++driven;
         }
     }
+    if (move.sortie < 0 || move.late != from_last_pickup) return;
+    const Int launch = move.last + driven;
+    const Int recovery = move.landing == move.last ? launch : move.landing + driven;
+    add_sortie(sequence.route, sequence.sorties, launch, recovery, move.sortie, delivery);
 }
 
 void lay_out_parts(const Sequence& sequence, Int start, const Move& move, const Pickups& pickups,
@@ -193,6 +216,11 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
             bring(move.last, move.drone);
             insert_stops(sequence, behind, {served});
             break;
+        case from_pickup:
+            insert_stops(sequence, behind, {served});
+            add_sortie(route, sorties, behind,
+                       move.landing == move.first ? behind : move.landing + 1, move.drone, partner);
+            break;
         case by_drone_and_truck:
             insert_stops(sequence, move.last + 1, {{partner, customer_stop}});
             add_sortie(route, sorties, move.first, move.landing, move.drone, node);
@@ -212,16 +240,7 @@ void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
                 bring_within(route, sorties, node, partner);
                 break;
             }
-            if (move.sortie >= 0) {
-                add_sortie(route, sorties, behind + 1, behind + 1, move.sortie, partner);
-            } else {
-                insert_stops(sequence, behind + 1, {{partner, customer_stop}});
-            }
-            if (move.drone >= 0) {
-                add_sortie(route, sorties, behind, behind, move.drone, node);
-            } else {
-                insert_stops(sequence, behind + 1, {served});
-            }
+            begin_pair(sequence, behind, move, node, partner);
             break;
         case parts_trip:
             insert_stops(sequence, behind, {start, end});

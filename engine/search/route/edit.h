@@ -41,9 +41,13 @@ constexpr Int by_halts = 11;  // on a sortie from a stop at a launch site behind
 constexpr Int both_ends = 12;  // both ends of a shipment: the pickup behind stop `first`, the
                                // delivery behind the pickup or the former stop `last`
 constexpr Int pair_trip = 13;  // both on a trip of their own behind stop `first`; the pickup by
-                               // `drone` from its start, the delivery by drone `sortie` from its
-                               // end, or by truck where these are `nowhere`; or `on_same_flight`
+                               // `drone` from its start, the delivery by drone `sortie` as
+                               // `last` tells, or by truck where these are `nowhere`; or
+                               // `on_same_flight`
 constexpr Int on_same_flight = -2;
+constexpr Int from_last_pickup = 2;  // `late`: several pickups' delivery from the last of them, all
+                                     // behind `last` at most, to the former stop `landing`, or back
+                                     // there if that is `last`
 constexpr Int by_truck_and_drone = 15;  // the pickup behind stop `first`, the delivery on a sortie
                                         // from the former stop `last` to `landing`
 constexpr Int by_drone_and_truck = 16;  // the pickup on a sortie from stop `first` to `landing`,
@@ -53,6 +57,9 @@ constexpr Int by_drones = 17;   // the pickup on a sortie from stop `first` to `
 constexpr Int all_ends = 18;    // several pickups and their delivery, as `insert_parts` does
 constexpr Int parts_trip = 19;  // on a trip of their own behind stop `first`, as `lay_out_parts`
 constexpr Int on_one_flight = 20;  // both on a sortie from stop `first` to `last`
+constexpr Int from_pickup = 21;    // the pickup behind stop `first`, the delivery on a sortie from
+                                   // there to the former stop `landing`, or back there if that is
+                                   // `first`
 constexpr Int halt_trip = 14;  // on a trip of its own behind stop `first`, by drone from a launch
                                // site and back there
 
@@ -76,6 +83,19 @@ inline void note_fetched(Move& move, Int rank, Int drone, Int span) {
 // What of that was noted of a pickup: by which drone, `nowhere` by truck, and how many stops later.
 inline Int fetching_drone(const Move& move, Int rank) { return (move.drone >> 8 * rank & 255) - 1; }
 inline Int fetching_span(const Move& move, Int rank) { return move.halt >> 8 * rank & 255; }
+
+// From which stop to which a drone delivers on a trip that ends at stop `end`, behind the last
+// pickup: from the end, from that pickup there, or from that pickup and back.
+constexpr Int ways_to_bring = 3;
+
+struct Bringing {
+    Int launch;
+    Int recovery;
+};
+
+constexpr Bringing bringing_flight(Int way, Int end) {
+    return {way == 0 ? end : end - 1, way == 2 ? end - 1 : end};
+}
 
 // Tell whether a customer is served by way of stops more at launch sites.
 inline bool uses_halt(const Move& move) { return move.kind >= from_halt && move.kind <= by_halts; }

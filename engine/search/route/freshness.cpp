@@ -72,7 +72,7 @@ Int excess_of_pairs(const ProblemData& data, const Route& route, View<const Stop
     for (const Sortie& sortie : sorties.first(route.sorties)) {
         if (sortie.launch < trip.first || sortie.launch > trip.last) continue;
         for (Int visit = 0; visit < sortie.count; ++visit) {
-            deliver(sortie.nodes[visit], sortie.arrivals[visit], sortie.launch);
+            deliver(sortie.nodes[visit], sortie.arrivals[visit], sortie.launch + 1);
         }
     }
     return most;

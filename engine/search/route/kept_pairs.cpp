@@ -13,19 +13,21 @@ namespace {
 template <class NodeAt>
 bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Trip& trip,
                 const NodeAt& node_at) {
-    const auto comes_before = [&](Int pickup, Int behind) {
+    // By its truck, or by another sortie than that which delivers.
+    const auto comes_before = [&](Int pickup, Int behind, const Sortie* delivering) {
         for (Int p = behind - 1; p > trip.first; --p) {
             if (node_at(p) == pickup) return true;
         }
         return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-            return sortie.launch >= trip.first && sortie.recovery < behind &&
+            return &sortie != delivering && sortie.launch >= trip.first &&
+                   sortie.recovery < behind &&
                    std::find(sortie.nodes, sortie.nodes + sortie.count, pickup) !=
                        sortie.nodes + sortie.count;
         });
     };
     WholePairs pairs(data.pair);
     const auto serve = [&](Int node, Int stop) {
-        pairs.serve(node, [&](Int pickup) { return comes_before(pickup, stop); });
+        pairs.serve(node, [&](Int pickup) { return comes_before(pickup, stop, nullptr); });
     };
     for (Int p = trip.first + 1; p < trip.last; ++p) {
         if (node_at(p) >= 0) serve(node_at(p), p);
@@ -35,7 +37,7 @@ bool keep_pairs(const ProblemData& data, View<const Sortie, 1> sorties, const Tr
         for (Int visit = 0; visit < sortie.count; ++visit) {
             pairs.serve(sortie.nodes[visit], [&](Int pickup) {
                 return is_brought_within(data.pair, sortie.nodes, visit) ||
-                       comes_before(pickup, sortie.launch);
+                       comes_before(pickup, sortie.launch + 1, &sortie);
             });
         }
     }

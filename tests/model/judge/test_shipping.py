@@ -4,8 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from model.judge.timing import SortieDecision, TripDecision
+from model.judge.check import check
+from model.judge.timing import (
+    Operation, RouteDecision, SortieDecision, TripDecision, schedule,
+)
 from model.problem import Part, Shipment
+from model.solution import Route, Solution
 from tests.model.judge.test_loads import codes, judged
 
 FLOWN = (Shipment("x", 1, 3, (1000,)),)
@@ -95,7 +99,6 @@ def test_drones_parcels_are_on_their_trucks_stack(tiny_problem, customers, truck
 
 @pytest.mark.parametrize(("nodes", "sortie", "broken"), [
     ((0, 1, 2, 0), SortieDecision((3,), 2, 2), []), ((0, 1, 2, 0), SortieDecision((3,), 2, 3), []),
-    ((0, 1, 2, 0), SortieDecision((3,), 1, 2), ["PAIR"]),  # not yet aboard
     ((0, 2, 1, 0), SortieDecision((3,), 1, 2), ["PAIR"]),
     ((0, 2, 0), SortieDecision((3,), 1, 2), ["PAIR"]),  # never
     ((0, 2, 3, 0), SortieDecision((1,), 1, 2), ["PAIR"]),  # as it comes aboard it should leave
@@ -140,6 +143,45 @@ def test_what_drones_fetch_is_aboard_once_they_are_recovered(tiny_problem, custo
     assert "CAPACITY" in codes(judged(replace(small, shipments=FLOWN), trip))
     timed = (replace(FLOWN[0], max_time_between=1),)
     assert "TIME_BETWEEN" in codes(judged(replace(problem, shipments=timed), trip))
+
+
+@pytest.mark.parametrize("recovery", [1, 2])
+def test_a_drone_leaves_with_what_is_picked_up_at_its_stop(tiny_problem, customers, truck, drones,
+                                                           recovery):
+    """It does so as service ends there; another is launched as the truck arrives."""
+    a, b, c, d = (replace(each, demand=(0,), served_by="either") for each in customers)
+    two = replace(truck, drones=replace(drones, count=2, launch_duration=60_000))
+    problem = replace(tiny_problem(a, b, c, d, truck=two), shipments=FLOWN)
+    decision = TripDecision((0, 1, 2, 0), (
+        SortieDecision((3,), 1, recovery), SortieDecision((4,), 1, 2, 1)), (
+            (), (Operation(1, True), Operation(0, True), *(
+                (Operation(0, False),) if recovery == 1 else ())),
+            (*((Operation(0, False),) if recovery == 2 else ()), Operation(1, False)), ()), 0)
+    evaluation = judged(problem, decision)
+    assert codes(evaluation) == []
+    assert evaluation.routes[0].trips[0].stop_loads == ((0,),) * 4
+    trip = schedule(problem, RouteDecision(0, 0, (decision,))).trips[0]
+    served = trip.stops[1].service_start + a.service_duration
+    assert trip.sorties[0].launch_time == served + 60_000
+    assert trip.sorties[1].launch_time == trip.stops[1].arrival + 60_000
+    sooner = replace(trip, sorties=(replace(
+        trip.sorties[0], launch_time=served + 59_999), trip.sorties[1]))
+    stated = check(problem, Solution((Route(0, 0, (sooner,)),)))
+    assert "TIME_MISMATCH" in codes(stated)
+
+
+@pytest.mark.parametrize(("order", "broken"), [([(0, False), (1, True)], set()),
+                                               ([(1, True), (0, False)], {"PAIR"})])
+def test_a_drone_leaves_with_what_another_has_brought(tiny_problem, customers, truck, drones,
+                                                      order, broken):
+    a, b, c = (replace(each, demand=(0,), served_by="either") for each in customers[:3])
+    two = replace(truck, drones=replace(drones, count=2, recovery_duration=60_000))
+    problem = replace(tiny_problem(a, b, c, truck=two), shipments=FLOWN)
+    sorties = SortieDecision((1,), 0, 1), SortieDecision((3,), 1, 2, 1)
+    evaluation = judged(problem, TripDecision((0, 2, 0), sorties, (
+        (Operation(0, True),), tuple(Operation(*each) for each in order),
+        (Operation(1, False),)), 0))
+    assert set(codes(evaluation)) == broken
 
 
 def test_no_drone_serves_an_end_whose_other_is_nowhere(tiny_problem, customers, truck, drones):

@@ -276,8 +276,8 @@ def test_shipments_are_picked_up_exactly_if_they_can_be_delivered(change: Change
         problem = change(rng, draw_tiny(rng))
         assert_exact(problem, rng, seed)
         actions = set(roll([problem], seed).rollouts[0].actions)
-        delivered += any(encode_action(DRIVE, each.delivery) in actions
-                         for each in problem.shipments)
+        delivered += any(encode_action(kind, each.delivery) in actions
+                         for each in problem.shipments for kind in (DRIVE, LAUNCH))
     assert delivered > 15
 
 
