@@ -4,7 +4,7 @@ All others keep their vehicles and their order. A sortie that began or ended at 
 customer who is taken out begins or ends at a neighbouring one.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import islice, product
 from typing import Literal, NamedTuple
@@ -36,6 +36,9 @@ class Place(NamedTuple):
     sortie: int | None = None  # by drone: which, where it serves others too; None: one of its own
     visit: int = 0  # index within the sortie
     own_trip: bool = False  # nobody else is on the trip
+    flown_on: bool = False
+    """By drone: launched where its truck picks it up, before `stop`; back there if `recovery` is
+    before that."""
     ends: tuple[tuple[int, "Place"], ...] = ()
     """Of a shipment that is to be put there: nodes and their places on the trip without any of
     them, in the order of visits."""
@@ -194,16 +197,36 @@ def route_with(decision: RouteDecision, place: Place, node: int,
     trips = [*decision.trips]
     if place.own_trip:
         trips.insert(place.trip, TripDecision(ends))
-    # Those by drone first, launched and recovered at stops as they are.
-    last_first = (place.ends or ((node, place),))[::-1]
-    for each, where in sorted(last_first, key=lambda end: end[1].by == "truck"):
-        trips[place.trip] = _with(trips[place.trip], where, each)
+    *pickups, last = place.ends or ((node, place),)
+    fetched = [each for each, _ in pickups]
+    for each, where in _in_order(pickups, last, len(trips[place.trip].sorties)):
+        trips[place.trip] = _with(trips[place.trip], where, each, fetched)
     return replace(decision, trips=tuple(trips))
 
 
-def _with(trip: TripDecision, place: Place, node: int) -> TripDecision:
+def _in_order(pickups: Sequence[tuple[int, Place]], last: tuple[int, Place],
+              flights: int) -> list[tuple[int, Place]]:
+    """Return ends as they are put on a trip of so many flights.
+
+    Those by drone first, launched and recovered at stops as they are, the last one first, unless it
+    leaves with a drone where another of them comes aboard.
+    """
+    _, where = last
+    relayed = where.by == "drone" and where.sortie is None and any(
+        place.by == "drone" and place.recovery == where.stop and place.sortie != flights
+        for _, place in pickups)
+    ends = [*pickups[::-1], last] if relayed else [last, *pickups[::-1]]
+    return sorted(ends, key=lambda end: (end[1].flown_on, end[1].by == "truck"))
+
+
+def _with(trip: TripDecision, place: Place, node: int, fetched: Collection[int]) -> TripDecision:
     if place.by == "truck":
         return _with_stop(trip, place.stop, node)
+    if place.flown_on:
+        driven = [index for index, other in enumerate(trip.nodes) if other in fetched]
+        back = place.recovery < place.stop
+        place = place._replace(
+            stop=driven[-1], recovery=driven[-1] if back else place.recovery + len(driven))
     if place.sortie is not None:
         sortie = trip.sorties[place.sortie]
         nodes = (*sortie.nodes[:place.visit], node, *sortie.nodes[place.visit:])
@@ -212,7 +235,7 @@ def _with(trip: TripDecision, place: Place, node: int) -> TripDecision:
     own = SortieDecision((node,), place.stop, place.recovery, place.drone)
     operations = trip.operations
     if operations is not None:
-        operations = _with_flight(operations, trip.sorties, own)
+        operations = _with_flight(operations, trip.sorties, own, fetched)
     return replace(trip, sorties=(*trip.sorties, own), operations=operations)
 
 
@@ -230,17 +253,19 @@ def _with_stop(trip: TripDecision, stop: int, node: int) -> TripDecision:
 
 def _with_flight(
     operations: tuple[tuple[Operation, ...], ...], sorties: Sequence[SortieDecision],
-    own: SortieDecision
+    own: SortieDecision, fetched: Collection[int]
 ) -> tuple[tuple[Operation, ...], ...]:
     """Return the order of launches and recoveries with those of one more flight.
 
-    Its drone is launched as soon as it is aboard, and recovered before it is launched again.
+    Its drone is launched as soon as it is aboard, and what others have `fetched`; it is recovered
+    before it is launched again.
     """
     groups = [[*group] for group in operations]
     index = len(sorties)
     here = groups[own.launch_stop]
     back = [place for place, (flight, is_launch) in enumerate(here)
-            if not is_launch and sorties[flight].drone == own.drone]
+            if not is_launch and (sorties[flight].drone == own.drone
+                                  or not {*fetched}.isdisjoint(sorties[flight].nodes))]
     launch = back[-1] + 1 if back else 0
     here.insert(launch, Operation(index, True))
     if own.recovery_stop == own.launch_stop:

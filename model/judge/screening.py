@@ -230,7 +230,7 @@ class Screen:
                 duration, cost = self._flight(drones, begin.node, end.node)
                 if duration >= UNREACHABLE:
                     continue
-                drone = _free_drone(trip, range(first, first + drones.count), launch, recovery)
+                drone = free_drone(trip, range(first, first + drones.count), launch, recovery)
                 if drone is None:
                     continue
                 held = begin.ready + duration - end.departure
@@ -295,8 +295,11 @@ def first_drones(kind: VehicleType) -> Iterator[tuple[int, DroneType]]:
         first += drones.count
 
 
-def _free_drone(trip: Trip, among: range, launch: int, recovery: int) -> int | None:
-    """Return a drone that is aboard from one stop to another, by the order of stops."""
+def free_drone(trip: Trip, among: range, launch: float, recovery: float) -> int | None:
+    """Return a drone that is aboard from one stop to another, by the order of stops.
+
+    Halves are between stops.
+    """
     busy = {sortie.drone for sortie in trip.sorties
             if sortie.launch_stop < recovery and launch < sortie.recovery_stop}
     return next((drone for drone in among if drone not in busy), None)

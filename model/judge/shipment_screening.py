@@ -16,7 +16,9 @@ from model.judge.loads import trip_loads
 from model.judge.metrics import allowed_overtime
 from model.judge.past import Past, Vehicle
 from model.judge.places import Means, Place
-from model.judge.screening import ANYHOW, BY_TRUCK, Guess, Screen, share_over, slacks_of
+from model.judge.screening import (
+    ANYHOW, BY_TRUCK, SPANS, Guess, Screen, first_drones, free_drone, share_over, slacks_of,
+)
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNREACHABLE, Problem, Shipment
 from model.solution import Solution, Stop, Trip
 
@@ -102,9 +104,13 @@ class ShipmentScreen:
                    vehicle not in self._trips)
         *pickups, deliveries = ends
         nodes = self._shipment.nodes
-        for last in deliveries:
-            before = [[guess for guess in some if _is_before(guess.place, last.place)]
-                      for some in pickups]
+        flown_on = [] if self._problem.customer_at(nodes[-1]).served_by == "truck" else [
+            (on, end) for end, some in enumerate(pickups) for guess in some
+            for on in row.flown_on(nodes[end], nodes[-1], guess.place)]
+        for last, source in chain(((each, None) for each in deliveries), flown_on):
+            before = [[guess for guess in some if _is_before(guess.place, last.place) and (
+                end != source or (guess.place.by, guess.place.stop) == ("truck", last.place.stop))]
+                      for end, some in enumerate(pickups)]
             if len(before) > 1 and not are_all:
                 each = max(1, int(KEPT_PICKUPS ** (1 / len(before))))
                 before = [sorted(some, key=lambda guess: guess.rank)[:each] for some in before]
@@ -160,13 +166,16 @@ def _likeliest(guesses: Sequence[Guess]) -> list[Guess]:
 def _is_before(pickup: Place, delivery: Place) -> bool:
     """Tell whether a parcel is aboard, as picked up at one place, when it is to leave at another.
 
-    What a drone fetches is so behind the stop of its recovery, unless it delivers it itself.
+    What a drone fetches is so behind the stop of its recovery, or there for another drone, unless
+    it delivers it itself.
     """
     if pickup.by == delivery.by == "drone" and pickup.sortie is not None and (
             pickup.sortie == delivery.sortie):
         return pickup.visit <= delivery.visit
-    aboard = pickup.stop if pickup.by == "truck" else pickup.recovery + 1
-    return delivery.stop >= aboard
+    if pickup.by == "truck":
+        return delivery.stop >= pickup.stop
+    leaves_there = delivery.by == "drone" and not delivery.flown_on
+    return delivery.stop >= pickup.recovery + (0 if leaves_there else 1)
 
 
 class _Row:
@@ -175,7 +184,7 @@ class _Row:
     def __init__(self, problem: Problem, vehicle: Vehicle, trip: Trip | None,
                  is_new: bool) -> None:
         kind = problem.vehicle_types[vehicle.type]
-        self._problem, self._kind, self._vehicle = problem, kind, vehicle
+        self._problem, self._kind, self._vehicle, self._trip = problem, kind, vehicle, trip
         self._travel = problem.travel[kind.travel]
         latest = kind.latest + allowed_overtime(kind)
         self._flights = 0
@@ -222,6 +231,32 @@ class _Row:
         beside = place._replace(sortie=self._flights)
         yield Guess(guess.late, cost, guess.duration + added,
                     place._replace(ends=((pickup, beside), (delivery, place))))
+
+    def flown_on(self, pickup: int, delivery: int, place: Place) -> Iterator[Guess]:
+        """Yield flights that deliver from where the truck picks up at a place."""
+        if place.by == "drone" or not self._problem.may_launch_at(pickup):
+            return
+        launch = place.stop - 0.5
+        behind = (place.stop if self._kind.truck_waits
+                  else min(place.stop + SPANS - 1, len(self._stops)))
+        for first, drones in first_drones(self._kind):
+            legs, among = self._problem.travel[drones.travel], range(first, first + drones.count)
+            for back in range(place.stop - 1, behind):
+                to = pickup if back < launch else self._stops[back].node
+                free = first if self._trip is None else free_drone(
+                    self._trip, among, launch, max(launch, back))
+                duration = (legs.duration.item(pickup, delivery) + legs.duration.item(delivery, to)
+                            + drones.service_at(self._problem.customer_at(delivery)))
+                if (free is None or duration >= UNREACHABLE
+                        or not self._problem.may_launch_at(to)):
+                    continue
+                far = legs.distance.item(pickup, delivery) + legs.distance.item(delivery, to)
+                waits = duration if back < launch else 0
+                cost = (far * drones.cost_per_km / MM_PER_KM
+                        + duration * drones.cost_per_hour / MS_PER_HOUR
+                        + waits * self._kind.cost_per_hour / MS_PER_HOUR)
+                yield Guess(max(0, duration - drones.endurance), cost, duration, place._replace(
+                    by="drone", recovery=back, drone=free, flown_on=True))
 
     def nearest_first(self, ends: Sequence[tuple[int, Place]]) -> list[tuple[int, Place]]:
         """Return ends at one place, each next one nearest to the one before."""

@@ -24,6 +24,9 @@ MAX_LAUNCH_PLACES = 4
 MOST_ORDERS = 24
 """Orders of a shipment's pickups that are tried: all of four."""
 
+BROUGHT_FROM = (0, 0), (1, 0), (1, 1)
+"""How many stops before its trip's end a drone is launched, and recovered, that delivers."""
+
 MAX_HOSTS = 4
 """Other customers, nearest first, to whom something is delivered before a pickup is tried."""
 
@@ -129,23 +132,27 @@ def try_shipment(problem: Problem, kind: int, shipment: Shipment) -> Attempt:
         small = small_problem(problem, kind, shipment.nodes, drones)
         for flown in [some | brought for brought in (set[int](), {last}) for some in fetched]:
             if flown and flown <= may_fly:
-                attempt = _judge(small, _alone(small, flown))
-                if not attempt.codes:
-                    return attempt
+                for flight in BROUGHT_FROM if last in flown else BROUGHT_FROM[:1]:
+                    attempt = _judge(small, _alone(small, flown, flight))
+                    if not attempt.codes:
+                        return attempt
     return by_truck
 
 
-def _alone(small: Problem, flown: Collection[int]) -> TripDecision:
+def _alone(small: Problem, flown: Collection[int],
+           brought: tuple[int, int] = (0, 0)) -> TripDecision:
     """Return a trip for one shipment, of which drones serve some ends by number, by truck the rest.
 
-    They fetch it from the trip's start, and deliver it from its end.
+    They fetch it from the trip's start, and deliver it from its end, or as many stops sooner as is
+    told of launch and recovery.
     """
     ends = range(small.num_depots, small.num_nodes)
     driven = [node for end, node in enumerate(ends) if end not in flown]
     nodes = (0, *driven, small.vehicle_types[0].ends_at)
-    last = len(nodes) - 1
+    launch, recovery = (len(nodes) - 1 - sooner for sooner in brought)
     return TripDecision(nodes, tuple([
-        SortieDecision((node,), last, last) if node == ends[-1] else SortieDecision((node,), 0, 0)
+        SortieDecision((node,), launch, recovery) if node == ends[-1]
+        else SortieDecision((node,), 0, 0)
         for end, node in enumerate(ends) if end in flown]))
 
 

@@ -138,6 +138,20 @@ def test_the_best_offer_is_the_best_of_all(seed: int) -> None:
             assert new_violations(bench, best) or seed % 3 == 2
 
 
+def test_the_best_offer_may_be_flown_on_from_the_pickup() -> None:
+    rng = np.random.default_rng(18)
+    problem = with_flown_shipments(rng, draw_tiny(rng))
+    solution, on = greedy(problem), 0
+    for shipment in problem.shipments:
+        left_out = bench_of(problem, solution, shipment.pickup).left_out.solution
+        bench = bench_of(problem, left_out, shipment.pickup)
+        best = find_fits(bench, 1).places[0].trial
+        assert best.evaluation == check(problem, best.solution)
+        assert best.evaluation.cost.total <= cheapest(problem, left_out, shipment) + 1e-9
+        on += best.place is not None and any(place.flown_on for _, place in best.place.ends)
+    assert on > 0
+
+
 @pytest.mark.parametrize("seed", [6, 7])
 def test_what_breaks_only_because_a_shipment_is_missed_excuses_no_place(seed: int) -> None:
     """Between those who are beside an end there may be no way."""

@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from model.judge.check import check
+from model.judge.explain import POSSIBLE, explain
 from model.judge.timing import (
     Operation, RouteDecision, SortieDecision, TripDecision, schedule,
 )
@@ -168,6 +169,22 @@ def test_a_drone_leaves_with_what_is_picked_up_at_its_stop(tiny_problem, custome
         trip.sorties[0], launch_time=served + 59_999), trip.sorties[1]))
     stated = check(problem, Solution((Route(0, 0, (sooner,)),)))
     assert "TIME_MISMATCH" in codes(stated)
+
+
+def test_it_is_known_that_a_drone_could_leave_from_the_pickup(tiny_problem, customers, truck,
+                                                              drones):
+    """No truck comes to the delivery, and from the depots it is too far to be flown to in time."""
+    a, b = (replace(each, demand=(0,), served_by=by, service_duration=0) for each, by
+            in zip(customers[1:3], ("truck", "drone"), strict=True))
+    far = tiny_problem(a, b, truck=truck).travel[1].duration
+    leg, from_depot = far.item(1, 2), far.item(0, 2)
+    assert leg < from_depot
+    for endurance, is_possible in ((2 * leg, True), (2 * leg - 1, False)):
+        flying = replace(truck, drones=replace(drones, endurance=endurance))
+        problem = replace(tiny_problem(a, b, truck=flying),
+                          shipments=(Shipment("x", 1, 2, (1000,)),))
+        reason, = explain(problem, Solution((), (1, 2)), 1)
+        assert (reason.code in POSSIBLE) == is_possible
 
 
 @pytest.mark.parametrize(("order", "broken"), [([(0, False), (1, True)], set()),
