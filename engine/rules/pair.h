@@ -32,8 +32,8 @@ inline bool brings(View<const Pair, 1> pairs, Int node, Int delivery) {
     return pairs[node].partner == delivery;
 }
 
-// Whether a truck that picks up at a node gives a drone launched there what that delivers at another:
-// it is launched no sooner than service is over.
+// Whether a truck that picks up at a node gives a drone launched there what that delivers at
+// another: it is launched no sooner than service is over.
 inline bool hands_over(View<const Pair, 1> pairs, Int node, Int delivery) {
     return is_pickup(pairs, node) && brings(pairs, node, delivery);
 }

@@ -329,7 +329,8 @@ private:
         const Windows place = drone_kind.node[customer];
         const bool is_flying = sortie.recovery_stop == in_flight;
         // Until all is done at a stop, it is left as service is over.
-        const Int free = hands_over(setting_.pair, node, customer) ? std::max(free_, leave_) : free_;
+        const Int free =
+            hands_over(setting_.pair, node, customer) ? std::max(free_, leave_) : free_;
         const Int takeoff = charges_aboard(drone_kind.type)
                                 ? charged_takeoff(setting_, log_, index, first_, free, launched_)
                                 : sortie_takeoff(setting_, log_, sortie, free, launched_);

@@ -32,7 +32,8 @@ ALONE_SHARE = 0.5
 def spot_of(place: Place) -> tuple[object, ...]:
     """Return what places have in common that differ only in where a drone is recovered."""
     own = place.vehicle, place.trip, place.by, place.stop, place.sortie, place.own_trip
-    return *own, *[(node, each.by, each.stop, each.sortie, each.flown_on) for node, each in place.ends]
+    return *own, *[(node, each.by, each.stop, each.sortie, each.flown_on)
+                   for node, each in place.ends]
 
 
 def vehicle_of(place: Place) -> tuple[object, ...]:

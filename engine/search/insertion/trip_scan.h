@@ -133,8 +133,7 @@ struct TripScan {
                     continue;
                 }
                 for_each_landing(row, pickup, delivery, p, [&](Int recovery, Leg home) {
-                    const double flown =
-                        flown_cost(data.rate[row], out.distance + home.distance);
+                    const double flown = flown_cost(data.rate[row], out.distance + home.distance);
                     if (!is_dear(cost + flown) &&
                         Flight{drone, place, out.duration, home.duration}.can_serve()) {
                         visit(EndPlace{cost, by_wheels, p, p}, EndPlace{flown, row, p, recovery});
@@ -153,7 +152,8 @@ struct TripScan {
         const Int latest = crosses ? std::min(trip.last, behind + max_span) : behind;
         for (Int p = data.strategy.loops ? behind : behind + 1; p <= latest; ++p) {
             const Int node_there = p == behind ? pickup : stops[p].node;
-            if (may_meet(data.type[row], node_there, delivery)) visit(p, leg_to(onward, node_there));
+            if (may_meet(data.type[row], node_there, delivery))
+                visit(p, leg_to(onward, node_there));
         }
     }
 

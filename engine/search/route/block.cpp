@@ -207,9 +207,9 @@ bool is_on_its_way(View<const Pair, 1> pairs, View<const Sortie, 1> sorties, Int
         if (other == index || fetching.recovery != p || fetching.state == sortie_done) continue;
         for (Int visit = 0; visit < fetching.count; ++visit) {
             const Int node = fetching.nodes[visit];
-            if (is_pickup(pairs, node) && std::find(sortie.nodes, sortie.nodes + sortie.count,
-                                                    pairs[node].partner) !=
-                                              sortie.nodes + sortie.count) {
+            if (is_pickup(pairs, node) &&
+                std::find(sortie.nodes, sortie.nodes + sortie.count, pairs[node].partner) !=
+                    sortie.nodes + sortie.count) {
                 return true;
             }
         }
