@@ -1486,14 +1486,19 @@ int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searc
 /* Take the route apart, without sorties, whose customers were left out after the fewest turns. */
 int tandem_give_up_route(const tandem_problem_data* data, const tandem_searcher* searcher);
 /* Insert the shipments left out among the routes that there are, as `search/ejection` says, in so
-   many rounds at most. `made` is how many, `done` whether all were; else the routes are as they
-   were, or the best. */
+   many rounds at most; `gently`, others hardly go other ways. `made` is how many, `done` whether
+   all were; else the routes are as they were, or the best. */
 int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t rounds,
-                 int64_t* made, int64_t* done);
+                 bool gently, int64_t* made, int64_t* done);
 /* Move or exchange so many shipments at random, where all are served and rules are kept; by one
    vehicle more, too, if there is one. */
 int tandem_move_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,
                           int64_t moves, bool by_one_more);
+/* Let the routes be those of one plan, some of them exchanged for as many of another that serve
+   nearly the same shipments; whoever fits nowhere then is left out. Plans are the ends that each
+   route serves, in order, ended by -1. Not `done`: the routes are the best ones, or as before. */
+int tandem_exchange_routes(const tandem_problem_data* data, const tandem_searcher* searcher,
+                           const tandem_i64_1d* one, const tandem_i64_1d* other, int64_t* done);
 /* Ruin and recreate so many times where all are ends of shipments that windows and loads alone
    limit, as `search/shipments` says. Not `done`: it goes on from the best routes, by other ways. */
 int tandem_anneal_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,

@@ -15,10 +15,9 @@ from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew, begin_by_types
 from model.search.beginning.packing import (
-    comes_by_trips, packed_anew, packed_plan, timed, with_single_trips,
-)
+    comes_by_trips, packed_anew, packed_plan, timed, with_single_trips)
 from model.search.beginning.translate import best_plan, make_searcher
-from model.search.ejection import by_ejection, can_be_rows, spans_of_rest
+from model.search.ejection import by_ejection, can_be_rows
 from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
@@ -26,6 +25,7 @@ from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbo
 from model.search.linked.engine import measure_near
 from model.search.linked.layout import Linked, make_linked
 from model.search.limits import WHOLE, Limits, Span
+from model.search.memetic import spans_of_rest
 from model.search.problem_data import are_timed, can_be_linked, make_data, only_loads_limit
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <vector>
@@ -19,6 +20,9 @@ namespace {
 constexpr Int moved_between = 100;  // shipments tried elsewhere after each ejection
 constexpr Int one_at_random = 10;   // of so many; the others go where they take least time
 
+// By how much of a leg a gentle move lengthens ways at most, on average of what is drawn.
+constexpr double gentle_rise = 0.2;
+
 // After how many rounds a shipment it is given up if so large a share is still left out.
 constexpr Int hopeless_after = 20;
 constexpr double hopeless_share = 0.05;
@@ -27,7 +31,7 @@ constexpr double hopeless_share = 0.05;
 //
 // Whoever fits nowhere is inserted where those who are ejected for it, one shipment or two, were
 // themselves inserted with the least trouble so far; then some shipments, drawn at random, are
-// moved, most where they take least time.
+// moved, most where they take least time; gently, only if ways become hardly longer.
 class Ejection {
 public:
     Ejection(const ProblemData& data, Searcher& searcher)
@@ -40,9 +44,10 @@ public:
           pool_(searcher.missing.begin(), searcher.missing.begin() + searcher.count->missing) {}
 
     // Inserts all who are left out, in so many rounds at most. False if that doesn't come about.
-    bool run(Int rounds) {
+    bool run(Int rounds, bool gently) {
         if (slots_.empty() || !read()) return false;
         is_shortening_ = true;
+        if (gently) rise_ = gentle_rise * mean_gap();
         std::size_t fewest = pool_.size();
         while (!pool_.empty() && made_ < rounds && !is_hopeless(fewest)) {
             ++made_;
@@ -132,7 +137,7 @@ private:
 
     // Where a shipment is moved to in a row.
     std::optional<PairPlace> place_to_move(const PairRow& row, const PairToInsert& pair) const {
-        const bool near = is_shortening_ && below(searcher_.rng, one_at_random) > 0;
+        const bool near = is_shortening_ && (rise_ || below(searcher_.rng, one_at_random) > 0);
         return near ? nearest_place(row, pair) : any_place(row, pair);
     }
 
@@ -244,6 +249,25 @@ private:
         std::swap(row_[std::size_t(index)], without_);
     }
 
+    static Int time_on(const PairRow& row) {
+        return std::accumulate(row.gap.begin(), row.gap.end() - 1, Int{0});
+    }
+
+    // How long a leg takes on average.
+    double mean_gap() const {
+        Int all = 0, legs = 0;
+        for (const PairRow& row : row_) {
+            all += time_on(row);
+            legs += Int(row.node.size()) - 1;
+        }
+        return double(all) / double(legs);
+    }
+
+    // Whether a move may take so much longer than it saves; any may but for gentle ones.
+    bool may_take(Int longer) const {
+        return !rise_ || double(longer) <= -*rise_ * std::log(1.0 - uniform(searcher_.rng));
+    }
+
     // Moves a random shipment to a place of a random row, or exchanges it for one there.
     void move_any() {
         const Int index = below(searcher_.rng, Int(row_.size()));
@@ -254,12 +278,15 @@ private:
         const PairToInsert pair = rows_.pair_of(pickup);
         rows_.leave_out(from, pickup, nowhere, without_);
         if (without_.node.empty()) return;
-        if (const auto place = place_to_move(index == to ? without_ : target, pair)) {
+        const PairRow& others = index == to ? without_ : target;
+        if (const auto place = place_to_move(others, pair)) {
+            const Int saved = time_on(from) - time_on(without_);
+            if (!may_take(PairRows::longer_by(others, pair, *place) - saved)) return;
             std::swap(from, without_);
             put_in(to, pickup, *place);
             return;
         }
-        if (index == to || target.node.size() <= 2) return;
+        if (rise_ || index == to || target.node.size() <= 2) return;
         const Int other = any_pickup(target);
         rows_.leave_out(target, other, nowhere, other_without_);
         if (other_without_.node.empty()) return;
@@ -317,6 +344,7 @@ private:
     PairRow without_, other_without_;
     Int made_ = 0;
     bool is_shortening_ = false;  // most moves shorten ways, so that more fit
+    std::optional<double> rise_;  // how much longer gentle moves make ways, as drawn
 };
 
 }  // namespace
@@ -325,12 +353,12 @@ private:
 using namespace tandem;
 
 extern "C" int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher,
-                            int64_t rounds, int64_t* made, int64_t* done) {
+                            int64_t rounds, bool gently, int64_t* made, int64_t* done) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         Searcher working = searcher_of(*searcher);
         Ejection ejection(problem, working);
-        *done = ejection.run(rounds) ? 1 : 0;
+        *done = ejection.run(rounds, gently) ? 1 : 0;
         *made = ejection.made();
     });
 }

@@ -42,4 +42,11 @@ bool write_row(const ProblemData& data, const Fleet& fleet, Int slot,
     return allowed;
 }
 
+void write_missing(const ProblemData& data, const Searcher& searcher,
+                   const std::vector<Int>& pickups) {
+    searcher.count->missing = Int(pickups.size());
+    std::copy(pickups.begin(), pickups.end(), searcher.missing.begin());
+    for (const Int pickup : pickups) leave_out(data, searcher.now, pickup);
+}
+
 }  // namespace tandem

@@ -57,23 +57,25 @@ public:
         searcher_.value->best = written_best_;
         bool allowed = true;
         if (is_better_) {
-            allowed = write_all(
-                [&](Int slot) -> const std::vector<Int>& { return best_[std::size_t(slot)]; });
+            allowed = write_rows(data_, searcher_, [&](Int slot) -> const std::vector<Int>& {
+                return best_[std::size_t(slot)];
+            });
             if (allowed) {
-                set_missing(best_missing_);
+                write_missing(data_, searcher_, best_missing_);
                 count.changed = all_slots;
                 searcher_.value->cost = best_cost_;
                 tandem::keep_best(searcher_);
                 ++count.stamp;
             }
         }
-        allowed = allowed &&
-                  write_all([&](Int slot) -> const std::vector<Int>& { return row_of(slot).node; });
+        allowed = allowed && write_rows(data_, searcher_, [&](Int slot) -> const std::vector<Int>& {
+                      return row_of(slot).node;
+                  });
         if (!allowed) {
             go_back(searcher_);
             return false;
         }
-        set_missing(missing);
+        write_missing(data_, searcher_, missing);
         searcher_.value->cost = cost;
         return true;
     }
@@ -319,28 +321,6 @@ private:
                 finder_.scan(row_of(slot), slot, best);
             }
         }
-    }
-
-    // Writes all routes by their nodes. False if some break a rule.
-    template <class Nodes>
-    bool write_all(const Nodes& nodes_of) {
-        const Fleet& now = searcher_.now;
-        for (Int slot = 0; slot < searcher_.active.size(); ++slot) {
-            const std::vector<Int>& nodes = nodes_of(slot);
-            if (is_written(now, slot, nodes)) continue;
-            now.route[slot].stamp = searcher_.count->stamp;
-            if (!write_row(data_, now, slot, nodes)) return false;
-            note_changed(searcher_, slot);
-        }
-        list_active(searcher_);
-        now.used[0] = searcher_.count->active;
-        return true;
-    }
-
-    void set_missing(const std::vector<Int>& nodes) {
-        searcher_.count->missing = Int(nodes.size());
-        std::copy(nodes.begin(), nodes.end(), searcher_.missing.begin());
-        for (const Int node : nodes) leave_out(data_, searcher_.now, node);
     }
 
     const ProblemData& data_;

@@ -30,11 +30,12 @@ def begun(problem: Problem) -> tuple[ProblemData, Searcher]:
     return data, searcher
 
 
-def eject(data: ProblemData, searcher: Searcher, rounds: int = ROUNDS) -> bool:
+def eject(data: ProblemData, searcher: Searcher, rounds: int = ROUNDS,
+          gently: bool = False) -> bool:
     """Give up a route, and tell whether all shipments are served without it."""
     data.type["count"][0] = int(searcher.count.active) - 1
     call("tandem_give_up_route", data, searcher)
-    made, done = call("tandem_eject", data, searcher, rounds)
+    made, done = call("tandem_eject", data, searcher, rounds, gently)
     assert made <= rounds
     return bool(done)
 
@@ -57,6 +58,22 @@ def test_all_are_served_by_hardly_more_vehicles_than_can(seed: int) -> None:
     assert used < first
 
 
+def test_ways_become_less_long_where_others_are_moved_gently() -> None:
+    cost = {}
+    for gently in (False, True):
+        cost[gently] = 0.0
+        for seed in range(6):
+            problem = planted(seed, 4, True)
+            data, searcher = begun(problem)
+            anneal(data, searcher, 300, ANY)
+            assert eject(data, searcher, gently=gently)
+            plan = best_plan(data, searcher, range(data.num_nodes))
+            assert check(problem, plan).violations == ()
+            assert not plan.unassigned
+            cost[gently] += check(problem, plan).cost.distance
+    assert cost[True] < cost[False]
+
+
 def test_routes_stay_where_not_all_can_be_served() -> None:
     data, searcher = begun(planted(0, 4, True))
     while eject(data, searcher):
@@ -64,7 +81,7 @@ def test_routes_stay_where_not_all_can_be_served() -> None:
     routes = searcher.now.route["length"].copy()
     missing = int(searcher.count.missing)
     assert missing > 0
-    assert not call("tandem_eject", data, searcher, 50)[1]
+    assert not call("tandem_eject", data, searcher, 50, False)[1]
     assert (searcher.now.route["length"] == routes).all()
     assert int(searcher.count.missing) == missing
 
@@ -92,7 +109,7 @@ def test_shipments_are_moved_by_one_vehicle_more_if_there_is_one() -> None:
         assert int(searcher.count.active) == used + more
         assert int(searcher.now.used[0]) == used + more
         call("tandem_give_up_route", data, searcher)
-        call("tandem_eject", data, searcher, ROUNDS)
+        call("tandem_eject", data, searcher, ROUNDS, False)
         assert int(searcher.count.missing) == 0
         plan = best_plan(data, searcher, range(data.num_nodes))
         assert check(problem, plan).violations == ()

@@ -1,0 +1,110 @@
+"""Plans bred from others keep rules, and cost what the judge says."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+import model.search.memetic as memetic
+from model.engine.instance import pack
+from model.engine.library import call
+from model.judge.check import check
+from model.problem import IntArray
+from model.search.improve import SearchConfig, improve
+from model.search.limits import Span
+from model.search.route.layout import NOWHERE, ProblemData
+from model.search.route.state import Searcher
+from model.solution import Solution
+from tests.model.search.found import read_plan
+from tests.model.search.test_ejection import ROUNDS, begun
+from tests.model.search.test_fewer_vehicles import planted
+
+
+def nodes_of(searcher: Searcher) -> IntArray:
+    """Return the ends that each route serves as it is, in order, each route ended by NOWHERE."""
+    nodes = list[int]()
+    for slot in searcher.active[:searcher.count.active].tolist():
+        length = int(searcher.now.route["length"][slot])
+        nodes.extend([*searcher.now.stop["node"][slot, 1:length - 1].tolist(), NOWHERE])
+    return np.array(nodes, np.int64)
+
+
+def as_it_is(data: ProblemData, searcher: Searcher) -> Solution:
+    """Return the plan as it is."""
+    count = searcher.count.copy()
+    count.best_missing = count.missing
+    return read_plan(data, searcher._replace(best=searcher.now, count=count,
+                                             best_missing=searcher.missing))
+
+
+def test_a_plan_bred_from_itself_is_that_plan() -> None:
+    data, searcher = begun(planted(0, 4, True))
+    nodes, before = nodes_of(searcher), as_it_is(data, searcher)
+    for _ in range(20):
+        assert call("tandem_exchange_routes", data, searcher, nodes, nodes)
+        after = as_it_is(data, searcher)
+        assert {route.trips for route in after.routes} == {route.trips for route in before.routes}
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_plans_bred_from_two_keep_rules_and_serve_all_in_the_end(seed: int) -> None:
+    problem = planted(seed, 4, True)
+    data, searcher = begun(problem)
+    one, used = nodes_of(searcher), int(searcher.count.active)
+    call("tandem_move_shipments", data, searcher, 400, False)
+    other, found = nodes_of(searcher), set[float]()
+    for _ in range(40):
+        assert call("tandem_exchange_routes", data, searcher, one, other)
+        plan = as_it_is(data, searcher)
+        evaluation = check(problem, plan)
+        assert evaluation.violations == ()
+        assert evaluation.cost.total == pytest.approx(float(searcher.value.cost))
+        assert len(plan.routes) <= used
+        assert len(plan.unassigned) == 2 * searcher.count.missing
+        if searcher.count.missing:
+            call("tandem_eject", data, searcher, ROUNDS, True)
+        assert check(problem, as_it_is(data, searcher)).violations == ()
+        found.add(float(searcher.value.cost))
+    assert len(found) > 5
+
+
+def test_routes_come_from_both_plans() -> None:
+    problem = planted(1, 4, True)
+    data, searcher = begun(problem)
+    one = nodes_of(searcher)
+    call("tandem_move_shipments", data, searcher, 400, False)
+    other = nodes_of(searcher)
+    whole = [{tuple(route) for route in _routes(nodes)} for nodes in (one, other)]
+    kept = np.zeros(2, np.int64)
+    for _ in range(40):
+        call("tandem_exchange_routes", data, searcher, one, other)
+        made = {tuple(route) for route in _routes(nodes_of(searcher))}
+        kept += [bool(made & routes) for routes in whole]
+    assert (kept > 0).all()
+
+
+def _routes(nodes: IntArray) -> Iterator[list[int]]:
+    ends = np.flatnonzero(nodes == NOWHERE)
+    for begin, end in zip([0, *(ends + 1)], ends, strict=False):
+        yield nodes[begin:end].tolist()
+
+
+def test_searches_breed_and_are_repeated_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem, bred = planted(1, 4, True), list[Span]()
+    breed = memetic._children
+
+    def record(*given: object) -> Iterator[Span]:
+        for span in breed(*given):  # type: ignore[arg-type]
+            bred.append(span)
+            yield span
+
+    monkeypatch.setattr(memetic, "_children", record)
+    monkeypatch.setattr(memetic, "TURNS_A_START", 5)
+    monkeypatch.setattr(memetic, "TURNS_A_CHILD", 2)
+    nobody = Solution((), tuple(range(1, problem.num_nodes)))
+    config = SearchConfig(turns=8000, seed=2)
+    found, again = (improve(problem, pack([problem]), nobody, config) for _ in range(2))
+    assert check(problem, found.solution).violations == ()
+    assert found.solution == again.solution
+    assert len(bred) > 10
+    assert found.turns == config.turns
