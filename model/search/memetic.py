@@ -10,7 +10,6 @@ Nagata and Kobayashi (2010), a memetic algorithm for the pickup and delivery pro
 windows using selective route exchange crossover, PPSN XI.
 """
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
@@ -44,19 +43,32 @@ until which they are."""
 HOT_OF_STARTS, HOT_OF_CHILDREN, HOT_OF_LAST = 3.0, 0.3, 0.5
 """First temperatures by the cost of a leg: of starts, of children, and of what follows."""
 
-SAME = 1e-6
-"""Plans whose costs differ by less are taken for one."""
-
-END = np.array([NOWHERE], np.int64)
-"""Of a route."""
+ALIKE = 0.8
+"""From how many same legs on, as a share, plans are taken for one, of which the better is kept."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class _Plan:
     """A plan for all shipments."""
 
     cost: float
     nodes: IntArray  # of each route in order, without where vehicles begin, then NOWHERE
+
+    follower: IntArray  # (node,) who follows, or NOWHERE
+
+    @classmethod
+    def of(cls, searcher: Searcher) -> "_Plan":
+        """Return the plan as it is."""
+        now, parts, end = searcher.now, list[IntArray](), np.array([NOWHERE], np.int64)
+        for slot in searcher.active[:searcher.count.active].tolist():
+            parts.extend([now.stop["node"][slot, 1:now.route["length"][slot] - 1], end])
+        nodes, follower = np.concatenate(parts), np.full(len(now.where) + 1, NOWHERE)
+        follower[nodes[:-1]] = nodes[1:]
+        return cls(float(searcher.value.cost), nodes, follower[:-1])
+
+    def alike(self, other: "_Plan") -> float:
+        """Return to which share two plans are the same."""
+        return float((self.follower == other.follower).mean())
 
 
 def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) -> Iterator[Span]:
@@ -130,10 +142,7 @@ def _insert_missing(data: ProblemData, searcher: Searcher, workers: list[Worker]
 
 def _children(data: ProblemData, searcher: Searcher, workers: list[Worker],
               plans: list[_Plan]) -> Iterator[Span]:
-    """Yield parts that go on from routes of two plans; each takes the place of one if it is better.
-
-    In place.
-    """
+    """Yield parts that go on from routes of two plans, whose child may take a place. In place."""
     first, limits = workers[0], workers[0].limits
     rng = np.random.default_rng(int(searcher.rng[0]))
     for _ in range(MOST_CHILDREN if len(plans) > 1 else 0):
@@ -147,25 +156,24 @@ def _children(data: ProblemData, searcher: Searcher, workers: list[Worker],
             made = _insert_missing(data, searcher, workers, span, True)
         if made and not limits.over(first.turns, span):
             yield span
-            parent = plans.pop(one)
-            if not _add(plans, searcher, parent.cost):
-                plans.append(parent)
+            _add(plans, searcher, plans[one])
 
 
-def _add(plans: list[_Plan], searcher: Searcher, most: float = math.inf) -> bool:
-    """Add the plan as it is if all are served, it costs less than so much and is another. In place.
+def _add(plans: list[_Plan], searcher: Searcher, parent: _Plan | None = None) -> None:
+    """Let the plan as it is take the place of one much like it, or its parent, if it is better.
 
-    Returns whether it is added.
+    In place. Without either it is added; not at all where not all are served.
     """
-    cost, now = float(searcher.value.cost), searcher.now
-    if (searcher.count.missing > 0 or cost >= most
-            or any(abs(plan.cost - cost) < SAME for plan in plans)):
-        return False
-    nodes = list[IntArray]()
-    for slot in searcher.active[:searcher.count.active].tolist():
-        nodes.extend([now.stop["node"][slot, 1:now.route["length"][slot] - 1], END])
-    plans.append(_Plan(cost, np.concatenate(nodes)))
-    return True
+    if searcher.count.missing > 0:
+        return
+    plan = _Plan.of(searcher)
+    rival = max(plans, key=plan.alike, default=parent)
+    if rival is None or plan.alike(rival) < ALIKE:
+        rival = parent
+    if rival is None:
+        plans.append(plan)
+    elif plan.cost < rival.cost:
+        plans[plans.index(rival)] = plan
 
 
 def _heat(workers: list[Worker], heats: list[Heat], hot: float) -> None:
