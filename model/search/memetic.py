@@ -11,7 +11,7 @@ windows using selective route exchange crossover, PPSN XI.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -27,8 +27,8 @@ from model.search.temperature import Heat
 from model.search.worker import Worker
 
 MOST_STARTS, TURNS_A_START, STARTS_UNTIL = 5, 25, 0.65
-"""How often the rest of a search begins from the plan by the fewest vehicles; turns for each
-customer of one; and the share of the search until which it does."""
+"""How often the rest of a search begins from the plan by the fewest vehicles, before plans are
+bred; turns for each customer of one; and the share of the search until which it does."""
 
 MOVES = 20
 """Random moves before each start but the first, by customers."""
@@ -36,15 +36,21 @@ MOVES = 20
 EJECTED_SHARE = 0.3
 """Of the time of a start, or of a child, in which all its shipments are inserted at most."""
 
-MOST_CHILDREN, TURNS_A_CHILD, CHILDREN_UNTIL = 10_000, 10, 0.95
+MOST_CHILDREN, TURNS_A_CHILD, CHILDREN_UNTIL = 10_000, 6, 0.95
 """How many plans are bred at most; turns for each customer of one; and the share of the search
 until which they are."""
 
-HOT_OF_STARTS, HOT_OF_CHILDREN, HOT_OF_LAST = 3.0, 0.3, 0.5
+MOST_IN_VAIN = 15
+"""So many in a row of which none takes a place, and the search begins once more."""
+
+HOT_OF_STARTS, HOT_OF_CHILDREN, HOT_OF_LAST = 3.0, 0.2, 0.5
 """First temperatures by the cost of a leg: of starts, of children, and of what follows."""
 
 ALIKE = 0.8
 """From how many same legs on, as a share, plans are taken for one, of which the better is kept."""
+
+SAME = 1e-6
+"""Costs that differ by less are taken for one."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +59,6 @@ class _Plan:
 
     cost: float
     nodes: IntArray  # of each route in order, without where vehicles begin, then NOWHERE
-
     follower: IntArray  # (node,) who follows, or NOWHERE
 
     @classmethod
@@ -78,105 +83,127 @@ def spans_of_rest(data: ProblemData, searcher: Searcher, workers: list[Worker]) 
     if can_eject(data):
         number = min(MOST_STARTS, int((STARTS_UNTIL - share) * first.expected() / TURNS_A_START))
     if number > 1:
-        heats = [worker.heat for worker in workers]
-        plans = list[_Plan]()
-        _heat(workers, heats, HOT_OF_STARTS)
-        for span in _starts(data, searcher, workers, number):
-            yield span
-            _add(plans, searcher)
-        _heat(workers, heats, HOT_OF_CHILDREN)
-        yield from _children(data, searcher, workers, plans)
-        _heat(workers, heats, HOT_OF_LAST)
+        breeder = _Breeder(data, searcher, workers, [worker.heat for worker in workers])
+        for end in np.linspace(share, STARTS_UNTIL, number + 1)[1:].tolist():
+            yield from breeder.start(end, bool(breeder.plans))
+        yield from breeder.children((STARTS_UNTIL - share) / number)
+        breeder.heat(HOT_OF_LAST)
         go_on_from_best(data, searcher)
     if not limits.over(first.turns):
         yield Span(limits.share(first.turns), 1.0, 1.0)
 
 
-def _starts(data: ProblemData, searcher: Searcher, workers: list[Worker],
-            number: int) -> Iterator[Span]:
-    """Yield as many parts, each but the first beginning elsewhere. In place."""
-    first, limits = workers[0], workers[0].limits
-    share = limits.share(first.turns)
-    for end in np.linspace(share, STARTS_UNTIL, number + 1)[1:].tolist():
-        span = Span(limits.share(first.turns), end, 1.0)
-        if limits.over(first.turns, span):
-            continue
-        if span.begin > share:
-            go_on_from_best(data, searcher)
-            _begin_elsewhere(data, searcher, workers, span)
+@dataclass(frozen=True, eq=False)
+class _Breeder:
+    """A search, and plans that it came to, no two of which are much alike."""
+
+    data: ProblemData
+    searcher: Searcher
+    workers: list[Worker]
+    heats: list[Heat]  # of the workers, as they were
+    plans: list[_Plan] = field(default_factory=list)
+
+    @property
+    def limits(self) -> Limits:
+        """Return when the search ends."""
+        return self.workers[0].limits
+
+    @property
+    def share(self) -> float:
+        """Return the share of it that is over."""
+        return self.limits.share(self.workers[0].turns)
+
+    def is_over(self, span: Span) -> bool:
+        """Tell whether a span of it is over."""
+        return self.limits.over(self.workers[0].turns, span)
+
+    def heat(self, hot: float) -> None:
+        """Let workers begin at a temperature by the cost of a leg, where none was stated."""
+        for worker, heat in zip(self.workers, self.heats, strict=True):
+            worker.heat = replace(heat, hot=heat.hot or hot)
+
+    def start(self, end: float, elsewhere: bool) -> Iterator[Span]:
+        """Yield a part that begins with the best plan, or elsewhere, and keep what it comes to."""
+        span = Span(self.share, end, 1.0)
+        if self.is_over(span):
+            return
+        if elsewhere:
+            go_on_from_best(self.data, self.searcher)
+            self._begin_elsewhere(span)
+        self.heat(HOT_OF_STARTS)
         yield span
+        if self.searcher.count.missing == 0:
+            plan = _Plan.of(self.searcher)
+            rival = self._rival(plan, len(self.plans))
+            if rival == len(self.plans) or plan.cost < self.plans[rival].cost:
+                self.plans[rival:rival + 1] = [plan]
 
+    def children(self, start_share: float) -> Iterator[Span]:
+        """Yield parts that go on from routes of two plans, or begin anew where these bring nothing.
 
-def _begin_elsewhere(data: ProblemData, searcher: Searcher, workers: list[Worker],
-                     span: Span) -> None:
-    """Go on from another plan by as few vehicles as the best, which no moves may lead to. In place.
+        A child takes the place of the plan most like it, or of its parent, if it is better.
+        """
+        rng, vain = np.random.default_rng(int(self.searcher.rng[0])), 0
+        for _ in range(MOST_CHILDREN):
+            begin, few = self.share, len(self.plans) < 2
+            span = Span(begin, begin + TURNS_A_CHILD / self.workers[0].expected(), 1.0)
+            if span.end > CHILDREN_UNTIL or self.is_over(span):
+                return
+            if (few or vain >= MOST_IN_VAIN) and begin + start_share <= CHILDREN_UNTIL:
+                vain = 0
+                yield from self.start(begin + start_share, True)
+            elif few:
+                return
+            else:
+                vain += 1
+                one, other = rng.permutation(len(self.plans))[:2].tolist()
+                if not self._cross(self.plans[one], self.plans[other], span):
+                    continue
+                self.heat(HOT_OF_CHILDREN)
+                yield span
+                child = _Plan.of(self.searcher)
+                rival = self._rival(child, one)
+                if self.searcher.count.missing == 0 and child.cost < self.plans[rival].cost - SAME:
+                    self.plans[rival], vain = child, 0
 
-    Shipments are moved at random by a vehicle more, and a route is given up; where not all of its
-    shipments can be inserted soon, they are moved at random by those that there are.
-    """
-    used, limits = int(searcher.count.active), workers[0].limits
-    _move_at_random(data, searcher, limits, span, True)
-    if searcher.count.active > used:
-        call("tandem_give_up_route", data, searcher)
-        if _insert_missing(data, searcher, workers, span, False):
-            return
-        go_on_from_best(data, searcher)
-    _move_at_random(data, searcher, limits, span, False)
+    def _rival(self, plan: _Plan, parent: int) -> int:
+        """Return the number of the plan that is much like another, else that given."""
+        alike = [plan.alike(other) for other in self.plans]
+        return int(np.argmax(alike)) if max(alike, default=0.0) >= ALIKE else parent
 
+    def _cross(self, one: _Plan, other: _Plan, span: Span) -> bool:
+        """Go on from routes of two plans, or tell that this brings no other. In place."""
+        made = call("tandem_exchange_routes", self.data, self.searcher, one.nodes, other.nodes)
+        if made and self.searcher.count.missing > 0:
+            made = self._insert_missing(span, True)
+        cost = float(self.searcher.value.cost)
+        return (bool(made) and all(abs(plan.cost - cost) > SAME for plan in self.plans)
+                and not self.is_over(span))
 
-def _move_at_random(data: ProblemData, searcher: Searcher, limits: Limits, span: Span,
-                    by_one_more: bool) -> None:
-    """Move shipments at random while there is time in a span, by a vehicle more, too. In place."""
-    with Alarm(min(limits.span_end(span)[1], limits.deadline), limits.should_stop) as alarm:
-        call("tandem_move_shipments", data._replace(deadline=alarm.setting), searcher,
-             MOVES * data.num_nodes, by_one_more)
+    def _begin_elsewhere(self, span: Span) -> None:
+        """Go on from another plan by as few vehicles, which no moves may lead to. In place.
 
+        Shipments are moved at random by a vehicle more, and a route is given up; where not all of
+        its shipments can be inserted soon, they are moved at random by those that there are.
+        """
+        used = int(self.searcher.count.active)
+        self._move_at_random(span, True)
+        if self.searcher.count.active > used:
+            call("tandem_give_up_route", self.data, self.searcher)
+            if self._insert_missing(span, False):
+                return
+            go_on_from_best(self.data, self.searcher)
+        self._move_at_random(span, False)
 
-def _insert_missing(data: ProblemData, searcher: Searcher, workers: list[Worker], span: Span,
-                    gently: bool) -> bool:
-    """Insert all who are left out at the beginning of a span, or tell that this fails. In place."""
-    soon = replace(span, end=span.begin + EJECTED_SHARE * (span.end - span.begin))
-    eject = by_ejection(data, searcher, workers, soon, gently)
-    return eject is not None and eject()
+    def _move_at_random(self, span: Span, by_one_more: bool) -> None:
+        """Move shipments while there is time in a span, by a vehicle more, too. In place."""
+        end = min(self.limits.span_end(span)[1], self.limits.deadline)
+        with Alarm(end, self.limits.should_stop) as alarm:
+            call("tandem_move_shipments", self.data._replace(deadline=alarm.setting),
+                 self.searcher, MOVES * self.data.num_nodes, by_one_more)
 
-
-def _children(data: ProblemData, searcher: Searcher, workers: list[Worker],
-              plans: list[_Plan]) -> Iterator[Span]:
-    """Yield parts that go on from routes of two plans, whose child may take a place. In place."""
-    first, limits = workers[0], workers[0].limits
-    rng = np.random.default_rng(int(searcher.rng[0]))
-    for _ in range(MOST_CHILDREN if len(plans) > 1 else 0):
-        begin = limits.share(first.turns)
-        span = Span(begin, begin + TURNS_A_CHILD / first.expected(), 1.0)
-        if span.end > CHILDREN_UNTIL or limits.over(first.turns):
-            return
-        one, other = rng.permutation(len(plans))[:2].tolist()
-        made = call("tandem_exchange_routes", data, searcher, plans[one].nodes, plans[other].nodes)
-        if made and searcher.count.missing > 0:
-            made = _insert_missing(data, searcher, workers, span, True)
-        if made and not limits.over(first.turns, span):
-            yield span
-            _add(plans, searcher, plans[one])
-
-
-def _add(plans: list[_Plan], searcher: Searcher, parent: _Plan | None = None) -> None:
-    """Let the plan as it is take the place of one much like it, or its parent, if it is better.
-
-    In place. Without either it is added; not at all where not all are served.
-    """
-    if searcher.count.missing > 0:
-        return
-    plan = _Plan.of(searcher)
-    rival = max(plans, key=plan.alike, default=parent)
-    if rival is None or plan.alike(rival) < ALIKE:
-        rival = parent
-    if rival is None:
-        plans.append(plan)
-    elif plan.cost < rival.cost:
-        plans[plans.index(rival)] = plan
-
-
-def _heat(workers: list[Worker], heats: list[Heat], hot: float) -> None:
-    """Let workers begin at a temperature by the cost of a leg, where none was stated. In place."""
-    for worker, heat in zip(workers, heats, strict=True):
-        worker.heat = replace(heat, hot=heat.hot or hot)
+    def _insert_missing(self, span: Span, gently: bool) -> bool:
+        """Insert all left out at the beginning of a span, or tell that this fails. In place."""
+        soon = replace(span, end=span.begin + EJECTED_SHARE * (span.end - span.begin))
+        eject = by_ejection(self.data, self.searcher, self.workers, soon, gently)
+        return eject is not None and eject()

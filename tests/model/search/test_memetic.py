@@ -89,22 +89,29 @@ def _routes(nodes: IntArray) -> Iterator[list[int]]:
         yield nodes[begin:end].tolist()
 
 
-def test_searches_breed_and_are_repeated_exactly(monkeypatch: pytest.MonkeyPatch) -> None:
-    problem, bred = planted(1, 4, True), list[Span]()
-    breed = memetic._children
+def test_searches_breed_and_begin_once_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    problem, bred, started = planted(1, 4, True), list[Span](), list[float]()
+    breed, start = memetic._Breeder.children, memetic._Breeder.start
 
-    def record(*given: object) -> Iterator[Span]:
-        for span in breed(*given):  # type: ignore[arg-type]
+    def record(breeder: memetic._Breeder, start_share: float) -> Iterator[Span]:
+        for span in breed(breeder, start_share):
             bred.append(span)
             yield span
 
-    monkeypatch.setattr(memetic, "_children", record)
-    monkeypatch.setattr(memetic, "TURNS_A_START", 5)
-    monkeypatch.setattr(memetic, "TURNS_A_CHILD", 2)
+    def record_start(breeder: memetic._Breeder, end: float, elsewhere: bool) -> Iterator[Span]:
+        started.append(end)
+        yield from start(breeder, end, elsewhere)
+
+    monkeypatch.setattr(memetic._Breeder, "children", record)
+    monkeypatch.setattr(memetic._Breeder, "start", record_start)
+    for name, value in (("TURNS_A_START", 5), ("TURNS_A_CHILD", 1), ("MOST_IN_VAIN", 5)):
+        monkeypatch.setattr(memetic, name, value)
     nobody = Solution((), tuple(range(1, problem.num_nodes)))
     config = SearchConfig(turns=8000, seed=2)
+    # Both are the same, as turns alone count.
     found, again = (improve(problem, pack([problem]), nobody, config) for _ in range(2))
     assert check(problem, found.solution).violations == ()
     assert found.solution == again.solution
     assert len(bred) > 10
+    assert started[-1] > memetic.STARTS_UNTIL
     assert found.turns == config.turns
