@@ -9,6 +9,7 @@ from typing import Any, cast
 from fastapi import FastAPI, Request
 from fastapi.routing import APIRoute
 from pydantic import BaseModel
+from pydantic.json_schema import models_json_schema
 
 from app.schemas.errors import MEDIA_TYPE, ProblemDocument
 
@@ -87,16 +88,17 @@ def json_body(model: type[BaseModel], examples: Mapping[str, str] = {}) -> dict[
     examples
         Names of files in `app/schemas/examples` and what they show.
     """
+    _taken.add(model)
     # FastAPI asks it for its items alone, when somebody asks for the description.
     return cast("dict[str, Any]", _JsonBody(model, examples))
 
 
-class _JsonBody(Mapping[str, Any]):
-    """What `json_body` returns, made anew whenever it is looked at.
+_taken: set[type[BaseModel]] = set()
+"""What endpoints take that read their bodies themselves."""
 
-    The schemas of all endpoints take a second to make, and most processes need none. Those that do
-    make each once.
-    """
+
+class _JsonBody(Mapping[str, Any]):
+    """What `json_body` returns, made anew whenever it is looked at: most processes never do."""
 
     def __init__(self, model: type[BaseModel], examples: Mapping[str, str]) -> None:
         self._model = model
@@ -106,7 +108,7 @@ class _JsonBody(Mapping[str, Any]):
         if key != BODY:
             raise KeyError(key)
         content: dict[str, Any] = {
-            "schema": _schema_of(self._model) | {"title": self._model.__name__}}
+            "schema": {"$ref": SCHEMA_REF.format(model=self._model.__name__)}}
         if self._examples:
             content["examples"] = {
                 name: {"summary": summary,
@@ -123,9 +125,23 @@ class _JsonBody(Mapping[str, Any]):
 
 
 @cache
-def _schema_of(model: type[BaseModel]) -> dict[str, Any]:
-    """Return the schema of a body, which several endpoints may take. Not to be changed."""
-    return model.model_json_schema(ref_template=SCHEMA_REF)
+def _schemas() -> dict[str, Any]:
+    """Return the schemas of all bodies, and of problems, by name. Not to be changed.
+
+    Together they take a second; one by one each would make again what it shares with others.
+    """
+    models: set[type[BaseModel]] = {*_taken, ProblemDocument}
+    _, made = models_json_schema(
+        [(model, "validation") for model in sorted(models, key=lambda each: each.__name__)],
+        ref_template=SCHEMA_REF)
+    return cast("dict[str, Any]", _without_none(made["$defs"]))
+
+
+def _without_none(value: Any) -> Any:
+    """Return a schema without the defaults that are null, as FastAPI writes its own."""
+    if isinstance(value, dict):
+        return {key: _without_none(inner) for key, inner in value.items() if inner is not None}
+    return [_without_none(inner) for inner in value] if isinstance(value, list) else value
 
 
 def problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]]:
@@ -164,11 +180,7 @@ def describe(app: FastAPI) -> Callable[[], dict[str, Any]]:
         if app.openapi_schema is not None:
             return app.openapi_schema
         description = describe_endpoints()
-        schemas = description["components"]["schemas"]
-        _file(schemas, ProblemDocument.model_json_schema(ref_template=SCHEMA_REF))
-        for body in _bodies(description):
-            if "$ref" not in body["schema"]:
-                body["schema"] = _file(schemas, body["schema"])
+        description["components"]["schemas"] |= _schemas()
         _add_refusals(description)
         return description
 
@@ -180,15 +192,6 @@ def allowed_methods(request: Request) -> dict[str, str]:
     route = request.scope.get("route")
     operations = request.app.openapi()["paths"].get(getattr(route, "path", None), {})
     return {"Allow": ", ".join(method.upper() for method in operations)} if operations else {}
-
-
-def _bodies(description: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """Yield the JSON content of every operation's request."""
-    for operations in description["paths"].values():
-        for operation in operations.values():
-            content = operation.get(BODY, {}).get("content", {})
-            if "application/json" in content:
-                yield content["application/json"]
 
 
 def _add_refusals(description: dict[str, Any]) -> None:
@@ -203,9 +206,3 @@ def _add_refusals(description: dict[str, Any]) -> None:
                 operation["responses"].setdefault(
                     status, {"description": reason, "content": content})
 
-
-def _file(schemas: dict[str, Any], schema: dict[str, Any]) -> dict[str, str]:
-    """Move a schema and what it is made of to where all are kept; return a reference to it."""
-    schemas |= schema.pop("$defs", {})
-    schemas[schema["title"]] = schema
-    return {"$ref": SCHEMA_REF.format(model=schema["title"])}
