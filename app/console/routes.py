@@ -1,7 +1,7 @@
 """The browser console: its page at `/`, its files below `/console/`.
 
 The page asks for its files below a name that stands for what is in them. Browsers keep them as long
-as that stays, and open the console with one request in place of a hundred.
+as that stays. Its modules are two files.
 """
 
 import hashlib
@@ -16,6 +16,7 @@ from fastapi.staticfiles import StaticFiles
 from pydantic import BaseModel
 from starlette.types import Scope
 
+from app.console.bundle import BUNDLE, ENTRY, LATER, bundled
 from app.maps.streets.routes import ATTRIBUTION
 from app.maps.streets.sea import Box
 
@@ -55,8 +56,10 @@ class ConsoleFiles(StaticFiles):
         if stated == edition() and rest in contents() and scope["method"] in METHODS:
             return Response(contents()[rest], media_type=guess_type(rest)[0],
                             headers={"Cache-Control": "max-age=31536000, immutable"})
-        is_edition = EDITION.fullmatch(stated) is not None
-        response = await super().get_response(rest if is_edition else path, scope)
+        found = rest if EDITION.fullmatch(stated) else path
+        response = (Response(contents()[found], media_type=guess_type(found)[0])
+                    if found in (BUNDLE, LATER) and scope["method"] in METHODS
+                    else await super().get_response(found, scope))
         response.headers["Cache-Control"] = "no-cache"
         return response
 
@@ -70,11 +73,12 @@ EDITION = re.compile("[0-9a-f]{16}")
 def contents() -> dict[str, bytes]:
     """Return all files, by their paths, as they were when this was first asked.
 
-    A page asks for a hundred and more when it is first opened. From memory each takes a fifth of
-    the time, and all are one megabyte.
+    From memory each takes a fifth of the time, and all are two megabytes.
     """
-    return {path.relative_to(STATIC_DIR).as_posix(): path.read_bytes()
-            for path in sorted(STATIC_DIR.rglob("*")) if path.is_file()}
+    files = {path.relative_to(STATIC_DIR).as_posix(): path.read_bytes()
+             for path in sorted(STATIC_DIR.rglob("*")) if path.is_file()}
+    modules = {path: content.decode() for path, content in files.items() if path.endswith(".js")}
+    return files | {path: text.encode() for path, text in bundled(modules).items()}
 
 
 @cache
@@ -97,8 +101,8 @@ def mount_console(app: FastAPI) -> None:
 def page() -> HTMLResponse:
     """Return the page."""
     html = (STATIC_DIR / "index.html").read_text("utf-8")
-    return HTMLResponse(html.replace('"console/', f'"console/{edition()}/'),
-                        headers={"Cache-Control": "no-cache"})
+    html = html.replace(ENTRY, BUNDLE).replace('"console/', f'"console/{edition()}/')
+    return HTMLResponse(html, headers={"Cache-Control": "no-cache"})
 
 
 @router.get("/console/config.json")

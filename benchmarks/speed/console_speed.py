@@ -42,8 +42,8 @@ PRESS = f"""async () => {{
 OPEN = """async (text) => {
   const began = performance.now();
   const { request, plan } = JSON.parse(text);
-  const { openRequest } = await import(
-    new URL('actions.js', document.querySelector('script[type=module]').src));
+  const { module } = await import(document.querySelector('script[type=module]').src);
+  const { openRequest } = await module('js/actions.js');
   const plans = [{ number: 1, name: 'Plan', request, plan, numbers: null }];
   openRequest(request, { name: 'many', plans, shown: 1 });
   for (let frame = 0; frame < 2; frame += 1)

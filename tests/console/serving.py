@@ -34,10 +34,11 @@ WAIT_MS = 120_000
 
 VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
 
-MODULES = """Object.defineProperty(window, 'modules', { get() {
-  return new URL('.', document.querySelector('script[type=module]').src).href.slice(0, -1);
-} });"""
-"""Where the console's modules are, for scripts of tests that import them."""
+MODULES = """window.loaded = async (path) => {
+  const { module } = await import(document.querySelector('script[type=module]').src);
+  return await module(new URL(path, 'file:///js/').pathname.slice(1));
+};"""
+"""Gives scripts of tests the modules that the console itself has loaded."""
 
 
 @contextmanager

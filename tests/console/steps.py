@@ -74,7 +74,7 @@ def open_advanced(page: Page) -> None:
 def let_search(page: Page, seconds: float) -> None:
     """State for how long what is open is searched."""
     page.evaluate("""async (seconds) => {
-      const { edit } = await import(`${modules}/actions.js`);
+      const { edit } = await loaded(`actions.js`);
       edit((request) => ({ ...request, options: { ...request.options, time_limit: seconds } }));
     }""", seconds)
 
@@ -82,7 +82,7 @@ def let_search(page: Page, seconds: float) -> None:
 def state(page: Page, expression: str) -> Any:
     """Return part of the console's state, such as `state.selection`."""
     return page.evaluate("""async (read) => {
-      const { store } = await import(`${modules}/store.js`);
+      const { store } = await loaded(`store.js`);
       return read.split('.').slice(1).reduce((part, key) => part?.[key], store.get());
     }""", expression)
 
@@ -90,7 +90,7 @@ def state(page: Page, expression: str) -> Any:
 def place_of(page: Page, key: str) -> tuple[float, float]:
     """Return where on the screen the map shows a customer, found by its tip."""
     x, y = page.evaluate("""async (key) => {
-      const { store } = await import(`${modules}/store.js`);
+      const { store } = await loaded(`store.js`);
       const { selection } = store.get();
       store.set({ selection: key });
       await new Promise(requestAnimationFrame);

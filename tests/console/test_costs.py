@@ -104,7 +104,7 @@ def test_the_header_is_one_line(open_page: Callable[..., Page], service: str, wi
     expect(page.locator("#total-penalty")).to_be_visible()
     idle(page)
     header = page.locator("header.head")
-    for change in (None, "async () => (await import(`${modules}/actions.js`)).edit("
+    for change in (None, "async () => (await loaded(`actions.js`)).edit("
                          "(request) => ({ ...request, unassigned_cost: 5 }))"):
         if change:
             page.evaluate(change)

@@ -16,7 +16,7 @@ ROW_PIXELS = 28
 def open_customers(page: Page) -> None:
     """Open a problem with many customers of long names, without planning it."""
     page.evaluate("""async (number) => {
-      const { openRequest } = await import(`${modules}/actions.js`);
+      const { openRequest } = await loaded(`actions.js`);
       const customers = Array.from({ length: number }, (_, index) => ({
         id: `Getränkemarkt Schmidt-Hohenfels ${index + 1}`, location: [index % 9, index],
         demand: [index + 1], time_window: { earliest: 28800, latest: 43200 } }));
@@ -89,7 +89,7 @@ def test_the_list_scrolls_to_who_is_selected(console: Page) -> None:
     open_tab(console, "customers")
     for row in (50, 3):
         console.evaluate("""async (row) => {
-          const { select } = await import(`${modules}/actions.js`);
+          const { select } = await loaded(`actions.js`);
           select(`c:Getränkemarkt Schmidt-Hohenfels ${row + 1}`);
         }""", row)
         expect(console.locator(f"tr[data-row='{row}'][data-selected='true']")).to_be_in_viewport()

@@ -116,7 +116,7 @@ def test_rules_that_a_change_breaks_are_told_and_kept(hands: Page) -> None:
 def bar_of(page: Page, key: str) -> tuple[float, float]:
     """Return where the timeline shows the service of a customer."""
     x, y = page.evaluate("""async (key) => {
-      const module = (path) => import(`${modules}/${path}`);
+      const module = (path) => loaded(`${path}`);
       const { indexOf, shownPlan } = await module('actions.js');
       const { spanOf } = await module('core/plan.js');
       const { scaleOf } = await module('timeline/draw.js');

@@ -21,8 +21,8 @@ SMALL = "smallest"
 def edit(page: Page, name: str) -> None:
     """Rename the first customer, and wait until the browser has kept that."""
     page.evaluate("""async (name) => {
-      const { edit } = await import(`${modules}/actions.js`);
-      const { keepNow } = await import(`${modules}/keeping/drafts.js`);
+      const { edit } = await loaded(`actions.js`);
+      const { keepNow } = await loaded(`keeping/drafts.js`);
       edit(({ customers: [first, ...others], ...request }) => ({
         ...request, customers: [{ ...first, id: name }, ...others] }));
       await keepNow();
@@ -142,12 +142,12 @@ def test_tab_that_lost_its_draft_goes_on_with_a_copy(page: Page) -> None:
     open_example(page, SMALL)
     edit(page, "one")
     page.evaluate("""async () => {
-      const { readDraft } = await import(`${modules}/keeping/draft-records.js`);
+      const { readDraft } = await loaded(`keeping/draft-records.js`);
       await readDraft(sessionStorage.getItem('tandem-draft'), 'another tab');
     }""")
     edit(page, "two")
     drafts = page.evaluate("""async () => {
-      const { listDrafts } = await import(`${modules}/keeping/draft-records.js`);
+      const { listDrafts } = await loaded(`keeping/draft-records.js`);
       return (await listDrafts()).filter(({ isTrivial }) => !isTrivial).length;
     }""")
     assert drafts == 2
@@ -207,7 +207,7 @@ def test_saved_plan_stands_beside_the_open_one(page: Page) -> None:
     open_example(page, SMALL)
     save(page, "as it was", "This browser")
     page.evaluate("""async () => {
-      const { edit } = await import(`${modules}/actions.js`);
+      const { edit } = await loaded(`actions.js`);
       edit((request) => ({ ...request, customers: request.customers.slice(1) }));
     }""")
     page.keyboard.press("p")

@@ -73,8 +73,8 @@ def test_every_warning_is_said_in_both_languages() -> None:
 
 
 LEFT_OVERS = """async () => {
-  const en = (await import(`${modules}/../texts/en.js`)).default;
-  const de = (await import(`${modules}/../texts/de.js`)).default;
+  const en = (await loaded(`../texts/en.js`)).default;
+  const de = (await loaded(`../texts/de.js`)).default;
   const flat = (texts) => Object.values(texts).flatMap(
     (text) => (typeof text === 'string' ? [text] : flat(text)));
   const pattern = (text) => new RegExp(`^${text

@@ -105,7 +105,7 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
     open_file(console, "around.json", json.dumps(request))
     planned(console, "1 of 1 served")
     drawn, measured = console.evaluate("""async () => {
-      const load = (path) => import(`${modules}/${path}.js`);
+      const load = (path) => loaded(`${path}.js`);
       const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
       const [{ flightLines }, { lengthOf }] = await Promise.all(
         ['core/flights', 'core/geometry'].map(load));
@@ -121,7 +121,7 @@ def test_flights_are_drawn_as_they_are_measured(console: Page) -> None:
 def test_windows_and_lateness_of_a_city_are_on_the_timeline(console: Page) -> None:
     open_example(console, "city_day")
     windows = console.evaluate("""async () => {
-      const load = (path) => import(`${modules}/${path}.js`);
+      const load = (path) => loaded(`${path}.js`);
       const [{ store }, { indexOf, shownPlan }, { timelineRows, rowWindows }] =
         await Promise.all(['store', 'actions', 'core/timeline'].map(load));
       return timelineRows(indexOf(shownPlan(store.get()))).flatMap(rowWindows).length;
@@ -147,7 +147,7 @@ def test_problem_of_matrices_alone_is_planned_without_a_map(
 
 
 STRENGTH = """async (key) => {
-  const { select } = await import(`${modules}/actions.js`);
+  const { select } = await loaded(`actions.js`);
   select(key);
   await new Promise(requestAnimationFrame);
   const handle = () => document.querySelector('.map-handle');

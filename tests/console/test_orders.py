@@ -64,7 +64,7 @@ def test_places_of_an_order_belong_to_the_plan_that_they_were_asked_for(
     page.locator(".new-order summary").click()
     type_order(page, place="0, 6", amount="1", name="Late")
     expect(page.locator(".places li")).to_have_count(3)
-    page.evaluate("import(`${modules}/planning.js`).then(({ plan }) => plan())")
+    page.evaluate("loaded(`planning.js`).then(({ plan }) => plan())")
     expect(page.locator(".places li")).to_have_count(0)
     idle(page)
     assert len(state(page, "state.plans")) == 2
@@ -127,7 +127,7 @@ def test_who_is_left_out_beside_a_van_that_is_back_is_served_by_a_click(page: Pa
     page.get_by_label("Now").fill("2:00")
     page.get_by_role("button", name="Replan from here").first.click()
     page.evaluate("""async () => {
-      const { edit } = await import(`${modules}/actions.js`);
+      const { edit } = await loaded(`actions.js`);
       edit((request) => ({ ...request, customers: [...request.customers,
         { id: 'B', location: [3, 0], demand: [5] }] }));
     }""")

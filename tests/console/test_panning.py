@@ -76,7 +76,7 @@ def random_drags(page: Page, selector: str, stroke: Stroke) -> int:
 def plan_shown(page: Page) -> str:
     """Return which plan is shown, its routes, and what was done by hand."""
     return str(page.evaluate("""async () => {
-      const { shown, plans, steps, request } = (await import(`${modules}/store.js`)).store.get();
+      const { shown, plans, steps, request } = (await loaded(`store.js`)).store.get();
       const routes = plans.map(({ plan }) => plan.routes);
       return JSON.stringify([shown, routes, steps, request.customers]);
     }"""))
@@ -111,7 +111,7 @@ def test_panning_among_two_thousand_customers_changes_nothing(
 def handle_of(page: Page, key: str) -> tuple[float, float]:
     """Return where the handle of a customer is, who is selected with it."""
     page.evaluate("""async (key) => {
-      const { select } = await import(`${modules}/actions.js`);
+      const { select } = await loaded(`actions.js`);
       select(key);
     }""", key)
     box = page.locator(".map-handle span").bounding_box()

@@ -109,7 +109,7 @@ def test_customers_without_a_place_are_placed_one_after_another_on_the_large_map
                "depots": [{"id": "hub", "location": [8.53, 47.37]}],
                "fleet": [{"id": "van", "count": 1, "capacity": [5]}]}
     page.evaluate("""async (problem) => {
-      const { openRequest } = await import(`${modules}/actions.js`);
+      const { openRequest } = await loaded(`actions.js`);
       openRequest(problem);
     }""", problem)
     doubted = page.locator("#doubted")

@@ -10,7 +10,7 @@ pytestmark = pytest.mark.slow
 
 
 APPLY = """async (request) => {
-  const { applyRemedy } = await import(`${modules}/core/remedy-changes.js`);
+  const { applyRemedy } = await loaded(`core/remedy-changes.js`);
   const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
     headers: { 'Content-Type': 'application/json' } })).json();
   const first = await plan(request);
@@ -78,8 +78,8 @@ PROBLEMS = {
 
 
 APPLY_OTHER = """async (request) => {
-  const { applyRemedy } = await import(`${modules}/core/remedy-changes.js`);
-  const { otherReason } = await import(`${modules}/core/remedies.js`);
+  const { applyRemedy } = await loaded(`core/remedy-changes.js`);
+  const { otherReason } = await loaded(`core/remedies.js`);
   const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
     headers: { 'Content-Type': 'application/json' } })).json();
   const first = await plan(request);
@@ -105,7 +105,7 @@ def test_remedy_is_applied_and_serves_the_customer(console: Page, words: str) ->
 
 def test_unknown_remedy_changes_nothing(console: Page) -> None:
     assert console.evaluate("""async () => {
-      const { applyRemedy } = await import(`${modules}/core/remedy-changes.js`);
+      const { applyRemedy } = await loaded(`core/remedy-changes.js`);
       const request = { fleet: [{ id: 'van' }], customers: [{ id: 'A' }] };
       return applyRemedy(request, 'A', { vehicle_type: 'van', remedy: 'fits on Sundays' });
     }""") is None

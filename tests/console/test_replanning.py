@@ -164,7 +164,7 @@ def test_what_can_not_be_replanned_is_said_where_it_belongs(
     begin(page)
     # The console cancels nobody to whom a vehicle drives; another program may.
     page.evaluate("""async () => {
-      const { edit } = await import(`${modules}/actions.js`);
+      const { edit } = await loaded(`actions.js`);
       edit((request) => ({ ...request,
         customers: request.customers.filter(({ id }) => id !== 'E2') }));
     }""")

@@ -33,7 +33,7 @@ COLOURS = """() => {
 }"""
 
 LEGS = """async () => {
-  const load = (path) => import(`${modules}/${path}.js`);
+  const load = (path) => loaded(`${path}.js`);
   const [{ store }, { indexOf, shownPlan }] = await Promise.all(['store', 'actions'].map(load));
   return indexOf(shownPlan(store.get())).vehicles[0].trips[0].stops.map(({ line }) => line);
 }"""

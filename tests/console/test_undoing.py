@@ -22,7 +22,7 @@ PROBLEM: dict[str, Any] = {
 
 def kept(page: Page) -> None:
     """Wait until the browser has kept what is worked on."""
-    page.evaluate("async () => (await import(`${modules}/keeping/drafts.js`)).keepNow()")
+    page.evaluate("async () => (await loaded(`keeping/drafts.js`)).keepNow()")
 
 
 def a_sheet(page: Page) -> str:
