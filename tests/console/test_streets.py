@@ -6,12 +6,14 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 from playwright.sync_api import Page, expect
 
 from app.maps.roads.tools import Tools
 from tests.app.maps.roads.conftest import prepared_once
 from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
+from tests.conftest import eventually
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, place_of, planned, state
 
@@ -81,6 +83,9 @@ def city(shared_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Itera
     with serving(tmp_path_factory.mktemp("streets"), "tests.console.service",
                  TANDEM_ROADS=f"truck=car:{extract}",
                  PATH=f"{osrm / 'bin'}{os.pathsep}{os.environ['PATH']}") as address:
+        # A console knows of the streets that were drawn when it was opened.
+        eventually(lambda: httpx.get(f"{address}/console/config.json",
+                                     trust_env=False).json()["streets"])
         yield address
 
 
