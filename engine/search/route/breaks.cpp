@@ -87,8 +87,27 @@ private:
         return last;
     }
 
+    Break next_break(Int number) const { return break_of(type_, due_[number], truck_.begin); }
+
+    // Whether a break after `number` others may be taken behind a stop with what is aboard there.
+    bool may_be_behind(Int p, Int number) const {
+        return !is_among(stops_[p].heavy, due_[number]);
+    }
+
+    // Give up who is too late for a break that is due.
+    void drop_late() {
+        for (Int number = 0; number < due_.count(); ++number) {
+            if (at(number).time > next_break(number).latest) at(number).time = far;
+        }
+    }
+
+    // Whether who takes a break before its window opens may as well do so later: drones may be
+    // launched before, which makes nobody later.
+    bool may_put_off() const { return sorties_.size() > 0 && !waits_.count(); }
+
     // Let the labels at the beginning of a block be those at its end.
     void pass_block(Int first, Int last) {
+        drop_late();
         if (behind_ == sortie_) {
             for (Label& label : labels_) {
                 if (label.time < far) leave_alone(first, label);
@@ -121,11 +140,12 @@ private:
         Label label = come;
         leave_block(first, last, label);
         take_sooner(left[static_cast<std::size_t>(number)], label);
-        Int from = first;
+        if (number == due_.count()) return;
+        Int from = first_worth_it(first, last, number, label.time);
         for (; number < due_.count(); ++number) {
             Label best;
             for (Int q = from; q < last; ++q) {
-                if (is_among(stops_[q].heavy, due_[number])) continue;
+                if (!may_be_behind(q, number)) continue;
                 for (const RestPlace place : {RestPlace::arrival, other_place(number)}) {
                     const Int before = stops_[q].rests;
                     stops_[q].rests = Rests(before).with(due_[number], place).packed();
@@ -135,6 +155,7 @@ private:
                     take_sooner(best, next);
                     stops_[q].rests = before;
                 }
+                if (stops_[q].leave > next_break(number).latest) break;
             }
             if (best.time == far) return;
             label = best;
@@ -145,6 +166,24 @@ private:
                     .packed();
             take_sooner(left[static_cast<std::size_t>(number + 1)], label);
         }
+    }
+
+    // The first stop of a block, timed without a break and left at `end`, behind which it is worth
+    // taking one: before its window opens it had better be put off. The last one if nowhere is.
+    Int first_worth_it(Int first, Int last, Int number, Int end) const {
+        if (!may_put_off()) return first;
+        const Int opens = next_break(number).earliest;
+        const bool goes_on = last + 1 < stops_.size() && stops_[last].kind != end_stop;
+        if (end <= opens && goes_on && may_be_behind(last, number)) return last;
+        const auto launches = [&](Int p) {
+            return std::any_of(&sorties_[sortie_], &sorties_[sortie_] + (behind_ - sortie_),
+                               [&](const Sortie& sortie) { return sortie.launch == p; });
+        };
+        while (first + 1 < last && stops_[first + 1].leave <= opens && end < far &&
+               !launches(first + 1) && may_be_behind(first + 1, number)) {
+            ++first;
+        }
+        return first;
     }
 
     // Let the truck leave a block with sorties; `far` if it can't.
@@ -175,7 +214,9 @@ private:
         const Int setup = setup_after(truck_.data.setup, stops_[p].node, stops_[p + 1].node);
         const auto travel = truck_.legs_end(stops_[p], stops_[p + 1].node);
         for (Int number = 0; number < due_.count(); ++number) {
-            rest(at(number), number, p, RestPlace::departure);
+            if (!is_put_off(at(number), number, p, travel)) {
+                rest(at(number), number, p, RestPlace::departure);
+            }
         }
         std::array<Label, most_labels> there;
         for (Int number = 0; number <= due_.count(); ++number) {
@@ -190,11 +231,20 @@ private:
         }
     }
 
+    // Tell whether a break is taken at the end of a leg, if not behind, by who is no later then; and
+    // forget who took it before. In place.
+    template <class Travel>
+    bool is_put_off(const Label& label, Int number, Int p, const Travel& travel) {
+        const Int opens = next_break(number).earliest;
+        if (label.time > opens || !may_put_off() || !may_be_behind(p, number)) return false;
+        at(number + 1).time = far;
+        return travel(label.time) <= opens;
+    }
+
     // Take a break where the truck is.
     void rest(const Label& label, Int number, Int p, RestPlace place) {
-        const Break pause = break_of(type_, due_[number], truck_.begin);
-        if (label.time < far && pause.may_begin(label.time) &&
-            !is_among(stops_[p].heavy, due_[number])) {
+        const Break pause = next_break(number);
+        if (label.time < far && pause.may_begin(label.time) && may_be_behind(p, number)) {
             take_sooner(at(number + 1), label.with(number, p, place, pause.end(label.time)));
         }
     }
@@ -210,8 +260,7 @@ private:
             label.time = rest_of_leg.arrive();
             take_sooner(there[static_cast<std::size_t>(number)], label);
             if (number == due_.count() || !may_rest_on_way(type_, due_[number]) ||
-                is_among(stops_[p].heavy, due_[number]) ||
-                !leg.rest(due_[number], RestPlace::way)) {
+                !may_be_behind(p, number) || !leg.rest(due_[number], RestPlace::way)) {
                 return;
             }
             label = label.with(number, p, RestPlace::way, leg.time());

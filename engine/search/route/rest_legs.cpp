@@ -39,6 +39,7 @@ void RestLegs::take_break(const RestLabel& label, const RestedLeg& leg, RestPlac
     if (label.next == route_.due.count()) return;
     const Int number = route_.due[label.next];
     if (is_among(route_.stops[way_.p].heavy, number)) return;
+    if (place != RestPlace::arrival && is_put_off(leg, number)) place = RestPlace::arrival;
     RestLabel next = label;
     ++next.next;
     if (place == RestPlace::departure) take(next, leg, number, place);
@@ -46,6 +47,15 @@ void RestLegs::take_break(const RestLabel& label, const RestedLeg& leg, RestPlac
         take(next, leg, number, RestPlace::way);
     }
     take(next, leg, number, RestPlace::arrival);
+}
+
+// Tell whether who takes a break at the end of the leg is no later than who does so before, as its
+// window isn't open until then. Where no drones fly few ways are followed that differ by that.
+bool RestLegs::is_put_off(const RestedLeg& leg, Int number) const {
+    if (route_.sorties.empty() || leg.is_too_long()) return false;
+    RestedLeg arriving = leg;
+    arriving.arrive();
+    return arriving.time() <= break_of(type_, number, route_.truck.begin).earliest;
 }
 
 // Take a break or a rest, and go on. Who has rested where a leg ends has driven nothing since, but
@@ -81,6 +91,10 @@ void RestLegs::come(RestLabel label, const RestedLeg& leg) {
 bool RestLegs::may_be_best(RestLabel label, const RestedLeg& leg) const {
     route_.arrive(label, way_, leg, left_);
     if (label.time + leg.left() > route_.stops[way_.p + 1].latest) return false;
+    if (label.next < route_.due.count() &&
+        leg.time() > break_of(type_, route_.due[label.next], route_.truck.begin).latest) {
+        return false;
+    }
     if (!best_.is_known()) return true;
     const Ahead ahead{way_.ahead.driving + leg.left(), way_.ahead.lasting + leg.left()};
     return best_.may_be_better(route_.bound_of(label, label.time, ahead));
