@@ -111,6 +111,40 @@ Int latest_hold(const ProblemData& data, const Route& route, View<Stop, 1> stops
     return hold;
 }
 
+// Looks for the latest start of a trip that costs nothing: up to one that is known by bisection, or
+// by how much too late a later one ends.
+class LatestStart {
+public:
+    LatestStart(Int before, Int soonest, Int latest, bool by_end)
+        : found_(before), soonest_(soonest), failed_(latest), tried_(latest), by_end_(by_end) {}
+
+    Int found() const { return found_; }
+    Int tried() const { return tried_; }
+    bool is_known() const { return by_end_ && failed_ - std::max(found_, soonest_) <= 1; }
+
+    // Note whether it may begin as was tried, or ends `late`, if that is known and all it breaks.
+    void note(bool may, Int late) {
+        (may ? found_ : failed_) = tried_;
+        const Int least = std::max(found_, soonest_);
+        if (by_end_ && may && is_exact_) {
+            tried_ = found_ + 1;
+            is_exact_ = false;
+        } else if (by_end_ && !may && late > 0 && tried_ - late > least) {
+            // Mostly it ends by as much too late as it begins.
+            tried_ -= late;
+            is_exact_ = true;
+        } else {
+            tried_ = (least + failed_) >> 1;
+            is_exact_ = false;
+        }
+    }
+
+private:
+    Int found_, soonest_, failed_, tried_;
+    bool by_end_;
+    bool is_exact_ = false;
+};
+
 // Let a trip of a timed route whose driver is followed begin as late as `hold` at most, where it
 // ends no later. In place; false if a rule is broken.
 //
@@ -158,19 +192,24 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
             continue;
         }
         const Int end = route.end, before = stop.hold;
+        Int late = 0;
         const auto may_begin = [&](Int begin) {
             stop.hold = begin;
-            return drive_forward(data, route, stops, sorties) && route.end <= end &&
-                   !any_too_long(data, route, stops, trips, sorties);
+            late = 0;
+            if (!drive_forward(data, route, stops, sorties)) return false;
+            late = route.end - end;
+            return late <= 0 && !any_too_long(data, route, stops, trips, sorties);
         };
-        Int found = before, failed = hold, tried = hold;
+        LatestStart start(before, soonest, hold, resting && route.sorties > 0);
         // Nothing is known of the latest then; mostly it can't be later at all.
         const bool in_vain = hold >= end && resting && !may_begin(soonest + 1);
-        for (Int attempt = 0; attempt <= most && found != hold && !in_vain; ++attempt) {
+        for (Int attempt = 0; attempt <= most && start.found() != hold && !in_vain; ++attempt) {
+            if (start.is_known()) break;
             // If not, drones in another order of arrival took longer, or breaks that are due.
-            (may_begin(tried) ? found : failed) = tried;
-            tried = (std::max(found, soonest) + failed) >> 1;
+            const bool may = may_begin(start.tried());
+            start.note(may, late);
         }
+        const Int found = start.found();
         if (stop.hold != found) {
             stop.hold = found;
             if (!drive_forward(data, route, stops, sorties)) return false;
