@@ -4,7 +4,9 @@
 
 #include "rules/driving.h"
 #include "rules/shift.h"
+#include "search/route/drone_data.h"
 #include "search/route/rest_placing.h"
+#include "search/route/routes.h"
 
 namespace tandem {
 namespace {
@@ -28,6 +30,45 @@ Int least_pause(const VehicleType& type, Int driving, Int lasting) {
     return paused + std::max(Int{0}, rests - saved);
 }
 
+// Return how long a sortie is out at least, recovery included.
+Int least_airborne(const ProblemData& data, Int k, View<const Stop, 1> stops,
+                   const Sortie& sortie) {
+    const DroneData drone = drone_data_at(data, row_of_drone(data.type, k, sortie.drone));
+    Int lasting = 0, here = stops[sortie.launch].node;
+    for (Int visit = 0; visit < sortie.count; ++visit) {
+        const Int next = sortie.nodes[visit];
+        lasting += leg(drone.legs, here, next).duration + drone.places[next].service_duration();
+        here = next;
+    }
+    lasting += leg(drone.homeward, here, stops[sortie.recovery].node).duration;
+    return recovery_end(drone.type, lasting);
+}
+
+// Return how long a route lasts at least from when truck or drone first leaves it, as drones have
+// to be waited for, but for breaks that aren't paid. In place: take-offs as soon as may be.
+Int least_lasting(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                  View<Sortie, 1> sorties) {
+    const VehicleType& type = data.type[route.type];
+    const NodeTable places = data.place.by_truck(type);
+    Int time = 0;
+    for (Int p = 0; p < route.length; ++p) {
+        const Stop& stop = stops[p];
+        Int leave = time;
+        if (stop.kind == customer_stop) leave += places[stop.node].service_duration();
+        for (Sortie& sortie : sorties.first(route.sorties)) {
+            if (sortie.launch == p) sortie.takeoff = time;
+            if (sortie.recovery != p) continue;
+            leave = std::max(leave,
+                             sortie.takeoff + least_airborne(data, route.type, stops, sortie));
+        }
+        time = p + 1 < route.length ? leave + stop.gap - resting_in_gap(type, stop) : leave;
+    }
+    for (Int number = 0; number < num_breaks(type); ++number) {
+        if (!is_paid(type, number)) time -= type.break_duration[number];
+    }
+    return time;
+}
+
 }  // namespace
 
 bool may_rest(const VehicleType& type) { return has_breaks(type) || has_driving_rules(type); }
@@ -49,15 +90,23 @@ Int least_working(const ProblemData& data, const Route& route, View<const Stop, 
 double least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> stops = fleet.stop[slot];
+    const View<Sortie, 1> sorties = fleet.sortie[slot];
     const VehicleType& type = data.type[route.type];
     const Rate& rate = data.rate[route.type];
-    const Int working = least_working(data, route, stops);
+    Int working = least_working(data, route, stops);
+    if (route.sorties > 0) {
+        working = std::max(working, least_lasting(data, route, stops, sorties));
+    }
     double cost = rate.fixed + work_cost(rate, paid_work(type, none, working));
     for (const Trip& trip : fleet.trip[slot].first(route.trips)) {
         cost += drive_cost(rate, trip.distance);
     }
     for (const Stop& stop : stops.first(route.length)) {
         if (stop.kind == customer_stop) cost += rate.stop;
+    }
+    for (const Sortie& sortie : sorties.first(route.sorties)) {
+        cost += flight_cost(data, route.type, stops, sortie,
+                            least_airborne(data, route.type, stops, sortie));
     }
     return cost;
 }

@@ -279,8 +279,8 @@ WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop
     return costs;
 }
 
-double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops,
-                   const Sortie& sortie) {
+double flight_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, const Sortie& sortie,
+                   Int airborne) {
     const Int row = row_of_drone(data.type, k, sortie.drone);
     const TravelLegs flights = legs_of(data.leg, data.type[row].drone_travel);
     Int node = stops[sortie.launch].node, flown = 0;
@@ -290,8 +290,14 @@ double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops,
         node = following;
     }
     flown += leg(flights, node, stops[sortie.recovery].node).distance;
-    const Int airborne = recovery_end(data.type[row], sortie.begin) - sortie.takeoff;
     return flown_cost(data.rate[row], flown) + airborne_cost(data.rate[row], airborne);
+}
+
+double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops,
+                   const Sortie& sortie) {
+    const Int row = row_of_drone(data.type, k, sortie.drone);
+    return flight_cost(data, k, stops, sortie,
+                       recovery_end(data.type[row], sortie.begin) - sortie.takeoff);
 }
 
 Int first_departure(const ProblemData& data, Route& route, View<const Stop, 1> stops,

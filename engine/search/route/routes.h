@@ -73,7 +73,11 @@ struct WindowCosts {
 WindowCosts price_windows(const ProblemData& data, const Route& route, View<Stop, 1> stops,
                           View<const Sortie, 1> sorties);
 
-// Return what the flight of a sortie costs.
+// Return what the flight of a sortie costs that is in the air so long, recovery included.
+double flight_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, const Sortie& sortie,
+                   Int airborne);
+
+// Return what the flight of a timed sortie costs.
 double sortie_cost(const ProblemData& data, Int k, View<const Stop, 1> stops, const Sortie& sortie);
 
 // Return when truck or drone first leaves the depot, as late as costs nothing.
