@@ -608,6 +608,7 @@ typedef struct tandem_route {
     int64_t offset;
     int64_t awaited;
     int64_t unpaid; /* breaks */
+    int64_t placed; /* where its breaks are: as it ends soonest, as they are, nowhere */
     int64_t
         driving;   /* at the wheel, of a driver who mustn't rest by rules, far if there are rests */
     int64_t stamp; /* stands for what the route is; 0 while a turn changes it */

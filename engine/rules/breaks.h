@@ -144,6 +144,16 @@ inline Int later_begin(const VehicleType& type, Int begin) {
     return type.breaks_since == none ? later : far;
 }
 
+// The last instant by `begin` by which one more break is over; `none`: none is.
+inline Int last_over_by(const VehicleType& type, Int begin) {
+    Int last = none;
+    for (Int number = 0; number < type.breaks; ++number) {
+        const Int end = break_of(type, number, 0).end(none);
+        if (type.break_after_departure[number] == 0 && end <= begin) last = std::max(last, end);
+    }
+    return type.breaks_since == none ? last : none;
+}
+
 // Whether a route that begins and ends then has to have none of the breaks from `number` on.
 inline bool none_due(const VehicleType& type, Int number, Int begin, Int end) {
     for (; number < type.breaks; ++number) {
@@ -169,6 +179,12 @@ inline bool follow_departure(const VehicleType& type, Rests rests) {
         if (is_stated(number) && type.break_after_departure[number] == 1) return true;
     }
     return false;
+}
+
+// Whether any break is taken later if the route begins later.
+inline bool any_follows_departure(const VehicleType& type) {
+    const Int* follows = type.break_after_departure;
+    return type.breaks_since == none && std::count(follows, follows + type.breaks, 1) > 0;
 }
 
 // Whether a break counts in the working duration.

@@ -367,14 +367,17 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
         return serve_parts_alone(data, fleet, slot, k, node, by_drone);
     const WaysAlone all(data, k, node, by_drone);
     double best = infeasible;
-    Int chosen = 0;
+    Int chosen = 0, end = far;
     bool done = false;
     // The last time, the best of them is written once more.
     for (Int tried = 0; tried < (all.number() == 1 ? 1 : all.number() + 1); ++tried) {
         const Int way = tried == all.number() ? chosen : tried;
         done = all.serve(fleet, slot, way);
-        if (done && fleet.cost[slot] < best) {
+        const bool is_sooner = data.fairness.makespan > 0.0 && fleet.cost[slot] == best &&
+                               fleet.route[slot].end < end;
+        if (done && (fleet.cost[slot] < best || is_sooner)) {
             best = fleet.cost[slot];
+            end = fleet.route[slot].end;
             chosen = way;
         }
     }

@@ -90,9 +90,7 @@ private:
     Break next_break(Int number) const { return break_of(type_, due_[number], truck_.begin); }
 
     // Whether a break after `number` others may be taken behind a stop with what is aboard there.
-    bool may_be_behind(Int p, Int number) const {
-        return !is_among(stops_[p].heavy, due_[number]);
-    }
+    bool may_be_behind(Int p, Int number) const { return !is_among(stops_[p].heavy, due_[number]); }
 
     // Give up who is too late for a break that is due.
     void drop_late() {
@@ -231,8 +229,8 @@ private:
         }
     }
 
-    // Tell whether a break is taken at the end of a leg, if not behind, by who is no later then; and
-    // forget who took it before. In place.
+    // Tell whether a break is taken at the end of a leg, if not behind, by who is no later then;
+    // and forget who took it before. In place.
     template <class Travel>
     bool is_put_off(const Label& label, Int number, Int p, const Travel& travel) {
         const Int opens = next_break(number).earliest;
@@ -322,6 +320,22 @@ bool any_break_due(const VehicleType& type, const Route& route, View<const Stop,
         next = Rests(stop.rests).next(next);
     }
     return !none_due(type, next, begin, route.end);
+}
+
+bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
+    const Int begin = begin_of(type, stops);
+    Int taken = 0;
+    for (const Stop& stop : stops.first(route.length)) {
+        const Rests rests(stop.rests);
+        for (Int index = 0; index < rests.count(); ++index) taken |= Int{1} << rests.number(index);
+    }
+    for (Int number = 0; number < num_breaks(type); ++number) {
+        if (!is_among(taken, number) && break_of(type, number, begin).latest < route.end &&
+            !over_before(type, number, begin)) {
+            return true;
+        }
+    }
+    return false;
 }
 
 bool place_breaks(const ProblemData& data, const Route& route, View<Stop, 1> stops,

@@ -41,6 +41,11 @@ constexpr Int sortie_waits = 0;
 constexpr Int sortie_flies = 1;
 constexpr Int sortie_done = 2;
 
+// `Route.placed`.
+constexpr Int breaks_by_end = 0;
+constexpr Int breaks_kept = 1;
+constexpr Int breaks_left_out = 2;
+
 // Stamp of a route that this turn changes; any other stands for what the route in the slot is.
 constexpr Int changing = 0;
 

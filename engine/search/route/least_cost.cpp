@@ -5,8 +5,10 @@
 #include "rules/driving.h"
 #include "rules/shift.h"
 #include "search/route/drone_data.h"
+#include "search/route/rarer.h"
 #include "search/route/rest_placing.h"
 #include "search/route/routes.h"
+#include "search/route/stop_loads.h"
 
 namespace tandem {
 namespace {
@@ -58,13 +60,13 @@ Int least_lasting(const ProblemData& data, const Route& route, View<const Stop, 
         for (Sortie& sortie : sorties.first(route.sorties)) {
             if (sortie.launch == p) sortie.takeoff = time;
             if (sortie.recovery != p) continue;
-            leave = std::max(leave,
-                             sortie.takeoff + least_airborne(data, route.type, stops, sortie));
+            leave =
+                std::max(leave, sortie.takeoff + least_airborne(data, route.type, stops, sortie));
         }
         time = p + 1 < route.length ? leave + stop.gap - resting_in_gap(type, stop) : leave;
     }
     for (Int number = 0; number < num_breaks(type); ++number) {
-        if (!is_paid(type, number)) time -= type.break_duration[number];
+        if (!is_paid(type, number)) time -= length_of(type, number);
     }
     return time;
 }
@@ -102,9 +104,17 @@ double least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
         cost += drive_cost(rate, trip.distance);
     }
     for (const Stop& stop : stops.first(route.length)) {
-        if (stop.kind == customer_stop) cost += rate.stop;
+        if (stop.kind == customer_stop) {
+            cost += rate.stop + vehicle_cost_at(data.vehicle_cost, route.type, stop.node);
+        } else if (stop.kind == halt_stop) {
+            cost += data.halt_cost[stop.node];
+        }
     }
+    if (loads_cost(data, route.type)) cost += load_cost(data, fleet, slot);
     for (const Sortie& sortie : sorties.first(route.sorties)) {
+        for (Int visit = 0; visit < sortie.count; ++visit) {
+            cost += vehicle_cost_at(data.vehicle_cost, route.type, sortie.nodes[visit]);
+        }
         cost += flight_cost(data, route.type, stops, sortie,
                             least_airborne(data, route.type, stops, sortie));
     }

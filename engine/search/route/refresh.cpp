@@ -14,6 +14,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
+#include "search/route/break_moves.h"
 #include "search/route/breaks.h"
 #include "search/route/charging.h"
 #include "search/route/ends.h"
@@ -22,6 +23,7 @@
 #include "search/route/kept_pairs.h"
 #include "search/route/lags.h"
 #include "search/route/least_cost.h"
+#include "search/route/pricing.h"
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
@@ -37,63 +39,6 @@ constexpr Int most_begins = 16;
 
 // Draws after which a search for one of few customers ends.
 constexpr Int most_draws = 64;
-
-// Return when truck or drone first leaves the depot on a settled route.
-Int settled_departure(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                      View<const Sortie, 1> sorties) {
-    return counted_from(data.type[route.type], departure_of(data, route, stops, sorties, 0));
-}
-
-// Tell whether a route with drones works too long unless it begins later than it could.
-//
-// Whether they then come in the order that its times were found by has to be seen.
-bool has_to_wait(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
-                 View<const Sortie, 1> sorties) {
-    if (route.sorties == 0) return false;
-    const Int soonest = settled_departure(data, route, stops, sorties);
-    return !may_work(data.type[route.type], route.end - soonest - route.unpaid);
-}
-
-// As `price_as_is`, of a route whose trips are timed, and held as long as they have to be.
-bool price_timed(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
-    const VehicleType& type = data.type[route.type];
-    const bool held_back = data.evaluation[route.type].held_back;
-    Int departure = first_departure(data, route, stops, sorties);
-    settled = held_back || has_to_wait(data, route, stops, sorties);
-    if (settled) {
-        if (!settle(data, route, stops, trips, sorties)) return false;
-        departure = settled_departure(data, route, stops, sorties);
-    }
-    if (lags_count(data) && !keeps_all_lags(data, route, stops, sorties)) return false;
-    route.working = route.end - departure - route.unpaid;
-    if (!may_work(type, route.working)) return false;
-    const auto [cost, early] = price_route(data, route, stops, trips, sorties);
-    fleet.cost[slot] = cost;
-    if (loads_cost(data, route.type)) fleet.cost[slot] += load_cost(data, fleet, slot);
-    fleet.early[slot] = held_back ? early : 0.0;
-    return true;
-}
-
-// As `price_as_is`, of a route whose loads are known and whose first trip begins no sooner than its
-// release says.
-bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    const View<Trip, 1> trips = fleet.trip[slot];
-    const View<Sortie, 1> sorties = fleet.sortie[slot];
-    const VehicleType& type = data.type[route.type];
-    clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties)) return false;
-    if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
-        return false;
-    }
-    if (shares_chargers(type) && !charge_in_turn(data, fleet, slot)) return false;
-    return price_timed(data, fleet, slot, settled);
-}
 
 // Return the first instant later than `begin` at which a route had better begin, perhaps: once a
 // break is over, or the speed changes. `far`: there is none.
@@ -118,16 +63,20 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double l
     const Int release = stops[0].release;
     Int begin = std::max(release, type.shift_earliest), chosen = none;
     double best = 0.0;
+    Int end = far;
+    const bool end_costs = data.fairness.makespan > 0.0;
     bool may_gain = has_breaks(type);
     for (Int tried = 0;; ++tried) {
         const bool possible = price_loaded(data, fleet, slot, settled);
-        if (possible && (chosen == none || fleet.cost[slot] < best)) {
+        const double cost = possible ? fleet.cost[slot] : no_bar;
+        if (possible && (chosen == none || cost < best || (cost == best && route.end < end))) {
             chosen = begin;
-            best = fleet.cost[slot];
+            best = cost;
+            end = route.end;
             may_gain = has_breaks(type) || any_rest(type, route);
         }
         const bool is_enough =
-            chosen != none && (!possible || !may_gain || best <= least ||
+            chosen != none && (!possible || !may_gain || (best <= least && !end_costs) ||
                                !data.evaluation[route.type].timed || tried >= most_begins);
         const Int later = next_begin(data, route.type, begin);
         if (is_enough || !may_end(type, later)) {
@@ -235,9 +184,16 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
     if (!load_route(data, fleet, slot)) return false;
     const VehicleType& type = data.type[fleet.route[slot].type];
     if (may_rest(type)) {
-        const double least = least_cost(data, fleet, slot);
+        const double in_time = least_cost(data, fleet, slot);
+        if (in_time >= bar) return false;
+        const double least = in_time + least_lateness(data, fleet, slot);
         if (least >= bar) return false;
-        if (rests_in_time(type)) return price_later(data, fleet, slot, least, settled);
+        if (rests_in_time(type)) {
+            return (price_later(data, fleet, slot, least, settled) ||
+                    begin_late(data, fleet, slot, settled)) &&
+                   (!may_move_breaks(data, fleet, slot, least) ||
+                    move_breaks(data, fleet, slot, {in_time, bar}, settled));
+        }
     }
     return limits_timed_travel(type) ? price_later(data, fleet, slot, no_bar, settled)
                                      : price_loaded(data, fleet, slot, settled);

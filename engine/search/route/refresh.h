@@ -2,11 +2,9 @@
 #pragma once
 
 #include "search/route/layout.h"
+#include "search/route/pricing.h"
 
 namespace tandem {
-
-// What no route costs.
-constexpr double no_bar = 1e300;
 
 // Write times and cost of a route with trips that end where they do. In place; false if it breaks
 // a rule.

@@ -131,6 +131,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
         }
     }
     route.trips = index + 1;
+    route.placed = breaks_by_end;
     if (limits_travel(type)) {
         route.travel = travel_on(data, type, stops, 0, route.length - 1);
         if (!may_travel(type, route.travel)) return false;
@@ -143,6 +144,10 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
     const VehicleType& type = data.type[route.type];
     if (has_driving_rules(type)) return drive_by_rules(data, route, stops, sorties);
     if (!has_breaks(type)) return drive_as_placed(data, route, stops, sorties);
+    if (route.placed != breaks_by_end) {
+        return drive_as_placed(data, route, stops, sorties) &&
+               (route.placed == breaks_left_out || !lacks_break(type, route, stops));
+    }
     clear_breaks(route, stops);
     const bool driven = drive_as_placed(data, route, stops, sorties);
     if (driven && !any_break_due(type, route, stops)) return true;

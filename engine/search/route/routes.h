@@ -34,7 +34,8 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
 bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
                      View<Sortie, 1> sorties);
 
-// As `drive_as_placed`, with breaks placed so that the route ends as soon as possible.
+// As `drive_as_placed`, with breaks placed so that the route ends as soon as possible, unless they
+// have to stay where they are.
 bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
                    View<Sortie, 1> sorties);
 

@@ -83,8 +83,19 @@ def in_order(rng: np.random.Generator) -> Problem:
     return with_order(rng, drawn(rng))
 
 
+def late(rng: np.random.Generator) -> Problem:
+    """Draw customers who may be served too late, and one truck whose driver has breaks."""
+    problem = drawn(rng)
+    truck, = problem.vehicle_types
+    return replace(
+        problem, vehicle_types=(replace(truck, cost_per_hour=20.0),),
+        customers=tuple(replace(each, latest=each.earliest + int(rng.integers(0, 5)) * MINUTE,
+                                late_cost_per_hour=60.0) for each in problem.customers))
+
+
 @pytest.mark.parametrize(("draw", "seed"), [
-    *((drawn, seed) for seed in range(8)), *((in_order, seed) for seed in range(3))])
+    *((drawn, seed) for seed in range(8)), *((in_order, seed) for seed in range(3)),
+    *((late, seed) for seed in (12, 27))])
 def test_search_finds_the_cheapest_plan_with_breaks(
         draw: Callable[[np.random.Generator], Problem], seed: int) -> None:
     problem = draw(np.random.default_rng(seed))
@@ -135,12 +146,37 @@ def test_breaks_that_nobody_needs_change_no_plan() -> None:
     assert plans[0] == plans[1]
 
 
-@pytest.mark.parametrize(("seed", "cheapest"), [(794, 112.0), (2235, 11 / 3)])
-def test_who_waits_for_a_flight_begins_later_beside_breaks(seed: int, cheapest: float) -> None:
-    """Tiny days of `many_days` whose first stop launches a drone for a window."""
+def assert_found(seed: int, cheapest: float) -> None:
+    """Assert that the search finds the cheapest plan of a tiny day of `many_days`."""
     problem = mixed_day(np.random.default_rng(seed))
     plan = improve(problem, pack([problem]), Solution((), problem.left_out(())),
                    SearchConfig(turns=300)).solution
     judged = check(problem, plan)
     assert judged.violations == ()
     assert judged.cost.total == pytest.approx(cheapest)
+
+
+@pytest.mark.parametrize(("seed", "cheapest"), [(794, 112.0), (2235, 11 / 3)])
+def test_who_waits_for_a_flight_begins_later_beside_breaks(seed: int, cheapest: float) -> None:
+    """The first stop launches a drone for a window."""
+    assert_found(seed, cheapest)
+
+
+@pytest.mark.parametrize(("seed", "cheapest"), [
+    (2277, 161 / 12), (1377, 344 / 3), (686, 3.5), (477, 340 / 3)])
+def test_breaks_lie_where_they_cost_least(seed: int, cheapest: float) -> None:
+    """Not where the route ends soonest.
+
+    Before a launch, so that the drone needn't wait; behind a service, so that the trip may begin
+    later; while a drone is out, though not due, as it isn't paid; or at once, as the next customer
+    isn't early then.
+    """
+    assert_found(seed, cheapest)
+
+
+@pytest.mark.parametrize(("seed", "cheapest"), [(456, 1841 / 15), (1205, 223.0), (1604, 49 / 3)])
+def test_routes_begin_when_breaks_let_them_cost_least(seed: int, cheapest: float) -> None:
+    """Of two that cost the same where the last end does, too, that which ends first; and later
+    where breaks that follow the departure would come before a service with too much aboard.
+    """
+    assert_found(seed, cheapest)
