@@ -309,12 +309,13 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
     return chosen;
 }
 
-bool order_may_change(const Setting& setting) {
-    return are_several(setting.type) || limits_airborne(setting.type) || some_paired(setting.pair);
+bool order_may_change(const Setting& setting, Int node) {
+    return are_several(setting.type) || limits_airborne(setting.type) ||
+           is_pickup(setting.pair, node);
 }
 
 bool order_is_open(const Setting& setting, const Vehicle& vehicle) {
-    return order_may_change(setting) && vehicle.flying > 0 &&
+    return order_may_change(setting, vehicle.node) && vehicle.flying > 0 &&
            longest_work(setting.type) < unlimited;
 }
 
@@ -322,7 +323,7 @@ Takeoffs takeoffs(const Setting& setting, const Vehicle& vehicle, const VehicleT
                   Int node) {
     const Int last = take_off(type, ready_to_launch(setting, vehicle, node, vehicle.free),
                               vehicle.launched + vehicle.flying);
-    if (!order_may_change(setting)) return {last, last};
+    if (!order_may_change(setting, vehicle.node)) return {last, last};
     return {last, take_off(type, ready_to_launch(setting, vehicle, node, vehicle.crew),
                            vehicle.launched)};
 }

@@ -33,7 +33,7 @@ Int next_drone(const Setting& setting, const VehicleLog& log, const Vehicle& veh
 
 // Whether drones may be launched in another order than they were chosen in: those of another type,
 // which come back to where they are launched, or carry what the truck picks up there.
-bool order_may_change(const Setting& setting);
+bool order_may_change(const Setting& setting, Int node);
 
 // Tell whether another drone in flight may be the first, so that working may begin sooner.
 bool order_is_open(const Setting& setting, const Vehicle& vehicle);

@@ -336,7 +336,7 @@ private:
                                 : sortie_takeoff(setting_, log_, sortie, free, launched_);
         const Int arrival = takeoff + drone_kind.out(node, customer);
         // Who is still in flight may be launched before others.
-        const bool may_be_sooner = writes && is_flying && order_may_change(setting_);
+        const bool may_be_sooner = writes && is_flying && order_may_change(setting_, node);
         if (!is_allowed(place, arrival, sortie.arrival) && !may_be_sooner) return std::nullopt;
         const Int start = place.start_of_service(arrival);
         const Int served = place.end_of_service(arrival);

@@ -51,6 +51,15 @@ void try_halts(const Insertion& insertion, Int slot) {
     take_cheapest(insertion);
 }
 
+// Whether an end of a shipment is flown to from a stop: a flight from a stop before may delay that.
+bool is_end_flown_from(const ProblemData& data, const Fleet& fleet, Int slot, Int p) {
+    if (!some_paired(data.pair)) return false;
+    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
+    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
+        return sortie.launch == p && is_paired(data.pair, sortie.nodes[0]);
+    });
+}
+
 // Tries a customer on the trips and sorties of a route.
 void try_route(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, best] = insertion;
@@ -81,7 +90,9 @@ void try_route(const Insertion& insertion, Int slot) {
         const Int leave = now.stop(slot, first).leave;
         // Who would have to wait for a flight from the depot may fly when the trip is over.
         const Int soonest = held_until(data.place[0][node].opening(leave), endurance_of(type));
-        if (leave < soonest) offer_sorties(insertion, slot, last, last);
+        if (leave < soonest || is_end_flown_from(data, now, slot, last)) {
+            offer_sorties(insertion, slot, last, last);
+        }
     }
     if (data.visits[k] > 1 && flies) offer_joining(insertion, slot);
     take_cheapest(insertion);

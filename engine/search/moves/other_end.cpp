@@ -1,7 +1,9 @@
 #include "search/moves/other_end.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "randomness.h"
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "search/insertion/cheapest.h"
@@ -18,11 +20,21 @@ namespace {
 
 constexpr Int most_timed = 16;  // places of the end
 
-bool launches_or_recovers(const Fleet& fleet, Int slot, Int p) {
-    const View<const Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
-    return std::any_of(sorties.begin(), sorties.end(), [&](const Sortie& sortie) {
-        return sortie.launch == p || sortie.recovery == p;
-    });
+// Lets drones be launched and recovered at one stop instead of another beside it. In place.
+void shift_flights(const Fleet& fleet, Int slot, Int from, Int to) {
+    const View<Sortie, 1> sorties = fleet.sortie[slot].first(fleet.route[slot].sorties);
+    for (Sortie& sortie : sorties) {
+        if (sortie.launch == from) sortie.launch = to;
+        if (sortie.recovery == from) sortie.recovery = to;
+    }
+    // Few, and mostly in order; as they were where they begin and end alike.
+    for (Int last = 1; last < sorties.size(); ++last) {
+        for (Int s = last; s > 0 && std::pair(sorties[s].launch, sorties[s].recovery) <
+                                        std::pair(sorties[s - 1].launch, sorties[s - 1].recovery);
+             --s) {
+            std::swap(sorties[s], sorties[s - 1]);
+        }
+    }
 }
 
 // Takes an end out of a route, where no drone is launched or recovered. In place.
@@ -139,9 +151,7 @@ bool move_end(const ProblemData& data, const Searcher& searcher, double rise) {
     const Int slot = place.slot, p = stop_beside(now, node);
     Trip& trip = now.trip(slot, now.stop(slot, p).trip);
     EndPlace former{0.0, by_wheels, p - 1, p - 1};
-    if (place.position >= 0) {
-        if (launches_or_recovers(now, slot, p)) return false;
-    } else {
+    if (place.position < 0) {
         const Sortie& sortie = now.sortie(slot, place.sortie);
         if (sortie.count == 1) {
             const Int row = row_of_drone(data.type, now.route[slot].type, sortie.drone);
@@ -149,6 +159,8 @@ bool move_end(const ProblemData& data, const Searcher& searcher, double rise) {
         }
     }
     touch(searcher, slot);
+    const bool drives = place.position >= 0;
+    if (drives) shift_flights(now, slot, p, below(searcher.rng, 2) == 0 ? p - 1 : p + 1);
     take_out(searcher, slot, trip, node);
     Best best{data.strategy.blink, searcher.rng};
     OtherEnd({data, searcher, node, false, best}, slot, trip).find(former);

@@ -50,11 +50,16 @@ def test_search_finds_the_cheapest_way_to_fly_shipments(
     assert missed_seeds(draw, seeds) == []
 
 
-@pytest.mark.parametrize(("seed", "cheapest"), [(31, 61.8), (166, 50.5), (286, 29.8)])
-def test_search_finds_ways_in_which_shipments_depend_on_each_other(
-        seed: int, cheapest: float) -> None:
-    """Compare with what brute force found: a drone brings one from where another is delivered."""
-    problem = drawn_problem(np.random.default_rng(seed))
+@pytest.mark.parametrize(("draw", "seed", "cheapest"), [
+    (drawn_problem, 31, 61.8), (drawn_problem, 166, 50.5), (drawn_problem, 286, 29.8),
+    (drawn_parts, 27, 52.0), (drawn_parts, 31, 47.1)])
+def test_search_finds_ways_in_which_ends_depend_on_each_other(
+        draw: Callable[[np.random.Generator], Problem], seed: int, cheapest: float) -> None:
+    """Compare with what brute force found: a drone brings one from where another is delivered.
+
+    Or fetches a part to where another is picked up, or leaves the depot again once it is there.
+    """
+    problem = draw(np.random.default_rng(seed))
     assert any(searched_cost(problem, turns) <= cheapest + 1e-6 for turns in TURNS)
 
 
