@@ -14,6 +14,7 @@ from app.plans.replies import Data
 from app.plans.task import Task, task_of, warning_replies
 from app.requests.bounds import Bounds
 from app.requests.conversion.preparing import Preparing
+from app.requests.ends import named_otherwise
 from app.requests.plan_reading import parse_plan, read_plan
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.explain import ExplainOptions, ExplainReply, ExplainRequest
@@ -135,7 +136,10 @@ def require_known(request: PlanRequest, customer: str | None, path: str) -> None
     if customer is not None and all(each.id != customer for each in request.customers):
         raise InvalidRequestError([InputError(
             code="UNKNOWN_CUSTOMER", path=path,
-            message=f"The problem has no customer {customer[:200]!r}: use the id of one it has.")])
+            message=named_otherwise(customer, [name for each in request.shipments
+                                               for name, _ in each.named_ends()],
+                                    " For all of it state shipment.")
+            or f"The problem has no customer {customer[:200]!r}: use the id of one it has.")])
 
 
 def require_shipment(request: PlanRequest, shipment: str | None, path: str) -> None:

@@ -48,6 +48,20 @@ def added_names(request: PlanRequest) -> Iterator[str]:
         yield from [name for name, _ in shipment.named_ends()]
 
 
+def named_otherwise(name: str, ends: Iterable[str], for_all: str = "") -> str | None:
+    """Say how ends of a shipment are named, if that is what a name is; None if it isn't.
+
+    `ends` are the names of all, and `for_all` says how all of one are named, if they can be.
+    """
+    own = [end for end in ends if end.startswith(f"{name}/")]
+    if not own:
+        return None
+    names = " or ".join(repr(end) for end in sorted(own, reverse=True))
+    what = ("is a shipment, whose ends are" if f"{name}/delivery" in own
+            else "is fetched at several places, which are")
+    return f"{name!r} {what} named each for itself: write {names}.{for_all}"
+
+
 def stated_path(request: PlanRequest, path: str) -> str:
     """Return the path of what a request states, by that among all who count as customers."""
     match = _CUSTOMER.fullmatch(path)

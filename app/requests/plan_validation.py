@@ -9,6 +9,7 @@ from app.requests.conversion.launches import launch_durations
 from app.requests.conversion.names import drone_number, number_in, read_name
 from app.requests.conversion.places import stands_of
 from app.requests.conversion.units import thousandths
+from app.requests.ends import named_otherwise
 from app.schemas.customer import CustomerInput
 from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.plan import MAX_INSTANT, ON_THE_WAY, RouteInput, StopInput, TripInput
@@ -276,8 +277,9 @@ class _Checker:
         for index, name in enumerate(self._replan.pinned):
             path: Path = ("pinned", index)
             if self._names.customers is not None and name not in self._names.customers:
-                yield _error("UNKNOWN_CUSTOMER", path, f"The request has no customer {name!r}: "
-                             "remove it here, or add it there.")
+                yield _error("UNKNOWN_CUSTOMER", path, named_otherwise(
+                    name, self._names.shipment_ends) or f"The request has no customer {name!r}: "
+                    "remove it here, or add it there.")
             elif name not in served:
                 yield _error("NOT_PLANNED", path, f"No vehicle serves {name!r} in the plan: remove "
                              "it here.")

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from itertools import combinations
 
 from app.requests.draft import Draft, Errors, Path, error_at
+from app.requests.ends import named_otherwise
 from app.schemas.relation import RelationInput
 from model.problem import MOST_IN_ORDER, MOST_RELATIONS
 
@@ -23,7 +24,8 @@ def relation_errors(draft: Draft) -> Errors:
                                "relations say the same at any place.")
             elif are_known and name not in known:
                 yield error_at("UNKNOWN_CUSTOMER", path,
-                               f"The request has no customer {name!r}: use a customer's id.")
+                               named_otherwise(name, draft.shipment_ends)
+                               or f"The request has no customer {name!r}: use a customer's id.")
             if name in seen:
                 yield error_at("DUPLICATE_ID", path,
                                f"{name!r} is named twice: name each customer once.")
