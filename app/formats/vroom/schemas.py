@@ -9,7 +9,6 @@ from pydantic import BaseModel, ConfigDict, Field, JsonValue
 
 from app.schemas.limits import MAX_CUSTOMERS, MAX_THREADS
 from app.schemas.rows import HeldAsArray, Row
-from model.problem import MAX_BREAKS
 
 DEFAULT_PROFILE = "car"
 DEFAULT_COST_PER_HOUR = 3600
@@ -18,6 +17,7 @@ MAX_EXPLORATION = 5
 MAX_UINT = 2**32 - 1
 MAX_AMOUNTS = 32
 MAX_WINDOWS = 100
+MAX_BREAKS = 32
 DEPRECATED: dict[str, JsonValue] = {"deprecated": True}
 MAX_PLACES = 3 * MAX_CUSTOMERS
 """Most rows of a matrix, and columns: for each task, and the start and end of each vehicle."""

@@ -71,8 +71,7 @@ class Way:
             if gap < len(self.actions):
                 latest = [last_start(time - self.actions[gap], self.slots[gap])
                           for time in latest]
-            best = [max((self._leave(latest[over], gap, first, over), over)
-                        for over in range(first, number + 1)) for first in range(number + 1)]
+            best = self._leaves(latest, gap)
             latest = [time for time, _ in best]
             chosen.append([over for _, over in best])
         over, counts = 0, []
@@ -95,17 +94,23 @@ class Way:
             time = last_start(time - action, slots) - travel
         return time
 
-    def _leave(self, arrival: int, gap: int, first: int, over: int) -> int:
-        """Return the latest time to leave for an arrival behind breaks of a gap."""
-        time, left = arrival, self.times[gap]
-        for number in range(over - 1, first - 1, -1):
-            if not self.allows(gap, number):
-                return NEVER
-            pause = self.pauses[number]
-            behind = time - pause.duration
-            time = last_start(behind, pause.slots)
-            left -= min(left, max(0, behind - time))
-        return time - left
+    def _leaves(self, latest: Sequence[int], gap: int) -> list[tuple[int, int]]:
+        """Return the latest times to leave for arrivals behind breaks of a gap, which `latest` are
+        by how many are over behind it; by how many are before it, and how many are behind it then.
+        """
+        best = [(NEVER, over) for over in range(len(latest))]
+        for over, arrival in enumerate(latest):
+            time, left = arrival, self.times[gap]
+            best[over] = max(best[over], (time - left, over))
+            for number in range(over - 1, -1, -1):
+                if time < 0 or not self.allows(gap, number):
+                    break
+                pause = self.pauses[number]
+                behind = time - pause.duration
+                time = last_start(behind, pause.slots)
+                left -= min(left, max(0, behind - time))
+                best[number] = max(best[number], (time - left, over))
+        return best
 
     def drive(self, gap: int, leave: int, numbers: range,
               starts: Sequence[int] = ()) -> tuple[int, list[Rest]]:

@@ -145,14 +145,21 @@ class Converter:
         if not stated.stated.breaks or not self._is_timed:
             return ()
         route = Driver(self._request, self._places, stated.vehicles[0]).drive(jobs)
-        return () if route is None else [(rest.number, rest.gap) for rest in route.rests]
+        if route is None:
+            return ()
+        gaps: dict[int, int] = {}
+        for rest in route.rests:
+            gaps.setdefault(self._rests.number_of(kind, rest.number), rest.gap)
+        return [*gaps.items()]
 
     def _breaks(self, kind: int, relaxed: bool) -> tuple[Break, ...]:
         """Return the breaks of a kind on the planner's clock."""
         return tuple([
             Break(str(number), seconds * PARTS, self._instant(begin), self._last_instant(end),
-                  anywhere=True)
-            for number, (seconds, (begin, end)) in enumerate(self._rests.of(kind, relaxed))])
+                  anywhere=True, max_load=None if most is None or not self._loads.kept
+                  else tuple([most[index] for index in self._loads.kept]))
+            for number, ((seconds, (begin, end)), most)
+            in enumerate(self._rests.of(kind, relaxed))])
 
     def _unlike(self, jobs: Sequence[int], actions: Actions, name: str) -> dict[str, int]:
         """Return how long vehicles of a type serve jobs, by id, where the first ones don't."""

@@ -31,6 +31,7 @@ class Loads:
     pickup: IntArray
     moved: IntArray  # by the shipment of which it is an end
     capacity: IntArray  # (kind, dimension)
+    kept: tuple[int, ...]  # which of the amounts stated these are
 
 
 def find_kinds(request: Request, places: Places) -> tuple[Kind, ...]:
@@ -59,7 +60,7 @@ def _kind(request: Request, places: Places, members: list[int], named: set[str])
 
 
 def find_loads(request: Request, kinds: tuple[Kind, ...]) -> Loads:
-    """Return the amounts that may fill a vehicle.
+    """Return the amounts that may fill a vehicle, or be too much during a break.
 
     Raises
     ------
@@ -73,12 +74,16 @@ def find_loads(request: Request, kinds: tuple[Kind, ...]) -> Loads:
     taken = np.array([job.pickup or nothing for job in request.jobs], np.int64)
     moved = np.where(is_job, 0, brought + taken)
     brought, taken = brought * is_job, taken * is_job
+    during_breaks = [each.max_load for kind in kinds for each in kind.stated.breaks
+                     if each.max_load is not None]
+    least = np.array([capacities.min(axis=0), *during_breaks]).min(axis=0)
     # Of a shipment, both ends count: that is more than there ever is aboard.
-    fills = np.flatnonzero((brought + taken + moved).sum(axis=0) > capacities.min(axis=0))
+    fills = np.flatnonzero((brought + taken + moved).sum(axis=0) > least)
     if len(fills) > MAX_DIMENSIONS:
         raise RefusedError(f"capacity: {len(fills)} amounts may fill a vehicle, and "
                            f"{MAX_DIMENSIONS} can be planned here.")
     if not len(fills):
         none = np.zeros((len(request.jobs), 1), np.int64)
-        return Loads(none, none, none, np.zeros((len(kinds), 1), np.int64))
-    return Loads(brought[:, fills], taken[:, fills], moved[:, fills], capacities[:, fills])
+        return Loads(none, none, none, np.zeros((len(kinds), 1), np.int64), ())
+    return Loads(brought[:, fills], taken[:, fills], moved[:, fills], capacities[:, fills],
+                 tuple(fills.tolist()))

@@ -17,6 +17,7 @@ from model.dialects.vroom.exact import best_routes, is_few
 from model.dialects.vroom.models import Model, Routes
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.prices import leave_out_by_priority
+from model.dialects.vroom.repair import Mending, units_of
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.work import UNHURRIED, LegLimit, Preparing, attempt_seconds, model_seconds
 from model.judge.check import check
@@ -35,6 +36,9 @@ CHOOSING_JOBS = 0.7
 
 RELAXED = 0.85
 """Share of the time for relaxed problems, where there are any."""
+
+MENDING = 0.2
+"""Share of the time of a problem whose plans may break rules, for mending the one found."""
 
 SPARE = 3.0
 """Stages pay while there is time for so many problems to be built and planned."""
@@ -166,10 +170,11 @@ class Planning:
             return best
         self._has_tried |= bool(best.served) or problem is model.problem
         until = time.perf_counter() + seconds
+        searched = until - MENDING * seconds if model.is_loose else until
         given = self._given(replace(model, problem=problem), best.routes)
-        options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(until)))
+        options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(searched)))
         routes = model.routes(self._plan(problem, options, given, meet).solution)
-        found = self._sound(routes) if model.is_loose else self._judged(routes)
+        found = self._mended(routes, until) if model.is_loose else self._judged(routes)
         return max(best, found, key=attrgetter("value"))
 
     def _given(self, model: Model, start: Routes) -> Solution:
@@ -209,6 +214,16 @@ class Planning:
                         if self._route_cost(kind, tuple(jobs)) is not None]
                  for kind, its_routes in routes.items()}
         return self._judged({kind: its_routes for kind, its_routes in sound.items() if its_routes})
+
+    def _mended(self, routes: Routes, until: float) -> Found:
+        """Return routes without rules that are broken, with their value."""
+        sound = self._sound(routes)
+        if len(sound.served) == sum(len(jobs) for each in routes.values() for jobs in each):
+            return sound
+        units = sorted(units_of(self._request.jobs),
+                       key=lambda unit: -self._priorities[unit[0]])
+        counts = [len(kind.vehicles) for kind in self.kinds]
+        return self._judged(Mending(units, counts, self._route_cost, until).mended(routes))
 
     def _route_cost(self, kind: int, jobs: tuple[int, ...]) -> int | None:
         """Return the cost of a route, None if it breaks a rule; each is looked at once."""

@@ -3,43 +3,64 @@
 The planner has a break only if a route can't be over before it, nor begin behind it; VROOM always.
 Who has it beside the route can take it there only within his shift, and one break after another:
 each window is cut to what that leaves. By breaks cut so, the two are the same.
+
+The planner has few breaks of one vehicle. Of more, neighbours are taken as one, with what lies
+between them.
 """
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 from model.dialects.vroom.kinds import Kind
 from model.dialects.vroom.request import Window
 from model.dialects.vroom.windows import ENDLESS
+from model.problem import MAX_BREAKS
 
 CutBreak = tuple[int, Window]
 """Seconds, and when it may start."""
+
+MostAboard = tuple[int, ...] | None
+"""What may be aboard at most; None: anything."""
 
 
 class Rests:
     """The breaks of all kinds of vehicles.
 
     The planner's break has one window. Of several the longest is taken, or, relaxed, all and what
-    is between.
+    is between. Of breaks that are taken as one, relaxed, the longest stands for all.
     """
 
     def __init__(self, kinds: Sequence[Kind], is_timed: bool) -> None:
         """Cut windows; where nothing `is_timed` breaks bind nobody."""
         self._strict = [_cut(kind, relaxed=False) if is_timed else () for kind in kinds]
         self._loose = [_cut(kind, relaxed=True) if is_timed else () for kind in kinds]
-        self.differ = self._strict != self._loose
+        self._most = [[each.max_load for each in kind.stated.breaks] for kind in kinds]
+        self._groups = [_groups(breaks) for breaks in self._strict]
+        are_few = all(len(breaks) <= MAX_BREAKS for breaks in self._strict)
+        self.differ = not are_few or self._strict != self._loose
         """Whether relaxed breaks are others."""
-        self.are_exact = not is_timed or not any(
-            each.max_load is not None for kind in kinds for each in kind.stated.breaks)
+        self.are_exact = not is_timed or (are_few and not any(
+            each.max_load is not None for kind in kinds for each in kind.stated.breaks))
         """Whether whoever takes these breaks takes VROOM's."""
 
     def begins(self) -> list[int]:
         """Return the seconds in which breaks may start first."""
         return [begin for breaks in (*self._strict, *self._loose) for _, (begin, _) in breaks]
 
-    def of(self, kind: int, relaxed: bool) -> Sequence[CutBreak]:
+    def of(self, kind: int, relaxed: bool) -> Sequence[tuple[CutBreak, MostAboard]]:
         """Return the breaks of a kind, none if they can't be taken."""
         breaks = (self._loose if relaxed else self._strict)[kind]
-        return breaks if _fit(breaks) else ()
+        if not _fit(breaks):
+            return ()
+        groups = self._groups[kind]
+        if relaxed:
+            groups = [[max(group, key=breaks.__getitem__)] for group in groups]
+        return [(_as_one([breaks[number] for number in group]),
+                 _least_of([self._most[kind][number] for number in group])) for group in groups]
+
+    def number_of(self, kind: int, number: int) -> int:
+        """Return which of a kind's breaks, as the planner has them, stands for one stated."""
+        return next(index for index, group in enumerate(self._groups[kind]) if number in group)
 
     def can_be_taken(self, kind: int) -> bool:
         """Tell whether there is time for all breaks of a kind."""
@@ -48,6 +69,39 @@ class Rests:
 
 def _fit(breaks: Sequence[CutBreak]) -> bool:
     return all(begin <= end for _, (begin, end) in breaks)
+
+
+def _groups(breaks: Sequence[CutBreak]) -> list[list[int]]:
+    """Return which breaks are taken as one, so few that the planner can have them."""
+    groups = [[number] for number in range(len(breaks))]
+    while len(groups) > MAX_BREAKS:
+        joined = [_as_one([breaks[number] for number in (*one, *other)])
+                  for one, other in pairwise(groups)]
+        lost = [seconds - sum([breaks[number][0] for number in (*one, *other)])
+                for (seconds, _), (one, other) in zip(joined, pairwise(groups), strict=True)]
+        # Where nothing is lost by waiting, the widest window is left.
+        first = min(range(len(joined)), key=lambda index: (
+            lost[index], joined[index][1][0] - joined[index][1][1]))
+        groups[first:first + 2] = [groups[first] + groups[first + 1]]
+    return groups
+
+
+def _as_one(breaks: Sequence[CutBreak]) -> CutBreak:
+    """Return one break in which all of some, cut, are taken: as late as the first may be begun
+    where there is time between.
+    """
+    (seconds, (begin, end)), *others = breaks
+    for duration, (opens, closes) in others:
+        before = max(seconds, opens - end)
+        begin, end = max(begin, opens - before), min(end, closes - before)
+        seconds = before + duration
+    return seconds, (begin, end)
+
+
+def _least_of(limits: Sequence[MostAboard]) -> MostAboard:
+    """Return what is within all limits on what is aboard."""
+    stated = [limit for limit in limits if limit is not None]
+    return tuple(map(min, zip(*stated, strict=True))) if stated else None
 
 
 def _cut(kind: Kind, relaxed: bool) -> Sequence[CutBreak]:

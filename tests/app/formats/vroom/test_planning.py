@@ -118,6 +118,43 @@ def test_few_jobs_with_windows_and_a_limit_are_planned_at_least_cost(ours: Solve
     assert reply["summary"]["cost"] == pytest.approx(-minus_cost / COST_SCALE, abs=1)
 
 
+def with_breaks(seed: int, number: int, most: int | None, wide: int) -> Data:
+    """Return sixteen jobs for two vehicles with breaks all day, each within a window."""
+    draw, day = random.Random(seed), 40_000
+    places = [(draw.uniform(0, 3000), draw.uniform(0, 3000)) for _ in range(17)]
+    breaks: list[Data] = []
+    for index in range(number):
+        middle = day * (2 * index + 1) // (2 * number)
+        breaks.append({"id": index, "service": 120,
+                       "time_windows": [[middle - wide, middle + wide]],
+                       **({} if most is None else {"max_load": [most]})})
+    return {
+        "vehicles": [{"id": vehicle, "start_index": 0, "end_index": 0, "time_window": [0, day],
+                      "capacity": [60], "breaks": breaks} for vehicle in range(2)],
+        "jobs": [{"id": job, "location_index": job, "service": 600,
+                  "delivery": [draw.randint(1, 4)]} for job in range(1, 17)],
+        "matrices": {"car": {"durations": [[int(math.dist(one, other)) for other in places]
+                                           for one in places]}}}
+
+
+@pytest.mark.parametrize(("number", "wide"), [(9, 900), (12, 30), (20, 400)])
+def test_more_breaks_are_planned_than_the_planner_has(ours: Solve, number: int,
+                                                      wide: int) -> None:
+    request = with_breaks(1, number, None, wide)
+    reply = ours(request)
+    judge(request, reply)
+    assert reply["summary"]["unassigned"] == 0
+
+
+@pytest.mark.parametrize("seed", [1, 3, 6])
+def test_routes_that_are_too_heavy_for_breaks_are_mended(ours: Solve, seed: int) -> None:
+    request = with_breaks(seed, 4, 18, 900)
+    reply = ours(request)
+    judge(request, reply)
+    assert reply["summary"]["unassigned"] == 0
+    assert reply["summary"]["cost"] <= 1.4 * solve(request)["summary"]["cost"]
+
+
 def test_one_window_of_several_is_kept(ours: Solve, street: Data) -> None:
     street["jobs"][0]["time_windows"] = [[0, 50], [5000, 5100]]
     street["jobs"][3]["time_windows"] = [[100, 200], [4600, 4700], [9000, 9100]]

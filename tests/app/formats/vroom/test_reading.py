@@ -112,7 +112,7 @@ def test_errors_are_told_in_vrooms_words(request_data: Data, change: Change) -> 
 
 REFUSED = {
     "$.vehicles[0].breaks": setting(
-        "vehicles", 0, "breaks", value=[{"id": number} for number in range(9)]),
+        "vehicles", 0, "breaks", value=[{"id": number} for number in range(33)]),
     "$.options.y": setting("options", value={"y": 1}),
     "$.options.x": setting("options", value={"x": 6}),
     "$.vehicle": setting("vehicle", value=[]),
