@@ -23,12 +23,6 @@ def related(smallest: Request) -> Request:
     return smallest
 
 
-def messages(reply: httpx.Response) -> list[tuple[str, str]]:
-    """Return where the errors of a refusal are, and what they say."""
-    assert reply.status_code == 422, reply.text
-    return [(error["path"], error["message"]) for error in reply.json()["errors"]]
-
-
 def vehicle_of(plan: dict[str, Any]) -> dict[str, str]:
     return {stop["id"]: route["vehicle"] for route in plan["routes"] for trip in route["trips"]
             for stop in trip["stops"] if stop["kind"] == "customer"}
@@ -154,29 +148,6 @@ def test_who_is_kept_apart_from_all_asks_for_one_vehicle_more(service: httpx.Cli
         ("RELATION", "fits with one more vehicle of truck")]
     related["fleet"][0]["count"] += 1
     assert service.post("/plan", json=related).json()["unassigned"] == []
-
-
-def test_whoever_names_a_shipment_is_told_how_its_ends_are_named(service: httpx.Client,
-                                                                 related: Request) -> None:
-    related["relations"] = [{"kind": "together", "customers": ["A", "s"]}]
-    place = {"location": [1, 1]}
-    related["shipments"] = [{"id": "s", "amount": [1], "pickup": place, "delivery": place}]
-    ends = "named each for itself: write 's/pickup' or 's/delivery'."
-    path, told = "$.relations[0].customers[1]", f"'s' is a shipment, whose ends are {ends}"
-    assert messages(service.post("/plan", json=related)) == [(path, told)]
-    related["relations"] = []
-    asked = {"problem": related, "plan": {"routes": []}, "customer": "s"}
-    assert messages(service.post("/fit", json=asked)) == [
-        ("$.customer", f"{told} For all of it state shipment.")]
-    related["replan"] = {"plan": {"routes": []}, "pinned": ["s"]}
-    assert messages(service.post("/plan", json=related)) == [("$.replan.pinned[0]", told)]
-    parts = [{"id": name, "amount": [1], **place} for name in "xy"]
-    del related["replan"]
-    related |= {"shipments": [{"id": "s", "pickups": parts, "delivery": place}],
-                "relations": [{"kind": "together", "customers": ["A", "s/pickup"]}]}
-    assert messages(service.post("/plan", json=related)) == [
-        (path, "'s/pickup' is fetched at several places, which are named each for itself: write "
-         "'s/pickup/y' or 's/pickup/x'.")]
 
 
 @pytest.mark.parametrize(("relations", "errors"), [

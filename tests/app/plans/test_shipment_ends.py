@@ -17,6 +17,12 @@ def paired(smallest: Request) -> Request:
     return smallest
 
 
+def messages(reply: httpx.Response) -> list[tuple[str, str]]:
+    """Return where the errors of a refusal are, and what they say."""
+    assert reply.status_code == 422, reply.text
+    return [(error["path"], error["message"]) for error in reply.json()["errors"]]
+
+
 def test_a_customer_called_as_a_pickup_is_told_so(searching: httpx.Client,
                                                   paired: Request) -> None:
     (shipment,) = paired["shipments"]
@@ -47,3 +53,25 @@ def test_what_flies_is_told_how_far_the_farther_end_lies(
     (reason,) = left["reasons"]
     assert reason["message"] == "It lies 3 km farther away than the max_range."
     assert reason["remedy"] == "fits if max_range were 3 km longer"
+
+
+def test_whoever_names_a_shipment_is_told_how_its_ends_are_named(searching: httpx.Client,
+                                                                 paired: Request) -> None:
+    place, first = {"location": [1, 1]}, paired["customers"][0]["id"]
+    paired["relations"] = [{"kind": "together", "customers": [first, "s1"]}]
+    ends = "named each for itself: write 's1/pickup' or 's1/delivery'."
+    path, told = "$.relations[0].customers[1]", f"'s1' is a shipment, whose ends are {ends}"
+    assert messages(searching.post("/plan", json=paired)) == [(path, told)]
+    paired["relations"] = []
+    asked = {"problem": paired, "plan": {"routes": []}, "customer": "s1"}
+    assert messages(searching.post("/fit", json=asked)) == [
+        ("$.customer", f"{told} For all of it state shipment.")]
+    paired["replan"] = {"plan": {"routes": []}, "pinned": ["s1"]}
+    assert messages(searching.post("/plan", json=paired)) == [("$.replan.pinned[0]", told)]
+    parts = [{"id": name, "amount": [1], **place} for name in "xy"]
+    del paired["replan"]
+    paired |= {"shipments": [{"id": "s1", "pickups": parts, "delivery": place}],
+               "relations": [{"kind": "together", "customers": [first, "s1/pickup"]}]}
+    assert messages(searching.post("/plan", json=paired)) == [
+        (path, "'s1/pickup' is fetched at several places, which are named each for itself: write "
+         "'s1/pickup/y' or 's1/pickup/x'.")]
