@@ -177,7 +177,7 @@ class _Change(NamedTuple):
     """What comes aboard a truck of a shipment, or leaves it."""
 
     stop: int
-    order: int  # at that stop: what leaves, what is brought by who fetched it, what comes
+    order: int  # at that stop: what leaves, comes and leaves on one sortie, comes, leaves again
     comes: bool
     id: str
     time: float  # of the end of service at a pickup, of its start at a delivery
@@ -186,7 +186,8 @@ class _Change(NamedTuple):
 def _changes_of(trip: Data) -> list[_Change]:
     """Return what a trip fetches and brings, in order.
 
-    A drone does so where it is recovered or launched, or both there if it is on one sortie.
+    A drone does so where it is recovered or launched, or both there if it is on one sortie. What
+    it brings may have been picked up where it is launched, if it takes off behind that.
     """
     changes = []
 
@@ -206,7 +207,10 @@ def _changes_of(trip: Data) -> list[_Change]:
             elif visit["kind"] == "pickup":
                 add(sortie["recovery_stop"], AT_LAST, visit)
             else:
-                add(sortie["launch_stop"], 0, visit)
+                stop = trip["stops"][sortie["launch_stop"]]
+                is_from_there = ((stop["kind"], stop["id"]) == ("pickup", visit["id"])
+                                 and sortie["launch_time"] >= stop["service_start"] - SLACK)
+                add(sortie["launch_stop"], AT_LAST + 1 if is_from_there else 0, visit)
     return sorted(changes)
 
 

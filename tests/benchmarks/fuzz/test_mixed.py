@@ -120,6 +120,17 @@ def test_ends_that_drones_serve_are_read(request_of_day: Data, day: Data, kinds:
     assert told == [] if fault is None else any(fault in each for each in told), told
 
 
+@pytest.mark.parametrize(("takeoff", "is_sound"), [(1100, True), (1099, False)])
+def test_what_is_picked_up_at_a_stop_flies_from_there_afterwards(
+        request_of_day: Data, day: Data, takeoff: float, is_sound: bool) -> None:
+    [delivery] = [stop for stop in _stops(day) if stop["kind"] == "delivery"]
+    _stops(day).remove(delivery)
+    [flight] = day["routes"][0]["trips"][0]["sorties"]
+    flight |= {"customers": [delivery], "launch_stop": 3, "recovery_stop": 5,
+               "launch_time": takeoff, "recovery_time": 2000.0}
+    assert (list(faults_of(request_of_day, day)) == []) == is_sound
+
+
 def _stops(day: Data, route: int = 0) -> list[Data]:
     stops: list[Data] = day["routes"][route]["trips"][0]["stops"]
     return stops
