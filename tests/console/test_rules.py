@@ -1,6 +1,7 @@
 """The rules of a working day, stated in the form as people do, sent and seen in the plan."""
 
 import json
+from collections.abc import Callable
 from typing import Any
 
 import pytest
@@ -140,6 +141,28 @@ def test_every_rule_is_stated_in_the_form_and_kept_by_the_plan(page: Page) -> No
     panel.get_by_label("Pick B", exact=True).check()
     panel.get_by_role("button", name="Cancel 1 order").click()
     assert [len(each["customers"]) for each in state(page, "state.request.relations")] == [2, 2]
+
+
+def test_a_relation_is_mended_where_it_is_and_turned_into_another(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, allow=("422",))
+    open_file(page, "day.json", json.dumps(REQUEST))
+    planned(page, "5 of 5 served")
+    open_tab(page, "customers")
+    panel = page.locator(".panel")
+    panel.locator("summary", has_text="Who goes with whom").click()
+    panel.get_by_role("button", name="Add a relation").click()
+    page.get_by_role("button", name="Plan", exact=True).click()
+    entry = panel.locator("fieldset.list .entry").last
+    expect(entry).to_contain_text("at least 2 needed")
+    fill(entry.get_by_label("Customers"), "A, B")
+    entry.get_by_label("Kind").select_option("in this order")
+    fill(entry.get_by_label("Min lag"), "0:05")
+    entry.get_by_label("Kind").select_option("apart")
+    expect(entry.get_by_label("Min lag")).to_have_count(0)
+    page.get_by_role("button", name="Plan", exact=True).click()
+    planned(page, "5 of 5 served")
+    assert state(page, "state.request.relations.0") == {"kind": "apart", "customers": ["A", "B"]}
 
 
 def keeps(plan: dict[str, Any]) -> None:

@@ -3,7 +3,7 @@ import test from 'node:test';
 import { removeCustomers } from '../../../app/console/static/js/core/changes.js';
 import { presetOf, withEntry, withoutEntry } from '../../../app/console/static/js/core/presets.js';
 import {
-  needlessIn, relate, renamed, withShipments,
+  needlessIn, ofTheirKinds, relate, renamed, withShipments,
 } from '../../../app/console/static/js/core/relations.js';
 import {
   helpOf, kindOf, resolve, wordLines, wordsOf,
@@ -24,6 +24,15 @@ test('a relation has the fields of its kind, and those that are stated', () => {
   assert.deepEqual(relate({}, 'apart', ['A', 'B']).relations, [
     { kind: 'apart', customers: ['A', 'B'] },
   ]);
+});
+
+test('what was an order says nothing of orders under another kind', () => {
+  const apart = { ...REQUEST, relations: [
+    REQUEST.relations[0], { ...REQUEST.relations[1], kind: 'apart' }] };
+  assert.deepEqual(ofTheirKinds(REQUEST, apart).relations, [
+    REQUEST.relations[0], { kind: 'apart', customers: ['A', 'B', 'C'] }]);
+  assert.deepEqual(ofTheirKinds(apart, apart), apart);
+  assert.deepEqual(ofTheirKinds(REQUEST, { customers: [] }), { customers: [] });
 });
 
 test('whoever is removed is named no longer, and a relation of one is left out', () => {

@@ -12,6 +12,19 @@ export function needlessIn(relation) {
   return names.filter((name) => relation[name] === undefined);
 }
 
+/** Return the problem in which a relation that was an order says nothing of orders any more. */
+export function ofTheirKinds(former, changed) {
+  if (former.relations?.length !== changed.relations?.length) return changed;
+  const wasOrder = (at) => former.relations[at].kind === 'before';
+  const without = (relation) => Object.fromEntries(
+    Object.entries(relation).filter(([name]) => !OF_ORDERS.includes(name)));
+  return {
+    ...changed,
+    ...(changed.relations && { relations: changed.relations.map((relation, at) => (
+      wasOrder(at) && relation.kind !== 'before' ? without(relation) : relation)) }),
+  };
+}
+
 /** Return the problem with a relation more. */
 export function relate(request, kind, customers) {
   return { ...request, relations: [...(request.relations ?? []), { kind, customers }] };

@@ -9,6 +9,7 @@ import { countZones } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
+import { useOpening } from './parts.js';
 import { WindForm } from './wind-form.js';
 import { t } from '../texts.js';
 
@@ -91,7 +92,8 @@ function VehicleType({ type, position, request, isNew }) {
   const drones = droneCount(type) ? `, ${t('fleet.drones', { count: droneCount(type) })}` : '';
   const choices = { depot: request.depots.map(({ id }) => id) };
   const skip = [...(request.matrices ? [] : ['profile']), ...needlessFields(type)];
-  return html`<details class="card" open=${position === 0 || isNew || errors > 0}>
+  const card = useOpening(position === 0 || isNew || errors > 0);
+  return html`<details class="card" ref=${card}>
     <summary><strong>${type.id}</strong> ${
       errors > 0 &&
       html`<span class="error">

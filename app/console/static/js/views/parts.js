@@ -14,6 +14,19 @@ export function Badge({ vehicle, label }) {
     ${label ?? vehicle.label}</span>`;
 }
 
+/**
+ * Return what opens a card as soon as something in it is to be looked at.
+ *
+ * It isn't closed again: whoever has mended what was wrong goes on in it.
+ */
+export function useOpening(isOpen) {
+  const card = useRef(null);
+  useEffect(() => {
+    if (isOpen) card.current.open = true;
+  }, [isOpen]);
+  return card;
+}
+
 /** What links an element with the map and the timeline. */
 export function linked(index, key, selection, hovered) {
   return {

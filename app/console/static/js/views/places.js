@@ -5,22 +5,22 @@ import { freeName, removeCustomers } from '../core/changes.js';
 import { number } from '../core/format.js';
 import { removeIn, setIn } from '../core/paths.js';
 import { placeOf } from '../core/places.js';
-import { withShipments } from '../core/relations.js';
+import { ofTheirKinds, withShipments } from '../core/relations.js';
 import { labelOf } from '../core/schema.js';
 import { endsOf } from '../core/visits.js';
 import { html } from '../libraries.js';
 import { store, useStore } from '../store.js';
 import { Field, Fields } from './form.js';
+import { useOpening } from './parts.js';
 import { t } from '../texts.js';
 
 /** Shipments, open where one is selected. */
 export function Shipments({ request }) {
   const schemas = useStore((state) => state.schemas);
   const selection = useStore((state) => state.selection);
-  // Never undefined: what becomes false closes the card, the first one added too.
   const isSelected = (request.shipments ?? []).some((shipment) =>
     endsOf(shipment).some(({ name }) => selection === `c:${name}`));
-  return html`<details class="card" open=${isSelected}><summary>${labelOf('shipments')}
+  return html`<details class="card" ref=${useOpening(isSelected)}><summary>${labelOf('shipments')}
       <span class="right">${number(request.shipments?.length ?? 0, 0)}</span></summary>
     <div class="inside"><${Field} name="shipments" keys=${['shipments']} request=${request}
       schema=${schemas.PlanRequest.properties.shipments}
@@ -36,10 +36,11 @@ export function Relations({ request }) {
   const isWrong = useStore((state) => state.errors).some(({ keys }) =>
     OF_COMPANY.includes(keys[0]));
   const count = OF_COMPANY.reduce((sum, name) => sum + (request[name]?.length ?? 0), 0);
-  return html`<details class="card" open=${isWrong}><summary>${labelOf('relations')}
+  return html`<details class="card" ref=${useOpening(isWrong)}><summary>${labelOf('relations')}
       <span class="right">${number(count, 0)}</span></summary>
     <div class="inside">${OF_COMPANY.map((name) => html`<${Field} key=${name} name=${name}
-      keys=${[name]} request=${request} schema=${properties[name]} onChange=${edit} />`)}
+      keys=${[name]} request=${request} schema=${properties[name]}
+      onChange=${(changed) => edit(ofTheirKinds(request, changed))} />`)}
     </div></details>`;
 }
 

@@ -9,7 +9,7 @@ import { html, uPlot, useEffect, useRef, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
 import { Fields } from './form.js';
-import { Facts } from './parts.js';
+import { Facts, useOpening } from './parts.js';
 
 /** If the first cost is so many times the last, as where customers were left out, it is cut off. */
 const STEEP = 3;
@@ -28,12 +28,13 @@ export function SolveTab() {
   const sampled = request.options?.decoding === 'sample';
   const rest = Object.keys(schemas.OptionsInput.properties).filter((name) => !PLAIN.includes(name));
   const wrong = errors.some(({ keys }) => keys[0] === 'options' && rest.includes(keys[1]));
+  const card = useOpening(wrong);
   const most = useStore((state) => state.config.max_job_seconds);
   const schema = withFittingLimit(schemas.OptionsInput, request, most);
   const shared = { schema, keys: ['options'], request, onChange: edit };
   return html`<section class="section"><h3>${t('solve.how')}</h3>
       <${Fields} ...${shared} skip=${rest} />
-      <details class="card" open=${wrong}><summary>${t('solve.advanced')}
+      <details class="card" ref=${card}><summary>${t('solve.advanced')}
           <span class="right">${statedIn(request.options, rest)}</span></summary>
         <div class="inside"><${Fields} ...${shared} choices=${{ policy: policies }}
           skip=${[...PLAIN, ...OWN, ...(sampled ? [] : OF_SAMPLES)]} /></div></details>
