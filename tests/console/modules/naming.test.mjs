@@ -44,6 +44,14 @@ test('plans are named by what changed', () => {
     [{ ...REQUEST, airspace: { no_fly: [[[0, 0], [1, 0], [1, 1]]] } }, 'other no-fly areas'],
     [{ ...REQUEST, fleet: [{ ...REQUEST.fleet[0], speed_kmh: 30 }, REQUEST.fleet[1]] },
       'van: speed km/h none \u2192 30'],
+    [{ ...REQUEST, fleet: [
+      { ...REQUEST.fleet[0], driving_rules: { preset: 'us-hos', max_driving: 3600 } },
+      REQUEST.fleet[1]] },
+    'van: driving rules none \u2192 preset US hours of service'],
+    [{ ...REQUEST, fleet: [{ ...REQUEST.fleet[0], breaks: [{ id: 'tea', duration: 60 }] },
+      REQUEST.fleet[1]] }, 'van: breaks none \u2192 tea'],
+    [{ ...REQUEST, relations: [{ kind: 'apart', customers: ['Anna', 'Ben'] }] },
+      'who goes with whom none \u2192 1'],
     [{ ...REQUEST, options: { time_limit: 10 } }, 'planned for 10 s'],
     [REQUEST, 'planned again'],
   ];

@@ -1,7 +1,7 @@
 /** What of a problem changed, in words; entries are those of `requestDifferences`. */
 
 import { clock, hours } from './format.js';
-import { labelOf, withinSentence } from './schema.js';
+import { choiceOf, labelOf, withinSentence } from './schema.js';
 import { t } from '../texts.js';
 
 const LONGEST = 60;
@@ -23,16 +23,27 @@ function placeOf(path) {
   return { owner, field, name: names[names.length - 1] };
 }
 
+/** Return a value in words: of lists of what has no names how many there are. */
+function textOf(value, name) {
+  if (Array.isArray(value)) {
+    const names = value.map((entry) => entry?.id ?? entry);
+    return names.some((entry) => typeof entry === 'object') ? String(names.length)
+      : names.join(', ');
+  }
+  if (typeof value === 'object') {
+    return Object.entries(value)
+      .map(([key, inner]) => `${withinSentence(labelOf(key))} ${shown(inner, key)}`).join(', ');
+  }
+  return typeof value === 'string' && name !== 'id' ? choiceOf(value) : String(value);
+}
+
 function shown(value, name) {
   if (value === undefined || value === null) return t('change.none');
   if (typeof value === 'number' && INSTANT.test(name)) return clock(value, { precise: true });
   if (typeof value === 'number' && LENGTH.test(name)) return hours(value, { precise: true });
-  if (Array.isArray(value) && value.every((entry) => typeof entry === 'number')) {
-    return value.join(', ');
-  }
   if (typeof value === 'object' && value.count !== undefined) {
     return t('change.each', { count: value.count });
   }
-  const text = typeof value === 'object' ? JSON.stringify(value) : String(value);
+  const text = textOf(value, name);
   return text.length > LONGEST ? `${text.slice(0, LONGEST)}\u2026` : text;
 }
