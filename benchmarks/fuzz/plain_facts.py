@@ -4,6 +4,7 @@ A second judge beside the service's own, of rules that are told in a line each. 
 with it but the wire; plans that go on from others aren't read.
 """
 
+import math
 from collections import defaultdict
 from collections.abc import Iterator
 from itertools import combinations, pairwise
@@ -187,30 +188,38 @@ def _changes_of(trip: Data) -> list[_Change]:
     """Return what a trip fetches and brings, in order.
 
     A drone does so where it is recovered or launched, or both there if it is on one sortie. What
-    it brings may have been picked up where it is launched, if it takes off behind that.
+    it brings may have come aboard where it is launched, if it takes off behind that.
     """
-    changes = []
+    changes, ready = [], dict[tuple[int, str], float]()
 
     def add(stop: int, order: int, visit: Data) -> None:
         comes = visit["kind"] == "pickup"
         changes.append(_Change(stop, order, comes, visit["id"],
                                visit["departure" if comes else "service_start"]))
 
+    def come(stop: int, visit: Data, time: float) -> None:
+        add(stop, AT_LAST, visit)
+        ready[stop, visit["id"]] = max(time, ready.get((stop, visit["id"]), time))
+
     for number, stop in enumerate(trip["stops"]):
-        if stop["kind"] in ("pickup", "delivery"):
-            add(number, AT_LAST if stop["kind"] == "pickup" else 0, stop)
+        if stop["kind"] == "pickup":
+            come(number, stop, stop["service_start"])
+        elif stop["kind"] == "delivery":
+            add(number, 0, stop)
+    brought = []
     for sortie in trip["sorties"]:
         ends = [visit for visit in sortie["customers"] if visit.get("kind")]
         for number, visit in enumerate(ends, 1):
             if sum(each["id"] == visit["id"] for each in ends) > 1:
                 add(sortie["launch_stop"], number, visit)
             elif visit["kind"] == "pickup":
-                add(sortie["recovery_stop"], AT_LAST, visit)
+                come(sortie["recovery_stop"], visit, sortie["recovery_time"])
             else:
-                stop = trip["stops"][sortie["launch_stop"]]
-                is_from_there = ((stop["kind"], stop["id"]) == ("pickup", visit["id"])
-                                 and sortie["launch_time"] >= stop["service_start"] - SLACK)
-                add(sortie["launch_stop"], AT_LAST + 1 if is_from_there else 0, visit)
+                brought.append((sortie, visit))
+    for sortie, visit in brought:
+        since = ready.get((sortie["launch_stop"], visit["id"]), math.inf)
+        is_from_there = since <= sortie["launch_time"] + SLACK
+        add(sortie["launch_stop"], AT_LAST + 1 if is_from_there else 0, visit)
     return sorted(changes)
 
 
