@@ -21,9 +21,9 @@ ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
              "--disable-background-networking", "--disable-component-update", "--disable-sync")
 TOGETHER = ("--renderer-process-limit=1", "--disable-site-isolation-trials", "--in-process-gpu",
-            "--num-raster-threads=1", "--js-flags=--no-maglev,--no-opt")
+            "--num-raster-threads=1", "--js-flags=--no-opt")
 """All pages are shown by one process, in which scripts are compiled but once: few are looked at for
-long enough to pay for more. Opening one takes three quarters of the processor's time."""
+long enough to pay for more, though axe and large plans are for the second of three compilers."""
 
 START_SECONDS = 120
 OPENING_MS = 120_000
