@@ -14,12 +14,15 @@ TABS = ("customers", "fleet", "solve", "routes", "costs", "unassigned", "changes
         "replan", "export", "drivers")
 
 
-FINDINGS = """async ([part, without]) => {
+SERIOUS = ["serious", "critical"]
+"""Impacts of what hinders people much."""
+
+FINDINGS = """async ([part, without, impacts]) => {
   const passing = document.getAnimations().filter((each) => each instanceof CSSTransition);
   await Promise.allSettled(passing.map(({ finished }) => finished));
   const rules = Object.fromEntries(without.map((rule) => [rule, { enabled: false }]));
   const found = await axe.run(part ?? document, { resultTypes: ['violations'], rules });
-  return found.violations.filter(({ impact }) => ['serious', 'critical'].includes(impact))
+  return found.violations.filter(({ impact }) => !impacts || impacts.includes(impact))
     .flatMap(({ id, help, nodes }) => nodes.map(({ html }) =>
       `${id}: ${help}: ${html.slice(0, 160)}`));
 }"""
@@ -27,14 +30,15 @@ FINDINGS = """async ([part, without]) => {
 it looked at."""
 
 
-def findings(page: Page, part: str | None = None, without: Sequence[str] = ()) -> list[str]:
-    """Return what axe finds serious or critical in the page, or in the part that is selected.
+def findings(page: Page, part: str | None = None, without: Sequence[str] = (),
+             impacts: list[str] | None = SERIOUS) -> list[str]:
+    """Return what axe finds in the page, or in the part that is selected, of impacts or of any.
 
     Rules are left out by name.
     """
     if not page.evaluate("'axe' in window"):
         page.evaluate(AXE_SCRIPT)
-    return list(page.evaluate(FINDINGS, [part, list(without)]))
+    return list(page.evaluate(FINDINGS, [part, list(without), impacts]))
 
 
 @pytest.mark.parametrize(("scheme", "tabs"), [("light", TABS), ("dark", ("customers", "routes"))])
