@@ -126,7 +126,9 @@ def _cell(error: InputError, work: Import, relations: Sequence[Relation]) -> str
     found = _PATH.match(error.path)
     if found is None:
         return None
-    return work.stops[int(found[1])].rows[0].cell(*CELLS.get(found[2], ("name",)))
+    row = work.stops[int(found[1])].rows[0]
+    # Of several columns that may state it, the one that does.
+    return row.cell(*sorted(CELLS.get(found[2], ("name",)), key=lambda name: not row.get(name)))
 
 
 def _depots(stops: Sequence[Entry], rows: Sequence[Row], ground: Ground,

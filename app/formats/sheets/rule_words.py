@@ -40,7 +40,7 @@ RULE_WORDS: dict[str, dict[str, str]] = {
     "together": {
         "en": "goes with|together with|together|same vehicle|same vehicle as|keep together",
         "de": "zusammen mit|zusammen|gemeinsam mit|gleiches fahrzeug|gleiches fahrzeug wie|"
-              "selbes fahrzeug",
+              "selbes fahrzeug|gehort zu|fahrt mit",
         "fr": "ensemble avec|livrer avec|meme vehicule|meme vehicule que",
         "es": "junto con|va con|mismo vehiculo|mismo vehiculo que",
         "it": "insieme a|insieme con|stesso veicolo|stesso veicolo di",
@@ -82,7 +82,7 @@ RULE_WORDS: dict[str, dict[str, str]] = {
     },
     "before": {
         "en": "served before|visit before|must be before|before customer|before stop",
-        "de": "vor kunde|beliefern vor|liefern vor|muss vor|kommt vor",
+        "de": "vor kunde|beliefern vor|beliefert vor|liefern vor|muss vor|kommt vor",
         "fr": "livrer avant|a livrer avant|avant client",
         "es": "antes de|entregar antes de",
         "it": "prima di|consegnare prima di",
@@ -93,7 +93,8 @@ RULE_WORDS: dict[str, dict[str, str]] = {
     "after": {
         "en": "served after|visit after|must be after|after customer|after stop|follows|"
               "predecessor|depends on",
-        "de": "nach kunde|beliefern nach|liefern nach|muss nach|kommt nach|vorganger",
+        "de": "nach kunde|beliefern nach|beliefert nach|liefern nach|muss nach|kommt nach|"
+              "vorganger",
         "fr": "livrer apres|a livrer apres|apres client",
         "es": "despues de|entregar despues de",
         "it": "dopo di|consegnare dopo",

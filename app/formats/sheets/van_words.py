@@ -11,9 +11,11 @@ WORDS = {
                 "charge utile|capacidad|capacita|portata|capaciteit|laadvermogen|ladownosc|"
                 "max gewicht|max weight|stellplatze|ladevolumen|volume|volumen",
     "earliest": "von|ab|from|start|begin|beginn|dienstbeginn|schichtbeginn|shift start|start time|"
-                "debut|de|desde|inicio|dalle|vanaf|od|arbeitsbeginn",
+                "debut|de|desde|inicio|dalle|vanaf|od|arbeitsbeginn|schicht von|dienst von|"
+                "schicht ab|arbeitszeit von|shift from|shift begin|works from",
     "latest": "bis|to|until|end|ende|dienstende|schichtende|shift end|end time|fin|a|hasta|alle|"
-              "tot|do|arbeitsende|feierabend",
+              "tot|do|arbeitsende|feierabend|schicht bis|dienst bis|arbeitszeit bis|shift to|"
+              "shift until|works until",
     "window": "schicht|shift|arbeitszeit|dienst|working hours|hours|dienstzeit|horaire|turno|"
               "orario|einsatzzeit",
     "speed": "geschwindigkeit|speed|tempo|vitesse|velocidad|velocita|km h|kmh",
@@ -42,9 +44,9 @@ WORDS = {
                 "orario massimo|max werktijd",
     "max_travel": "max fahrzeit|maximale fahrzeit|max driving|max driving time|longest driving|"
                   "max travel time|conduite max|max rijtijd",
-    "driving_rules": "lenkzeiten|lenkzeitregel|lenk und ruhezeiten|driving rules|driver rules|"
-                     "hours of service|hos|temps de conduite|tiempos de conduccion|"
-                     "tempi di guida|rijtijden",
+    "driving_rules": "lenkzeiten|lenkregel|lenkregeln|lenkzeitregel|lenk und ruhezeiten|"
+                     "driving rules|driver rules|hours of service|hos|temps de conduite|"
+                     "tiempos de conduccion|tempi di guida|rijtijden",
     "max_driving": "lenkzeit bis pause|lenkzeit ohne pause|max lenkzeit ohne pause|"
                    "driving before break|driving before rest|max driving before break|"
                    "max driving without break",

@@ -273,6 +273,20 @@ def test_vehicles_that_are_not_there_and_drones_are_not_planned() -> None:
     assert "Anzahl Drohnen" in unused.message
 
 
+def test_shifts_and_driving_rules_are_read_as_dispatchers_head_them() -> None:
+    def fill(book: xlsxwriter.Workbook) -> None:
+        monday(book)
+        sheet_of(book, "Fahrzeuge", [
+            ["Fahrzeug", "Kapazität kg", "Schicht von", "Schicht bis", "Lenkregel"],
+            ["V1", 40, "7:00", "17:00", "EU 561"]])
+
+    reply = imported(workbook(fill))
+    assert reply.request is not None, reply.errors
+    [kind] = reply.request["fleet"]
+    assert (kind["shift"], kind["driving_rules"]) == (
+        {"earliest": 25200, "latest": 61200}, {"preset": "eu-561"})
+
+
 def test_of_several_days_one_is_asked_for() -> None:
     reply = read("Datum", ["23.11.2026", "24.11.2026", "23.11.2026"])
     question = asked(reply, "day")

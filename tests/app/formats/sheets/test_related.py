@@ -48,11 +48,17 @@ def told(reply: ImportReply, code: str) -> list[str | None]:
     ("Stammfahrer", "preferred_vehicles"), ("Regular driver", "preferred_vehicles"),
     ("Cost of other vehicle", "preference_cost"), ("Nicht mit", "forbidden_vehicles"),
     ("Vehicle", "vehicles"), ("Gleiche Tour wie", "together_on_trip"),
+    ("Gehört zu", "together"), ("Beliefert nach", "after"),
     ("Not same trip", "apart_on_trip"), ("Mindestabstand (min)", "min_lag"),
     ("Max gap", "max_lag"), ("\u00c9cart maximal", "max_lag")])
 def test_headings_of_rules_are_known(heading: str, meaning: str) -> None:
     reply = read(heading, "7", "7", "7", "7")
     assert reply.columns[-1].meaning == meaning
+
+
+def test_a_vehicle_that_is_not_there_is_told_at_its_cell() -> None:
+    reply = read("Fahrzeug;Nicht mit", ";Ben", ";", ";", ";")
+    assert [(error.code, error.cell) for error in reply.errors] == [("UNKNOWN_VEHICLE", "G2")]
 
 
 def test_groups_of_no_known_kind_are_asked_about() -> None:
