@@ -2,6 +2,7 @@
 
 #include "rules/drone_types.h"
 #include "rules/load.h"
+#include "rules/pair.h"
 #include "rules/shift.h"
 #include "simulation/vehicle_log.h"
 
@@ -49,8 +50,10 @@ double load_distance(View<const Int, 2> legs, const Setting& setting, const Vehi
         }
         for (const LoggedSortie& sortie : log.sortie.first(log.count.sorties)) {
             if (first <= sortie.launch_stop && sortie.launch_stop < behind) {
-                load += aboard_at(setting, sortie.node, sortie.launch_stop, sortie.recovery_stop,
-                                  index);
+                // What a drone delivers of a shipment leaves with it, what it picks up comes back.
+                const Int came = is_delivery(setting.pair, sortie.node) ? sortie.launch_stop
+                                                                        : sortie.recovery_stop;
+                load += aboard_at(setting, sortie.node, sortie.launch_stop, came, index);
             }
         }
         const Int leg = legs(log.stop[index].node, log.stop[index + 1].node);

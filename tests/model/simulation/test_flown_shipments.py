@@ -23,3 +23,12 @@ def test_drones_fetch_and_deliver_exactly_what_can_be_brought() -> None:
                 launched[2] += any(encode_action(LAUNCH, part.pickup) in codes
                                    for part in each.more)
     assert min(launched) > 5
+
+
+def test_what_a_drone_delivers_is_priced_aboard_its_truck_until_the_launch() -> None:
+    for seed in (466, 686):
+        rng = np.random.default_rng((seed, 9))
+        problem = flown_both_ways(rng, draw_tiny(rng))
+        problem = (with_flown_parts if seed % 3 == 1 else with_flown_shipments)(rng, problem)
+        assert any(kind.cost_per_load_km for kind in problem.vehicle_types)
+        assert_exact(problem, rng, seed)
