@@ -40,7 +40,7 @@ def test_generated_requests_are_answered_as_described(tmp_path: Path) -> None:
             f"{server.client.base_url}/openapi.json", "--header", f"Authorization: Bearer {key}",
             "--phases", "examples,fuzzing", "--max-examples", str(CASES), "--seed", "7",
             "--exclude-checks", UNCHECKED, "--continue-on-failure", "--no-shrink",
-            "--suppress-health-check", "all",
+            "--suppress-health-check", "all", "--request-timeout", str(PATIENCE),
             "--report", "json", "--report-json-path", "report.json",
         ]
         done = subprocess.run(command, cwd=tmp_path, text=True, stdout=subprocess.PIPE,
