@@ -20,8 +20,8 @@ struct Flown {
 Cargo cargo_flown(const ProblemData& data, Int node, bool within, Int tier) {
     if (within || !is_delivery(data.pair, node)) return cargo_for(data.amount, node, tier);
     Cargo cargo = no_cargo;
-    cargo.delivered = cargo.most = minus(delivered_of(data.amount, node, tier),
-                                         picked_of(data.amount, node, tier));
+    cargo.delivered = cargo.most =
+        minus(delivered_of(data.amount, node, tier), picked_of(data.amount, node, tier));
     cargo.total_delivered = total_delivered(data.amount, node);
     return cargo;
 }
