@@ -263,9 +263,13 @@ private:
         return double(all) / double(legs);
     }
 
-    // Whether a move may take so much longer than it saves; any may but for gentle ones.
-    bool may_take(Int longer) const {
-        return !rise_ || double(longer) <= -*rise_ * std::log(1.0 - uniform(searcher_.rng));
+    // Whether a shipment may move from a row to a place among others; anywhere but gently.
+    bool may_move(const PairRow& from, const PairRow& others, const PairToInsert& pair,
+                  PairPlace place) const {
+        if (!rise_) return true;
+        const Int saved = time_on(from) - time_on(without_);
+        const Int longer = PairRows::longer_by(others, pair, place) - saved;
+        return double(longer) <= -*rise_ * std::log(1.0 - uniform(searcher_.rng));
     }
 
     // Moves a random shipment to a place of a random row, or exchanges it for one there.
@@ -280,8 +284,7 @@ private:
         if (without_.node.empty()) return;
         const PairRow& others = index == to ? without_ : target;
         if (const auto place = place_to_move(others, pair)) {
-            const Int saved = time_on(from) - time_on(without_);
-            if (!may_take(PairRows::longer_by(others, pair, *place) - saved)) return;
+            if (!may_move(from, others, pair, *place)) return;
             std::swap(from, without_);
             put_in(to, pickup, *place);
             return;
