@@ -101,7 +101,7 @@ private:
 
     // Whether who takes a break before its window opens may as well do so later: drones may be
     // launched before, which makes nobody later.
-    bool may_put_off() const { return sorties_.size() > 0 && !waits_.count(); }
+    bool may_put_off() const { return !sorties_.empty() && !waits_.count(); }
 
     // Let the labels at the beginning of a block be those at its end.
     void pass_block(Int first, Int last) {

@@ -6,7 +6,10 @@ void RestLegs::drive(const RestLabel& label, const Way& way, RestLabels& there) 
     way_ = way;
     left_ = label.time;
     there_ = &there;
-    ride(label, route_.leg_of(label, way), RestPlace::departure);
+    const RestedLeg leg = route_.leg_of(label, way);
+    ride(label, leg, RestPlace::departure);
+    // While it is slow, who rests before a leg may be sooner than who does so behind it.
+    if (left_ < route_.truck.speeds.last_change()) rest(label, leg, RestPlace::departure);
 }
 
 // Drive what is left of a leg, with rests where one has to, and perhaps one at its end, and with
