@@ -50,8 +50,8 @@ customers have what other plans have, since the search is far from done with wha
 BEGINNING_SHARE = 0.3
 """Share of the time after which no other plan by insertion is tried, where there is one of all."""
 
-GRACE = 0.03
-"""Seconds that the search may take for a beginning, even where no time is left."""
+GRACE, BEGINNING = 0.03, 0.25
+"""Seconds that it may take even where no time is left, and to begin where there is no plan."""
 
 LARGE_FROM = 2000
 """Number of customers from which on a search is far from done with what it begins with."""
@@ -204,12 +204,12 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
         raise ValueError("deadline, turns: None, None is not allowed")
     began, end = time.perf_counter(), math.inf if deadline is None else deadline
     # Where no routes are given, a late plan is better than none.
-    latest = end if solution.routes else math.inf
+    latest, grace = (end, GRACE) if solution.routes else (math.inf, BEGINNING)
     found = Improved(solution, math.inf, 0.0, 0, False)
     try:
         neighbourhood = make_neighbourhood(
             problem, instance, pausing(should_stop, latest, GRACE), along=True)
-        with Alarm(max(end, time.perf_counter() + GRACE), should_stop) as alarm:
+        with Alarm(max(end, time.perf_counter() + grace), should_stop) as alarm:
             limits = Limits(began, end,
                             None if config.turns is None else config.turns // config.threads,
                             lambda: alarm.has_rung or should_stop())

@@ -111,6 +111,7 @@ def impatient(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let callers be asked from the beginning."""
     monkeypatch.setattr("model.planner.GRACE", 0.0)
     monkeypatch.setattr("model.search.improve.GRACE", 0.0)
+    monkeypatch.setattr("model.search.improve.BEGINNING", 0.0)
 
 
 @pytest.mark.usefixtures("impatient")
@@ -128,7 +129,7 @@ def test_planning_ends_before_its_search_when_told(large: Problem, after: int) -
 def test_a_late_plan_is_made_where_the_one_given_serves_nobody(
         monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("model.planner.GRACE", 0.0)
-    monkeypatch.setattr("model.search.improve.GRACE", 60.0)
+    monkeypatch.setattr("model.search.improve.BEGINNING", 60.0)
     problem = generate(np.random.default_rng(0), 20, "vrptw")
     result = Planner({"none": None}).plan(  # type: ignore[dict-item]
         problem, PlanOptions("none", time_limit=5.0), time.perf_counter() - 10,
