@@ -373,8 +373,8 @@ bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, I
     for (Int tried = 0; tried < (all.number() == 1 ? 1 : all.number() + 1); ++tried) {
         const Int way = tried == all.number() ? chosen : tried;
         done = all.serve(fleet, slot, way);
-        const bool is_sooner = data.fairness.makespan > 0.0 && fleet.cost[slot] == best &&
-                               fleet.route[slot].end < end;
+        const bool is_sooner =
+            data.fairness.makespan > 0.0 && fleet.cost[slot] == best && fleet.route[slot].end < end;
         if (done && (fleet.cost[slot] < best || is_sooner)) {
             best = fleet.cost[slot];
             end = fleet.route[slot].end;
