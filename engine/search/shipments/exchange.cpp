@@ -71,6 +71,7 @@ private:
     bool is_end(Int node) const { return node >= data_.num_depots; }
     Int pickup_of(Int end) const { return data_.pair[end].unit; }
     bool is_pickup(Int node) const { return is_end(node) && pickup_of(node) == node; }
+    Int common(std::size_t a, std::size_t b) const { return common_[a * other_.size() + b]; }
 
     // Counts the shipments that routes of both plans have in common.
     void count_common() {
@@ -93,32 +94,32 @@ private:
     void choose() {
         const Int fewest = Int(std::min(one_.size(), other_.size()));
         const Int number = 1 + below(searcher_.rng, std::max(Int{1}, fewest - 1));
-        goes_[std::size_t(below(searcher_.rng, Int(one_.size())))] = true;
+        std::vector<Int> with_coming(one_.size(), 0), with_going(other_.size(), 0);
+        std::size_t going = std::size_t(below(searcher_.rng, Int(one_.size())));
         for (Int chosen = 1;; ++chosen) {
-            choose_most_common(comes_, 1, goes_, other_.size());
+            goes_[going] = true;
+            for (std::size_t b = 0; b < other_.size(); ++b) with_going[b] += common(going, b);
+            const std::size_t coming = most_common(comes_, with_going);
+            comes_[coming] = true;
             if (chosen == number) return;
-            choose_most_common(goes_, other_.size(), comes_, 1);
+            for (std::size_t a = 0; a < one_.size(); ++a) with_coming[a] += common(a, coming);
+            going = most_common(goes_, with_coming);
         }
     }
 
-    // Chooses a route more of one plan, where `step` is how far apart its routes stand in
-    // `common_`, and `across` those of the other.
-    void choose_most_common(std::vector<bool>& chosen, std::size_t step,
-                            const std::vector<bool>& others, std::size_t across) {
-        std::size_t best = chosen.size();
+    // A random one of the routes that have most in common with those of the other plan, of those
+    // not chosen.
+    std::size_t most_common(const std::vector<bool>& chosen, const std::vector<Int>& number) const {
+        std::size_t best = 0;
         Int most = -1, found = 0;
         for (std::size_t index = 0; index < chosen.size(); ++index) {
             if (chosen[index]) continue;
-            Int number = 0;
-            for (std::size_t other = 0; other < others.size(); ++other) {
-                if (others[other]) number += common_[index * step + other * across];
-            }
-            if (number > most) found = 0;
-            if (number < most || below(searcher_.rng, ++found) > 0) continue;
-            most = number;
+            if (number[index] > most) found = 0;
+            if (number[index] < most || below(searcher_.rng, ++found) > 0) continue;
+            most = number[index];
             best = index;
         }
-        if (best < chosen.size()) chosen[best] = true;
+        return best;
     }
 
     // Marks who is served by routes that come: all of them, or those alone whose routes go.
