@@ -43,6 +43,10 @@ until which they are."""
 MOST_IN_VAIN = 15
 """So many in a row of which none takes a place, and the search begins once more."""
 
+MOST_BARREN = 50
+"""So many exchanges in a row that bring no other plan, and none is bred any more: by a route or two
+there may be no other, and exchanges make no turns by which the search would end."""
+
 HOT_OF_STARTS, HOT_OF_CHILDREN, HOT_OF_LAST = 3.0, 0.2, 0.5
 """First temperatures by the cost of a leg: of starts, of children, and of what follows."""
 
@@ -143,7 +147,7 @@ class _Breeder:
 
         A child takes the place of the plan most like it, or of its parent, if it is better.
         """
-        rng, vain = np.random.default_rng(int(self.searcher.rng[0])), 0
+        rng, vain, barren = np.random.default_rng(int(self.searcher.rng[0])), 0, 0
         for _ in range(MOST_CHILDREN):
             begin, few = self.share, len(self.plans) < 2
             span = Span(begin, begin + TURNS_A_CHILD / self.workers[0].expected(), 1.0)
@@ -152,19 +156,28 @@ class _Breeder:
             if (few or vain >= MOST_IN_VAIN) and begin + start_share <= CHILDREN_UNTIL:
                 vain = 0
                 yield from self.start(begin + start_share, True)
-            elif few:
+            elif few or barren == MOST_BARREN:
                 return
             else:
                 vain += 1
                 one, other = rng.permutation(len(self.plans))[:2].tolist()
                 if not self._cross(self.plans[one], self.plans[other], span):
+                    barren += 1
                     continue
+                barren = 0
                 self.heat(HOT_OF_CHILDREN)
                 yield span
-                child = _Plan.of(self.searcher)
-                rival = self._rival(child, one)
-                if self.searcher.count.missing == 0 and child.cost < self.plans[rival].cost - SAME:
-                    self.plans[rival], vain = child, 0
+                if self.searcher.count.missing == 0 and self._take_place(one):
+                    vain = 0
+
+    def _take_place(self, parent: int) -> bool:
+        """Keep the plan as it is instead of that most like it, or its parent, if it is better."""
+        child = _Plan.of(self.searcher)
+        rival = self._rival(child, parent)
+        if child.cost >= self.plans[rival].cost - SAME:
+            return False
+        self.plans[rival] = child
+        return True
 
     def _rival(self, plan: _Plan, parent: int) -> int:
         """Return the number of the plan that is much like another, else that given."""

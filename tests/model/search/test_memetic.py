@@ -1,6 +1,7 @@
 """Plans bred from others keep rules, and cost what the judge says."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -115,3 +116,23 @@ def test_searches_breed_and_begin_once_more(monkeypatch: pytest.MonkeyPatch) -> 
     assert len(bred) > 10
     assert started[-1] > memetic.STARTS_UNTIL
     assert found.turns == config.turns
+
+
+def test_breeding_ends_where_exchanges_bring_no_other_plan(monkeypatch: pytest.MonkeyPatch) -> None:
+    tight, cross, number = planted(1, 4, True), memetic._Breeder._cross, 0
+
+    def count(breeder: memetic._Breeder, one: memetic._Plan, other: memetic._Plan,
+              span: Span) -> bool:
+        nonlocal number
+        number += 1
+        return cross(breeder, one, other, span)
+
+    monkeypatch.setattr(memetic._Breeder, "_cross", count)
+    # One vehicle has time for all: a route exchanged is the whole of the other plan.
+    problem = replace(
+        tight, customers=tuple(replace(each, earliest=0, latest=10**9) for each in tight.customers),
+        vehicle_types=(replace(tight.vehicle_types[0], count=1, latest=10**9),))
+    nobody, turns = Solution((), tuple(range(1, problem.num_nodes))), 20_000
+    found = improve(problem, pack([problem]), nobody, SearchConfig(turns=turns, seed=1))
+    assert found.turns == turns
+    assert 0 < number <= 3 * memetic.MOST_BARREN
