@@ -4,7 +4,7 @@ What a vehicle can do with each set of jobs is found by dynamic programming, and
 which set. The planner has no words for some of the rules, and is not needed for so few.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from model.dialects.vroom.checking import route_faults
@@ -13,6 +13,7 @@ from model.dialects.vroom.models import Routes
 from model.dialects.vroom.places import Places
 from model.dialects.vroom.request import Request
 from model.dialects.vroom.timing import Driver, Visit
+from model.problem import MAX_BREAKS
 
 Value = tuple[int, int, int]
 """Priorities served, jobs served, and minus the cost."""
@@ -26,9 +27,14 @@ MOST_BEGINNINGS = 8000
 """Beginnings that are gone on from, since none of them is the best in everything: some 0.3 s."""
 
 
-def is_few(num_jobs: int, num_kinds: int) -> bool:
-    """Tell whether so many jobs, for so many kinds of vehicles, are few enough."""
-    return num_kinds * num_jobs * 2**num_jobs <= MOST_SETS
+def is_few(num_jobs: int, num_kinds: int, num_breaks: int) -> bool:
+    """Tell whether so many jobs are few enough, for so many kinds of vehicles, of which one has so
+    many breaks.
+
+    By more breaks than the planner has each set takes longer, as their square.
+    """
+    longer = max(1.0, num_breaks / MAX_BREAKS)**2
+    return num_kinds * num_jobs * 2**num_jobs * longer <= MOST_SETS
 
 
 @dataclass(frozen=True)
@@ -45,8 +51,9 @@ class Beginning:
 
 
 def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: Sequence[int],
-                vehicles: Sequence[int]) -> Routes | None:
-    """Return the best routes for jobs; None if there are too many ways to begin with.
+                vehicles: Sequence[int], should_stop: Callable[[], bool]) -> Routes | None:
+    """Return the best routes for jobs; None if there are too many ways to begin with, or if it
+    `should_stop`.
 
     Parameters
     ----------
@@ -57,7 +64,8 @@ def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: S
     """
     tours = {}
     for kind in set(vehicles):
-        found = _tours(request, Driver(request, places, kinds[kind].vehicles[0]), jobs)
+        found = _tours(request, Driver(request, places, kinds[kind].vehicles[0]), jobs,
+                       should_stop)
         if found is None:
             return None
         tours[kind] = found
@@ -83,11 +91,11 @@ def best_routes(request: Request, places: Places, kinds: Sequence[Kind], jobs: S
     return routes_of
 
 
-def _tours(request: Request, driver: Driver,
-           jobs: Sequence[int]) -> Mapping[int, tuple[Value, tuple[int, ...]]] | None:
+def _tours(request: Request, driver: Driver, jobs: Sequence[int], should_stop: Callable[[], bool],
+           ) -> Mapping[int, tuple[Value, tuple[int, ...]]] | None:
     """Return the best route of a vehicle through each set of jobs that it can serve.
 
-    Sets are numbers whose bits stand for `jobs`. None if beginnings are too many.
+    Sets are numbers whose bits stand for `jobs`. None if beginnings are too many, or too slow.
     """
     best: dict[int, tuple[Value, tuple[int, ...]]] = {}
     begun, number = {(0, -1): [Beginning((), driver.begin())]}, 0
@@ -97,12 +105,16 @@ def _tours(request: Request, driver: Driver,
             return None
         longer: dict[tuple[int, int], list[Beginning]] = {}
         for (taken, _), beginnings in begun.items():
+            if should_stop():
+                return None
             for index, job in enumerate(jobs):
                 if not taken >> index & 1 and _may_come(request, jobs, taken, job):
                     known = longer.setdefault((taken | 1 << index, index), [])
                     for beginning in beginnings:
                         _go_on(driver, beginning, job, known)
         for (taken, _), beginnings in longer.items():
+            if should_stop():
+                return None
             for beginning in beginnings:
                 value = _value(request, driver, beginning.jobs)
                 if value is not None and (taken not in best or value > best[taken][0]):

@@ -37,6 +37,9 @@ CHOOSING_JOBS = 0.7
 RELAXED = 0.85
 """Share of the time for relaxed problems, where there are any."""
 
+FEW_SECONDS = 2.0
+"""For how long the best plan for few jobs is sought, however little time is stated."""
+
 MENDING = 0.2
 """Share of the time of a problem whose plans may break rules, for mending the one found."""
 
@@ -94,7 +97,7 @@ class Planning:
         servable = model.servable()
         if not servable:
             return self._judged({})
-        best = self._best_of_few(servable)
+        best = self._best_of_few(servable, deadline)
         if best is not None:
             return best
         price = self._price(model)
@@ -114,11 +117,14 @@ class Planning:
             model = self._converter.model(sorted(found.served))
         return self._improve(model, self._left(deadline), found.routes)
 
-    def _best_of_few(self, jobs: Sequence[int]) -> Found | None:
-        """Return the best plan for few jobs; None for more."""
-        if not is_few(len(jobs), len(self.kinds)):
+    def _best_of_few(self, jobs: Sequence[int], deadline: float) -> Found | None:
+        """Return the best plan for few jobs; None for more, or where it isn't found in time."""
+        breaks = max(len(kind.stated.breaks) for kind in self.kinds)
+        if not is_few(len(jobs), len(self.kinds), breaks):
             return None
-        routes = best_routes(self._request, self._places, self.kinds, jobs, self._vehicles(jobs))
+        until = max(deadline, time.perf_counter() + FEW_SECONDS)
+        routes = best_routes(self._request, self._places, self.kinds, jobs, self._vehicles(jobs),
+                             lambda: self._left(until) <= 0)
         return None if routes is None else self._judged(routes)
 
     def _vehicles(self, jobs: Sequence[int]) -> list[int]:

@@ -15,7 +15,8 @@ def value_of_best(stated: Data) -> tuple[int, int, int]:
     request, places = read(stated)
     kinds = find_kinds(request, places)
     vehicles = [number for number, kind in enumerate(kinds) for _ in kind.vehicles]
-    routes = best_routes(request, places, kinds, range(len(request.jobs)), vehicles)
+    routes = best_routes(request, places, kinds, range(len(request.jobs)), vehicles,
+                         lambda: False)
     assert routes is not None
     timed = [Driver(request, places, kinds[kind].vehicles[0]).drive(jobs)
              for kind, its_routes in routes.items() for jobs in its_routes]
@@ -36,11 +37,26 @@ def test_routes_are_as_good_as_those_found_by_trying_all(seed: int) -> None:
 
 
 def test_few_are_few_enough_to_be_looked_at_in_a_moment() -> None:
-    assert [is_few(7, 4), is_few(7, 5), is_few(12, 1)] == [True, False, False]
+    assert [is_few(7, 4, 8), is_few(7, 5, 0), is_few(12, 1, 0)] == [True, False, False]
+    assert [is_few(8, 1, 9), is_few(8, 1, 16), is_few(4, 3, 32)] == [True, False, True]
 
 
 def test_too_many_ways_to_begin_with_are_left_to_the_planner(
         monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("model.dialects.vroom.exact.MOST_BEGINNINGS", 10)
     request, places = read(drawn_request(random.Random(1), 4, binds=False))
-    assert best_routes(request, places, find_kinds(request, places), range(4), [0]) is None
+    assert best_routes(request, places, find_kinds(request, places), range(4), [0],
+                        lambda: False) is None
+
+
+def test_the_best_routes_are_left_to_the_planner_where_they_take_too_long() -> None:
+    asked: list[int] = []
+
+    def should_stop() -> bool:
+        asked.append(len(asked))
+        return len(asked) > 10
+
+    request, places = read(drawn_request(random.Random(1), 4, binds=False))
+    assert best_routes(request, places, find_kinds(request, places), range(4), [0],
+                       should_stop) is None
+    assert len(asked) == 11
