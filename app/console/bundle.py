@@ -33,7 +33,14 @@ export const $url = (path) => new URL(path, import.meta.url).href;
 export const $from = (path, asked) => module(new URL(asked, `file:///${path}`).pathname.slice(1));
 
 async function $fetched(path) {
-  return path.startsWith('%s') ? (await import($url('%s'))).modules[path]() : import($url(path));
+  try {
+    return await (path.startsWith('%s') ? (await import($url('%s'))).modules[path]()
+      : import($url(path)));
+  } catch (error) {
+    // Once the service can be reached again it is fetched.
+    delete $made[path];
+    throw error;
+  }
 }
 
 /** Resolves in what a module exports, by its path below the console's folder. */
@@ -58,7 +65,8 @@ def bundled(files: Mapping[str, str]) -> dict[str, str]:
 
     Each module becomes a function, called when it is first imported, that resolves in what the
     module exports. Those are values, no bindings: modules may not import one another in a circle,
-    nor change what they have exported.
+    nor change what they have exported. Nor may `ENTRY` wait for what it imports on demand, which
+    waits for it.
 
     Parameters
     ----------

@@ -90,6 +90,25 @@ def test_the_bundle_does_what_its_modules_do(tmp_path: Path) -> None:
     assert "Told" not in files[BUNDLE]
 
 
+def test_what_could_not_be_fetched_is_asked_for_again(tmp_path: Path) -> None:
+    files = {"package.json": '{"type": "module"}', "run.js": """
+import { renameSync } from 'node:fs';
+globalThis.mend = () => renameSync(new URL('gone.js', import.meta.url),
+  new URL('LATER', import.meta.url));
+await import('./BUNDLE');
+""".replace("LATER", LATER).replace("BUNDLE", BUNDLE), **bundled({
+        "js/late.js": "export const late = 'is there';\n", "js/main.js": """
+async function ask() {
+  console.log(await import('./late.js').then(({ late }) => late, () => 'fails'));
+}
+ask().then(globalThis.mend).then(ask);
+"""})}
+    files["gone.js"] = files.pop(LATER)
+    for path, text in files.items():
+        (tmp_path / path).write_text(text)
+    assert printed(tmp_path, "run.js").split("\n") == ["fails", "is there", ""]
+
+
 @pytest.mark.parametrize("line", [
     "export let changed = 1;", "export default 1;", "import name from './notes.js';",
     "import './notes.js';", "export * from './notes.js';", "export { note };",
