@@ -6,6 +6,7 @@ Costs are floats. A field's type says what its numbers are counted in, by which 
 and converted from requests.
 """
 
+import math
 import sys
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, fields
@@ -73,8 +74,8 @@ Millimetres = Annotated[int, Unit(length=1)]
 Parts = Annotated[int, Unit(amount=1)]
 """Of an amount, by `Problem.amount_decimals`."""
 Count = Annotated[int, Unit()]
-Microjoules = Annotated[int, Unit(time=1, most=2**62)]
-"""Milliwatts times milliseconds."""
+Microjoules = Annotated[int, Unit(time=1, most=math.inf)]
+"""Milliwatts times milliseconds. Without a most: a remedy may need what no battery holds."""
 Rate = Annotated[float, Unit(most=sys.float_info.max)]
 Money = Annotated[float, Unit(money=1, most=sys.float_info.max)]
 MoneyPerHour = Annotated[float, Unit(money=1, time=-1, most=sys.float_info.max)]
