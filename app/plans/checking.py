@@ -15,7 +15,8 @@ from app.plans.timing import timed_plan
 from app.requests.bounds import Bounds, bound_errors
 from app.requests.conversion.preparing import Preparing
 from app.requests.draft import Draft
-from app.requests.plan_reading import Known, plan_errors
+from app.requests.plan_names import Known
+from app.requests.plan_reading import plan_errors
 from app.requests.reading import partial_draft, read_json, request_errors, tells_day
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors

@@ -44,7 +44,8 @@ from model.judge.past import Vehicle
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
-from model.replanning.replan import Replanning, SettledPartError, Terms
+from model.replanning.refusing import SettledPartError
+from model.replanning.replan import Replanning, Terms
 from model.replanning.workers import TooManyTypesError
 from model.solution import Solution
 
@@ -242,6 +243,12 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
         raise InvalidRequestError([InputError(
             code="TOO_MANY_VEHICLES", path="$.replan.plan.routes",
             message=f"By the plan, {error}: plan for fewer vehicles at a time.")]) from error
+    except ValueError as error:
+        # What is left of the day is a problem of its own, which checks itself.
+        raise InvalidRequestError([InputError(
+            code="SETTLED_PART", path="$.replan",
+            message=f"What is left of the day can't be planned ({error}): plan without what has "
+                    "happened, or send fewer rules.")]) from error
 
 
 def warning_replies(warnings: Iterable[RequestWarning]) -> list[Data]:
@@ -259,7 +266,7 @@ def telling(violations: Sequence[Violation]) -> list[Violation]:
 
 
 def _terms(replan: ReplanInput, problem: Problem) -> Terms:
-    plan = read_earlier_plan(replan.plan, problem)
+    plan = read_earlier_plan(replan.plan, problem, ("replan", "plan"))
     names = set(replan.pinned)
     pinned = frozenset(
         place for node, customer in enumerate(problem.customers, problem.num_depots)

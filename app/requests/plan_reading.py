@@ -1,39 +1,33 @@
 """A plan as `POST /plan` sent it -> `Solution`, so that it can be checked again or gone on from."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import NamedTuple, TypeVar
+from dataclasses import replace
+from typing import TypeVar
 
 from pydantic import ValidationError
 
 from app.requests.conversion.names import number_in
-from app.requests.conversion.places import revisits, stands_of
 from app.requests.conversion.units import thousandths
+from app.requests.plan_names import Known, KnownType
 from app.requests.reading import read_json
-from app.schemas.customer import CustomerInput
 from app.schemas.driving import REST_ID
 from app.schemas.errors import ErrorCode, InputError, InvalidRequestError, json_path, schema_errors
 from app.schemas.hints import with_hints
-from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.plan import (
     ON_THE_WAY, PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput,
 )
-from app.schemas.request import DepotInput
 from app.schemas.times import read_body
-from app.schemas.vehicle import VehicleTypeInput
 from model.problem import REST, Problem, VehicleType
 from model.solution import (
     BreakPlace, Charge, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit,
 )
 
 NO_MORE = -1
-"""Node of a customer whom a plan serves and the problem no longer has."""
+"""Node of a customer, or a launch site, that a plan has and the problem no longer has."""
 
 Path = tuple[str | int, ...]
 Key = TypeVar("Key")
 Value = TypeVar("Value")
-Entries = Sequence[DepotInput | CustomerInput | VehicleTypeInput | None] | None
-
 _UNKNOWN: dict[str, ErrorCode] = {
     "customer": "UNKNOWN_CUSTOMER",
     "depot": "UNKNOWN_DEPOT",
@@ -98,18 +92,21 @@ def plan_errors(plan: PlanInput, known: "Known", path: Path = ()) -> list[InputE
     return reader.errors
 
 
-def read_earlier_plan(plan: PlanInput, problem: Problem) -> Solution:
-    """Return a plan made before some of its customers were cancelled, who become `NO_MORE`.
+def read_earlier_plan(plan: PlanInput, problem: Problem, path: Path) -> Solution:
+    """Return a plan made before something was taken away, which is at `path` of the request.
+
+    Customers and launch sites that are gone become `NO_MORE`, breaks are left out, and trips begin
+    and end where vehicles of their type do.
 
     Raises
     ------
-    ValueError
+    InvalidRequestError
         If it names depots, vehicles or drones that `problem` doesn't have.
     """
     reader = _PlanReader(Known.by(problem), NO_MORE)
-    solution = reader.plan(plan, ())
+    solution = reader.plan(plan, path)
     if reader.errors:
-        raise ValueError(f"plan: {reader.errors[0].message}")
+        raise InvalidRequestError(reader.errors)
     return _by_parts(problem, solution)
 
 
@@ -121,69 +118,6 @@ def _by_parts(problem: Problem, solution: Solution) -> Solution:
     return replace(solution, routes=tuple([
         Route(*problem.find_vehicle(kinds[route.vehicle_type].type_id, route.vehicle), route.trips)
         for route in solution.routes]))
-
-
-class KnownType(NamedTuple):
-    """A vehicle type: its number, itself if more is known of it, and an open route's end."""
-
-    number: int = 0
-    kind: VehicleType | None = None
-    nowhere: int | None = None
-
-    def recovery_duration(self, drone: int) -> int:
-        """Return how long the recovery of a drone takes in ms."""
-        if self.kind is None or self.kind.drones is None:
-            return 0
-        return self.kind.drone_type(drone).recovery_duration
-
-
-@dataclass(frozen=True)
-class Known:
-    """What a problem has by name: nodes, those where types start and end by which of it, and types.
-
-    None where some of it is broken, so that nothing can be said to be missing.
-    """
-
-    depots: Mapping[str, int] | None
-    stands: Mapping[tuple[str, str], int] | None
-    customers: Mapping[str, int] | None
-    types: Mapping[str, KnownType] | None
-
-    @classmethod
-    def by(cls, problem: Problem) -> "Known":
-        """Return what a problem has."""
-        return cls(
-            {depot.id: node for node, depot in enumerate(problem.depots) if depot.kind == "depot"},
-            {(depot.kind, depot.id): node for node, depot in enumerate(problem.depots)},
-            {customer.id: node
-             for node, customer in enumerate(problem.customers, problem.num_depots)},
-            {kind.type_id: KnownType(
-                index, kind, kind.ends_at if problem.is_nowhere(kind.ends_at) else None)
-             for index, kind in enumerate(problem.vehicle_types)})
-
-    @classmethod
-    def of(cls, depots: Sequence[DepotInput | None] | None,
-           customers: Sequence[CustomerInput | None] | None,
-           fleet: Sequence[VehicleTypeInput | None] | None,
-           sites: Sequence[LaunchSiteInput | None] | None = ()) -> "Known":
-        """Return what the parts of a request have; their numbers mean nothing."""
-        stands = None
-        if fleet is not None and None not in fleet:
-            stands = {(str(stand.depot.kind), stand.depot.id): 0
-                      for kind in fleet if kind is not None for stand in stands_of(kind)}
-            places: list[DepotInput | CustomerInput | LaunchSiteInput | None] = [*(sites or ())]
-            if any(revisits(kind) for kind in fleet if kind is not None):
-                places += [*(depots or ()), *(customers or ())]
-            stands |= {("launch_site", place.id): 0 for place in places if place is not None}
-        kinds = _by_name(fleet)
-        return cls(_by_name(depots), stands, _by_name(customers),
-                   None if kinds is None else dict.fromkeys(kinds, KnownType()))
-
-
-def _by_name(entries: Entries) -> dict[str, int] | None:
-    if entries is None or None in entries:
-        return None
-    return {entry.id: 0 for entry in entries if entry is not None}
 
 
 def _places(stops: Sequence[StopInput]) -> dict[int, int]:
@@ -215,7 +149,8 @@ def _is_instant(end: float, begin: float) -> bool:
 class _PlanReader:
     """Finds what a plan names; `errors` collects what isn't there.
 
-    Customers who aren't are at `cancelled`, if that is a node.
+    With a node for what was `cancelled` customers and launch sites that aren't there are at that,
+    breaks are left out, and where vehicles start and end is as it is now.
     """
 
     def __init__(self, known: Known, cancelled: int | None) -> None:
@@ -256,7 +191,7 @@ class _PlanReader:
     def _trip(self, path: Path, trip: TripInput, vehicle: str, kind: KnownType) -> Trip:
         charges = tuple(Charge(thousandths(each.start), thousandths(each.end))
                         for each in trip.charging)
-        stops = tuple(self._stop((*path, "stops", index), stop)
+        stops = tuple(self._stop((*path, "stops", index), stop, kind)
                       for index, stop in enumerate(trip.stops) if stop.kind != "break")
         sorties = tuple(self._sortie((*path, "sorties", index), sortie, vehicle, kind)
                         for index, sortie in enumerate(trip.sorties))
@@ -280,27 +215,37 @@ class _PlanReader:
                 continue
             number = REST
             if kind.kind is None or kind.kind.driving is None or stop.id != REST_ID:
+                if self._is_cancelled(known, stop.id):
+                    continue
                 number = self._find((*path, "stops", index, "id"), "break", known, stop.id,
                                     stop.id, 0)
             yield TakenBreak(number, before, _break_place(trip.stops, index),
                              thousandths(stop.arrival), thousandths(stop.service_start),
                              thousandths(stop.departure))
 
-    def _stop(self, path: Path, stop: StopInput) -> Stop:
+    def _stop(self, path: Path, stop: StopInput, kind: KnownType) -> Stop:
+        node = self._place((*path, "id"), stop, kind.kind)
         return Stop(
-            is_launch_site=stop.kind == "launch_site",
-            node=self._place((*path, "id"), stop),
+            is_launch_site=stop.kind == "launch_site" and node != NO_MORE,
+            node=node,
             arrival=thousandths(stop.arrival),
             service_start=thousandths(stop.service_start),
             departure=thousandths(stop.departure),
         )
 
-    def _place(self, path: Path, stop: StopInput) -> int:
+    def _place(self, path: Path, stop: StopInput, kind: VehicleType | None) -> int:
         if stop.kind == "customer":
             return self._customer(path, stop.id)
         if stop.kind == "depot":
             return self._find(path, "depot", self._known.depots, stop.id, stop.id, 0)
-        return self._find(path, stop.kind, self._known.stands, (stop.kind, stop.id), stop.id, 0)
+        place = stop.kind, stop.id
+        if kind is not None and self._is_cancelled(self._known.stands, place):
+            return {"start": kind.begins_at, "end": kind.ends_at}.get(stop.kind, NO_MORE)
+        return self._find(path, stop.kind, self._known.stands, place, stop.id, 0)
+
+    def _is_cancelled(self, known: Mapping[Key, Value] | None, key: Key) -> bool:
+        """Tell whether something isn't there any more, in a plan that may name such."""
+        return self._cancelled is not None and known is not None and key not in known
 
     def _sortie(self, path: Path, sortie: SortieInput, vehicle: str, kind: KnownType) -> Sortie:
         recovery_time = thousandths(sortie.recovery_time)

@@ -1,76 +1,22 @@
 """What the schema can't tell of a plan to go on from, by itself and beside its request."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import TypeVar
 
 from app.requests.conversion.launches import launch_durations
 from app.requests.conversion.names import drone_number, number_in, read_name
-from app.requests.conversion.places import stands_of
 from app.requests.conversion.units import thousandths
 from app.requests.ends import named_otherwise
-from app.schemas.customer import CustomerInput
+from app.requests.plan_names import Names, PlaceName
+from app.schemas.driving import REST_ID
 from app.schemas.errors import ErrorCode, InputError, json_path
 from app.schemas.plan import MAX_INSTANT, ON_THE_WAY, RouteInput, StopInput, TripInput
-from app.schemas.request import DepotInput, ReplanInput
+from app.schemas.request import ReplanInput
 from app.schemas.vehicle import VehicleTypeInput
 
 Path = tuple[str | int, ...]
-PlaceName = tuple[str, str]
-"""Kind and id of a stop."""
 Errors = Iterator[InputError]
-Entry = TypeVar("Entry")
-
-
-@dataclass(frozen=True)
-class Names:
-    """What a request has; None: it isn't known, since some of it is broken."""
-
-    depots: Sequence[DepotInput] | None
-    customers: frozenset[str] | None
-    fleet: Mapping[str, VehicleTypeInput] | None
-    shipment_ends: frozenset[str] = frozenset()  # names among customers
-
-    @classmethod
-    def of(cls, depots: Sequence[DepotInput | None] | None,
-           customers: Sequence[CustomerInput | None] | None,
-           fleet: Sequence[VehicleTypeInput | None] | None,
-           shipment_ends: frozenset[str] = frozenset()) -> "Names":
-        """Collect the names of a request's parts, None standing for what is broken."""
-        known, kinds = _unbroken(customers), _unbroken(fleet)
-        return cls(_unbroken(depots),
-                   None if known is None else frozenset(customer.id for customer in known),
-                   None if kinds is None else {kind.id: kind for kind in kinds},
-                   shipment_ends)
-
-    def _home(self, vehicle_type: VehicleTypeInput) -> PlaceName | None:
-        """Return the depot of a type."""
-        home = vehicle_type.depot
-        if home is None and self.depots:
-            home = self.depots[0].id
-        return None if home is None else ("depot", home)
-
-    def begin(self, kind: VehicleTypeInput, before: TripInput | None) -> PlaceName | None:
-        """Return where a type's trip begins, by the one before; None: that isn't known."""
-        if before is not None:
-            return before.stops[-1].kind, before.stops[-1].id
-        stands = {stand.depot.kind for stand in stands_of(kind)}
-        return ("start", kind.id) if "start" in stands else self._home(kind)
-
-    def ends(self, kind: VehicleTypeInput, is_last: bool) -> list[PlaceName] | None:
-        """Return where a type's trip may end; None: that isn't known, or at a customer."""
-        home = self._home(kind)
-        if home is None or (is_last and kind.end == "open"):
-            return None
-        # A vehicle may stay where its last trip was to end.
-        places = [home, *(("depot", name) for name in kind.reload_depots)]
-        return [("end", kind.id), *places] if is_last and kind.end != "depot" else places
-
-
-def _unbroken(entries: Sequence[Entry | None] | None) -> list[Entry] | None:
-    whole = [entry for entry in entries or () if entry is not None]
-    return whole if entries is not None and len(whole) == len(entries) else None
 
 
 def replan_errors(replan: ReplanInput | None, names: Names) -> list[InputError]:
@@ -164,7 +110,8 @@ class _Checker:
             if begun and is_whole and (route.vehicle not in self._replan.unavailable
                                        or (kind is not None and kind.flies)):
                 begun = _as_whole(trip, begun)
-            shape = list(self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)))
+            shape = [*self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)),
+                     *self._kind_errors(here, trip, kind)]
             yield from shape
             if shape or not begun:
                 free += 1
@@ -177,6 +124,7 @@ class _Checker:
                 yield from _place_errors(here, trip, kind, None if begin is None else [begin],
                                          self._names.ends(kind, is_last))
                 yield from self._begun_errors(here, trip, kind, begun)
+                yield from self._gone_errors(here, trip, kind, begun)
             is_done = (begun.left == len(trip.stops)
                        or route.vehicle in self._replan.unavailable)
             yield from _order_errors(here, trip, begun, last_end, is_done)
@@ -235,6 +183,41 @@ class _Checker:
                 yield _error("UNKNOWN_CUSTOMER", (*path, *place, "id"),
                              f"A vehicle has served {name!r} or is on its way there by "
                              "replan.freeze_before, too late to cancel: keep it in customers.")
+
+    def _kind_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput | None) -> Errors:
+        """Stops at launch sites that can't have been any: they have names of breaks."""
+        names = set() if kind is None else {each.id for each in kind.breaks}
+        for index, stop in enumerate(trip.stops):
+            if (stop.kind == "launch_site" and stop.id in names
+                    and self._names.sites is not None and stop.id not in self._names.sites):
+                yield _error("UNKNOWN_DEPOT", (*path, "stops", index, "id"),
+                             f"{stop.id!r} is a break, and no launch site: correct the stop's "
+                             "kind.")
+
+    def _gone_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
+                     begun: _Begun) -> Errors:
+        """Launch sites and breaks of a trip that the request has no more, too late for that.
+
+        Whoever makes the trip to its end stops at all its launch sites; breaks may still be left
+        out that haven't begun.
+        """
+        breaks = {each.id for each in kind.breaks}
+        breaks |= set() if kind.driving_rules is None else {REST_ID}
+        meetings = {trip.sorties[index].recovery_stop for index in begun.launched}
+        for index, stop in enumerate(trip.stops):
+            here = (*path, "stops", index, "id")
+            is_bound = index <= begun.left or index in meetings
+            if (stop.kind == "launch_site" and is_bound and self._names.sites is not None
+                    and stop.id not in self._names.sites):
+                yield _error("UNKNOWN_DEPOT", here,
+                             f"A vehicle has been at {stop.id!r}, is on its way there or meets a "
+                             "drone there by replan.freeze_before, too late to close it: keep it "
+                             "in launch_sites.")
+            elif (stop.kind == "break" and stop.id not in breaks
+                    and thousandths(stop.arrival) <= self._now):
+                yield _error("UNKNOWN_BREAK", here,
+                             f"The break {stop.id!r} has begun by replan.freeze_before: keep it in "
+                             f"the breaks of {kind.id}, or its driving_rules for a rest.")
 
     def customers(self) -> Errors:
         """Customers who are in the plan more than once."""

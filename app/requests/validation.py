@@ -14,7 +14,8 @@ from app.requests.fleet_validation import (
     break_errors, depot_errors, driving_errors, drone_errors, energy_errors, flight_errors,
     hours_errors, shift_errors, speed_errors, turnaround_errors,
 )
-from app.requests.plan_validation import Names, replan_errors
+from app.requests.plan_names import Names
+from app.requests.plan_validation import replan_errors
 from app.requests.relation_validation import relation_errors
 from app.requests.site_validation import site_errors
 from app.requests.wind_validation import wind_errors
@@ -70,7 +71,7 @@ def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[Inpu
         *_policy_errors(draft, policies),
         *_day_errors(draft),
         *replan_errors(draft.replan, Names.of(draft.depots, draft.customers, draft.fleet,
-                                              draft.shipment_ends)),
+                                              draft.shipment_ends, draft.launch_sites)),
     ]
 
 

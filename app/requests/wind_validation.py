@@ -22,7 +22,8 @@ def wind_errors(draft: Draft) -> Errors:
             yield from _forecast_errors(wind.open_meteo, draft.day)
     elif isinstance(wind, list):
         for index, (earlier, later) in enumerate(pairwise(wind), 1):
-            if later.from_time <= earlier.from_time and later.from_time > 0:
+            # Hours that begin before the plan are told from its start on, several maybe.
+            if later.from_time < earlier.from_time or later.from_time == earlier.from_time > 0:
                 yield error_at("WIND_ORDER", (*WIND, index, "from"),
                                "The hour begins no later than the one before it: sort the hours by "
                                "from, each time once.")

@@ -3,7 +3,7 @@
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from datetime import UTC, datetime, time, timedelta
+from datetime import MAXYEAR, MINYEAR, UTC, datetime, time, timedelta
 from functools import cached_property
 from typing import Literal
 from zoneinfo import ZoneInfo
@@ -40,6 +40,12 @@ def read_date_time(text: str) -> datetime:
     return datetime.fromisoformat(text)
 
 
+def _require_year(start: datetime) -> None:
+    """Raise `ValueError` if no plan starts in the year of an instant."""
+    if not FIRST_YEAR <= start.year <= LAST_YEAR:
+        raise ValueError(f"start: the year is not in {FIRST_YEAR}..{LAST_YEAR}")
+
+
 def is_instant(text: str) -> bool:
     """Tell whether a text has the form of a wall time, or of a date and time."""
     return bool(_WALL.fullmatch(text) or _DATE_TIME.fullmatch(text))
@@ -73,8 +79,7 @@ class Day:
     def __post_init__(self) -> None:
         if self.start.tzinfo is None:
             raise ValueError("start: there is neither an offset nor a time zone")
-        if not FIRST_YEAR <= self.start.year <= LAST_YEAR:
-            raise ValueError(f"start: the year is not in {FIRST_YEAR}..{LAST_YEAR}")
+        _require_year(self.start)
         object.__setattr__(self, "_start", self.start.astimezone(UTC))
 
     @classmethod
@@ -87,6 +92,7 @@ class Day:
             If it states none.
         """
         start = read_date_time(plan_start)
+        _require_year(start)
         if time_zone is None:
             return cls(start)
         zone = zone_of(time_zone)
@@ -104,6 +110,8 @@ class Day:
         instant = read_date_time(text) if wall is None else self._on_the_wall(wall)
         if instant.tzinfo is None:
             instant = instant.replace(tzinfo=self.start.tzinfo)
+        if not MINYEAR < instant.year < MAXYEAR:
+            raise ValueError(f"the year {instant.year} can't be told in another zone")
         return (instant.astimezone(UTC) - self._start) / MICROSECOND / 1e6
 
     def seconds_since_epoch(self, instant: float) -> float:

@@ -1,7 +1,8 @@
 """Lets days change while they go on, and judges each new plan: `python -m benchmarks.fuzz.replans`.
 
 Each day is planned, or changed by hand where that breaks no rule, then something happens, and the
-plan is gone on from; the reply is gone on from in turn. Of each reply this is judged from the JSON
+plan is gone on from; the reply is gone on from in turn. Of other days any one thing is taken away
+or changed, which is planned or refused, by `--gone`. Of each reply this is judged from the JSON
 alone: `POST /check` finds no broken rule and the same cost; what has begun is unchanged; whatever
 is aboard a vehicle that drives stays with it or is left out with a reason; parcels of broken
 vehicles are told of, and leave no depot before they are back; and it costs no more than the plan
@@ -18,7 +19,10 @@ from typing import Annotated, Any
 import typer
 
 from benchmarks.fuzz.changing_days import Change, by_hand, morning, what_happens
-from benchmarks.fuzz.problems import Fault, Study, hold_to_the_past, tried
+from benchmarks.fuzz.mixed_problems import mixed_request
+from benchmarks.fuzz.problems import Fault, Study, hold_to_the_past, replan_terms, tried
+from benchmarks.fuzz.things_gone import with_a_thing_gone
+from benchmarks.fuzz.wild_problems import wild_request
 
 Data = dict[str, Any]
 
@@ -55,6 +59,26 @@ class Days(Study):
             plan = self.goes_on(change, plan)
             request, broken, lost = change.request, change.broken, change.lost
             since = max(change.now, 0.001)
+
+    def try_gone(self, seed: int) -> None:
+        """Have a day planned, then planned on with one thing of it gone. In place.
+
+        Raises
+        ------
+        Fault
+            If a reply should not be.
+        """
+        rng = random.Random(seed)
+        request = rng.choice((mixed_request, wild_request, morning))(rng)
+        plan = self.planned(request)
+        if plan is None:
+            return
+        terms = replan_terms(rng, plan)
+        if terms["pin_all"]:
+            terms["keep_order"] = rng.random() < 0.5
+        later = with_a_thing_gone(rng, request) | {"replan": terms}
+        replanned = self.planned(later)
+        self.replanned += replanned is not None
 
     def goes_on(self, change: Change, plan: Data) -> Data:
         """Return the plan that goes on from another, found sound. In place."""
@@ -143,9 +167,11 @@ def _served(trip: Data) -> Collection[str]:
 def main(
     days: Annotated[int, typer.Option(help="Days to try.")] = 2000,
     seed: Annotated[int, typer.Option(help="Seed of the first; later ones count on.")] = 0,
+    gone: Annotated[bool, typer.Option(help="Take something away from each.")] = False,
 ) -> None:
     """Fuzz days that go on."""
-    study, faults = tried(Days, range(seed, seed + days), Days.try_day)
+    attempt = Days.try_gone if gone else Days.try_day
+    study, faults = tried(Days, range(seed, seed + days), attempt)
     typer.echo(f"{days} days, {faults} faults; {study.replanned} plans gone on from, "
                f"{study.compared} compared with the plan given, {study.left_aboard} parcels left "
                f"aboard; {json.dumps(dict(sorted(study.statuses.items())))}")

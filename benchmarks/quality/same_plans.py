@@ -22,7 +22,8 @@ from app.serving.settings import Settings
 from benchmarks.quality.replanning import day_of, nothing
 from model.planner import Planner, PlanOptions, load_planner
 from model.problem import Problem
-from model.replanning.replan import Replanning, SettledPartError, Terms
+from model.replanning.refusing import SettledPartError
+from model.replanning.replan import Replanning, Terms
 from model.solution import Solution
 from training.instances import COMPARED, generate
 

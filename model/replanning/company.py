@@ -18,7 +18,9 @@ def relations_left(problem: Problem, owners: Mapping[int, Worker],
     """Return what relations say of those who are left, by their numbers there.
 
     Whose parcel is aboard a vehicle is served by it in any case, though by a type of its own. So
-    orders among them and others are as if any vehicles served them.
+    orders among them and others are as if any vehicles served them. Others who go with them are
+    kept together by whom the vehicle's other type may serve: no more relations are left than there
+    were.
     """
     aboard = problem.all_places(node for owner in owners.values() for node in owner.aboard)
     found = []
@@ -26,14 +28,13 @@ def relations_left(problem: Problem, owners: Mapping[int, Worker],
         parts: list[Relation | None] = [each]
         if each.keeps_together and each.scope == "vehicle":
             inside = tuple([node for node in each.nodes if node in aboard])
-            outside = tuple([node for node in each.nodes if node not in aboard])
-            parts = [each.among({node: node for node in nodes}, problem.first_place)
-                     for nodes in (inside, outside)]
-            if each.kind == "before" and inside and outside:
+            if inside:
+                parts = [each.among({node: node for node in inside}, problem.first_place)]
+            if each.kind == "before" and 0 < len(inside) < len(each.nodes):
                 parts.append(replace(each, across=True))
         left = [part.among(number, problem.first_place) for part in parts if part is not None]
         found += [part for part in left if part is not None]
-    return tuple(found)
+    return tuple(dict.fromkeys(found))
 
 
 def company_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],

@@ -12,7 +12,7 @@ from itertools import accumulate, pairwise
 from typing import NamedTuple
 
 from model.judge.past import Vehicle
-from model.problem import Customer, Problem
+from model.problem import MAX_QUANTITY, Customer, Problem
 from model.solution import Route, Solution, Stop
 
 
@@ -122,7 +122,7 @@ def _last(known: int | None, edge: int | None) -> int | None:
 def _between(customer: Customer, arrival: int, since: int | None,
              until: int | None) -> Customer:
     """Return a customer who is served between two instants, as the plan given does it."""
-    begins, latest = since or 0, customer.latest
+    begins, latest = min(since or 0, MAX_QUANTITY), customer.latest
     if until is not None:
         latest = until if latest < arrival else min(latest, until)
         customer = replace(customer, late_cost_per_hour=None)

@@ -11,35 +11,25 @@ from model.judge.explain import Reason, explain_type, unexplained
 from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
-from model.judge.rules import Violation
 from model.planner import (
     ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult, Progress,
     complete_plan,
 )
-from model.problem import Problem, limits_chargers
+from model.problem import Problem
 from model.replanning.driven_on import carried_through, driven_on
 from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
+from model.replanning.refusing import SettledPartError, as_given, gone_from
 from model.replanning.remainder import Remainder, what_is_left
-from model.replanning.rested import has_clock
 from model.replanning.workers import Worker, find_workers
 from model.solution import Route, Solution, renumbered
 
 UNREADABLE = frozenset({"UNKNOWN_TYPE", "UNKNOWN_NODE", "DEPOT", "COUNT",
                         "SORTIE_STOPS", "UNREACHABLE", "PAIR"})
 """Broken rules with which nothing that has happened can be read, or gone on from."""
-
-
-class SettledPartError(ValueError):
-    """What has happened can't have happened in this problem."""
-
-    def __init__(self, violations: Collection[Violation]) -> None:
-        super().__init__("; ".join(f"{violation.path}: {violation.message}"
-                                   for violation in violations))
-        self.violations = tuple(violations)
 
 
 @dataclass(frozen=True)
@@ -90,13 +80,16 @@ class Replanning:
         terms = replace(terms, plan=with_charging(problem, terms.plan))
         self._plan = terms.plan
         past = _past(problem, terms)
+        gone = list(gone_from(terms.plan, past))
+        if gone:
+            raise SettledPartError(gone)
         self.problem = problem = _released(problem, past)
         self._kept = kept_routes(problem, terms.plan, past)
         self._settled = settled(problem, self._kept)
         broken = check(problem, self._settled, past).violations
         unreadable = [item for item in broken if item.code in UNREADABLE]
         if unreadable:
-            raise SettledPartError(_as_given(terms.plan, self._settled, unreadable))
+            raise SettledPartError(as_given(terms.plan, self._settled, unreadable))
         on_the_way = {*past.carriers(), *(
             node for kept in self._kept.values() for node in kept.served)}
         self.stranded = {each.left[-1]: each.vehicle for each in parted
@@ -115,6 +108,9 @@ class Replanning:
             self._settled = settled(problem, self._kept)
             broken = check(problem, self._settled, past).violations
             workers = find_workers(problem, self.past, self._kept)
+        unkept = [item for item in broken if item.code in PAST_RULES]
+        if unkept:
+            raise SettledPartError(as_given(terms.plan, self._settled, unkept))
         self._left = what_is_left(problem, self.past, self._kept, workers)
         self._judge = Memory(problem, self.past)
         self.excused = tuple(item for item in broken if item.code not in PAST_RULES)
@@ -191,9 +187,7 @@ class Replanning:
         if has_orders and self.check(solution).violations:
             # Who came in between was at another place before.
             first, solution = handed, bridge.whole(handed)
-        if self.check(solution).violations and (
-                self.problem.lags or limits_chargers(self.problem)
-                or any(map(has_clock, self.problem.vehicle_types))):
+        if self.check(solution).violations:
             # Breaks may be due on a day as a whole that aren't on what is left of it, and whoever
             # waits where a trip goes on serves others later than it will.
             solution = self._settled
@@ -296,21 +290,6 @@ def _has_flights(past: Past) -> bool:
     """Tell whether any drone is in the air."""
     return any(sortie.recovery_start is None
                for trips in past.trips.values() for sortie in trips[-1].sorties)
-
-
-def _as_given(plan: Solution, settled: Solution,
-              violations: Collection[Violation]) -> list[Violation]:
-    """Return violations of the settled routes with paths in the plan given."""
-    places = {(route.vehicle_type, route.vehicle): index
-              for index, route in enumerate(plan.routes)}
-    moved = []
-    for violation in violations:
-        number = int(violation.path.split("]")[0].removeprefix("routes["))
-        route = settled.routes[number]
-        index = places[route.vehicle_type, route.vehicle]
-        moved.append(replace(violation, path=violation.path.replace(
-            f"routes[{number}]", f"routes[{index}]", 1)))
-    return moved
 
 
 def _released(problem: Problem, past: Past) -> Problem:

@@ -23,6 +23,7 @@ from app.records.dispatches.validation import require_drivable
 from app.requests.conversion.locating import at_addresses
 from app.schemas.check import PlannedProblem
 from app.schemas.errors import InputError, InvalidRequestError
+from app.schemas.plan import MAX_INSTANT
 from app.serving.access.tokens import NewToken
 from app.serving.settings import Settings
 
@@ -30,6 +31,9 @@ HOUR_MS = 3_600_000
 
 FARTHEST = timedelta(days=366)
 """How far ahead a plan's day may end."""
+
+LONGEST = timedelta(seconds=MAX_INSTANT)
+"""How long a plan may take."""
 
 
 @dataclass(frozen=True)
@@ -201,13 +205,13 @@ class DispatchService:
     def _row(self, request: DispatchRequest, owner: str, client: str) -> DispatchRow:
         now = datetime.now(UTC)
         plan_start, time_zone = _day_of(request)
+        if plan_start is not None and not -LONGEST < plan_start - now < FARTHEST:
+            raise _not_today()
         day = Day.stated(plan_start, time_zone, now)
         ends_at = (now + timedelta(hours=self._settings.dispatch_hours)
                    if plan_start is None else day.end(request.plan))
         if not now < ends_at < now + FARTHEST:
-            message = "The day of the plan is over, or a year ahead: correct its start."
-            raise InvalidRequestError([
-                InputError(code="OUT_OF_RANGE", path="$.plan_start", message=message)])
+            raise _not_today()
         ends = milliseconds(ends_at)
         offset = day.plan_start.utcoffset() or timedelta()
         return DispatchRow(
@@ -244,6 +248,13 @@ def is_id(text: str) -> bool:
         return str(uuid.UUID(text)) == text
     except ValueError:
         return False
+
+
+def _not_today() -> InvalidRequestError:
+    """Return the error of a day that is over, or too far ahead."""
+    message = "The day of the plan is over, or a year ahead: correct its start."
+    return InvalidRequestError([
+        InputError(code="OUT_OF_RANGE", path="$.plan_start", message=message)])
 
 
 def _day_of(request: DispatchRequest) -> tuple[datetime | None, str | None]:

@@ -1,6 +1,7 @@
 """Whether a plan can be driven as it stands."""
 
-from app.requests.plan_validation import Names, replan_errors
+from app.requests.plan_names import Names
+from app.requests.plan_validation import replan_errors
 from app.schemas.errors import InputError, InvalidRequestError
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest, ReplanInput

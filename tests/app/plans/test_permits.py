@@ -126,6 +126,7 @@ def test_a_flight_waits_until_the_wind_is_weaker(client: httpx.Client, smallest:
 
 @pytest.mark.parametrize(("wind", "code", "path"), [
     ([{"from": 60, "speed_kmh": 1}, {"from": 60, "speed_kmh": 1}], "WIND_ORDER", "[1].from"),
+    ([{"from": 60, "speed_kmh": 1}, {"from": 0, "speed_kmh": 1}], "WIND_ORDER", "[1].from"),
     ([], "WRONG_LENGTH", ""),
     ([{"from": 0}], "MISSING_FIELD", "[0].speed_kmh"),
     ({"open_meteo": {"hourly": {"time": ["2026-06-01T07:00"], "wind_speed_10m": [2],

@@ -8,7 +8,8 @@ import pytest
 from model.judge.timing import Operation, RouteDecision, SortieDecision, TripDecision, schedule
 from model.planner import Planner
 from model.problem import Customer, DroneType, Problem, VehicleType
-from model.replanning.replan import Replanning, SettledPartError, Terms
+from model.replanning.refusing import SettledPartError
+from model.replanning.replan import Replanning, Terms
 from model.solution import Route, Solution
 from tests.model.street import (
     MINUTE, ONE, OPTIONS, A, B, C, D, minutes, planned, replan, route_of, served, solution_of,

@@ -298,6 +298,12 @@ def changed(path: str, value: Any) -> Data:
 @pytest.mark.parametrize(("body", "error"), [
     (changed("time_zone", "Mars/Olympus"), ("UNKNOWN_VALUE", "$.time_zone")),
     (changed("plan_start", "2026-11-23T08:00:00"), ("WRONG_TYPE", "$.plan_start")),
+    (changed("plan_start", "9999-12-31T23:59:59+14:00"), ("OUT_OF_RANGE", "$.plan_start")),
+    (changed("plan_start", "9999-12-31T23:59:59-12:00"), ("OUT_OF_RANGE", "$.plan_start")),
+    (changed("plan_start", "0001-01-01T00:00:00+14:00"), ("OUT_OF_RANGE", "$.plan_start")),
+    (changed("problem", PROBLEM | {"plan_start": "0001-01-01T00:00:00+14:00",
+                                   "time_zone": "Europe/Berlin"}),
+     ("OUT_OF_RANGE", "$.problem.plan_start")),
     (changed("plan", {"routes": [PLAN["routes"][1] | {"vehicle": "van-3"}]}),
      ("UNKNOWN_VEHICLE", "$.plan.routes[0].vehicle")),
     (changed("plan", {"routes": [PLAN["routes"][1] | {"type": "bus"}]}),

@@ -1,0 +1,51 @@
+"""What of a plan given can't have happened in a problem."""
+
+from collections.abc import Collection, Iterator
+from dataclasses import replace
+
+from model.judge.past import Past, Vehicle
+from model.judge.rules import Violation
+from model.solution import Solution
+
+
+class SettledPartError(ValueError):
+    """What has happened can't have happened in this problem."""
+
+    def __init__(self, violations: Collection[Violation]) -> None:
+        super().__init__("; ".join(f"{violation.path}: {violation.message}"
+                                   for violation in violations))
+        self.violations = tuple(violations)
+
+
+def gone_from(plan: Solution, past: Past) -> Iterator[Violation]:
+    """Yield where something has happened at places that are no more."""
+    for index, route in enumerate(plan.routes):
+        known = past.trips.get(Vehicle(route.vehicle_type, route.vehicle), ())
+        for number, trip in enumerate(known):
+            path = f"routes[{index}].trips[{number}]"
+            for place, stop in enumerate(trip.stops):
+                if stop.node < 0:
+                    yield Violation("UNKNOWN_NODE", "it is gone", f"{path}.stops[{place}]")
+            for place, sortie in enumerate(trip.sorties):
+                if min(sortie.recovery_node, *(visit.node for visit in sortie.visits)) < 0:
+                    yield Violation("UNKNOWN_NODE", "whom it serves, or where it is met, is gone",
+                                    f"{path}.sorties[{place}]")
+
+
+def as_given(plan: Solution, settled: Solution,
+              violations: Collection[Violation]) -> list[Violation]:
+    """Return violations of the settled routes with paths in the plan given."""
+    places = {(route.vehicle_type, route.vehicle): index
+              for index, route in enumerate(plan.routes)}
+    moved = []
+    for violation in violations:
+        begin, _, _ = violation.path.partition("]")
+        if not begin.startswith("routes["):
+            moved.append(violation)
+            continue
+        number = int(begin.removeprefix("routes["))
+        route = settled.routes[number]
+        index = places[route.vehicle_type, route.vehicle]
+        moved.append(replace(violation, path=violation.path.replace(
+            f"routes[{number}]", f"routes[{index}]", 1)))
+    return moved
