@@ -69,7 +69,8 @@ def crow_warnings(survey: Survey) -> Warnings:
     if not survey.is_geographic or survey.request.roads == "none":
         return
     for index, kind in enumerate(survey.request.fleet):
-        if survey.is_located(kind) and kind.profile not in survey.road_profiles:
+        if (not kind.flies and survey.is_located(kind)
+                and kind.profile not in survey.road_profiles):
             yield warning_at("AS_THE_CROW_FLIES", ("fleet", index, "profile"), AS_THE_CROW_FLIES)
             return
 
@@ -180,7 +181,7 @@ def _far(survey: Survey, at_zero: BoolArray) -> Warnings:
             "FAR_APART", ("customers", index, "location"),
             f"{customers_text(int(far.sum()), count)} farther than a day's drive "
             f"({DAY_HOURS:g} h) from every depot. {survey.customers[index].id!r} lies "
-            f"{amount_text(survey.metres[index] / 1000)} km away as the crow flies, "
+            f"{amount_text(survey.metres[index] / 1000)} km away in a straight line, "
             f"{amount_text(hours)} h at {survey.fastest_kmh:g} km/h: check its location"
             + ("." if survey.is_geographic else ", coordinate_system and planar_unit."))
 

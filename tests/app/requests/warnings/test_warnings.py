@@ -199,6 +199,18 @@ def test_roads_are_no_flight_of_a_crow() -> None:
         "AS_THE_CROW_FLIES"]
 
 
+def test_what_flies_is_not_told_that_it_flies_as_crows_do() -> None:
+    request = changed(lambda request: request.pop("roads"))
+    truck = request["fleet"][0]
+    quad = {"id": "quad", "flies": True, "count": 9, "capacity": truck["capacity"],
+            "speed_kmh": 60}
+    alone = request | {"fleet": [quad]}
+    assert "AS_THE_CROW_FLIES" not in [warning.code for warning in seen(alone)]
+    beside = request | {"fleet": [quad, truck]}
+    assert [warning.path for warning in seen(beside) if warning.code == "AS_THE_CROW_FLIES"] == [
+        "$.fleet[1].profile"]
+
+
 def requests_of(path: Path) -> Iterator[bytes]:
     """Yield the request that a file of an example holds."""
     content = json.loads(path.read_text("utf-8"))
