@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 from functools import partial
+from math import ceil, floor
 from typing import NamedTuple
 
 from app.maps.airspace.zone import Limit
@@ -12,6 +13,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.zones import Part
 from app.schemas.request import PlanRequest
 from model.judge.flight_diagnoses import NO_FLIGHT
+from model.travel.zones import WIDER_M
 
 CODE = "AIRSPACE"
 
@@ -29,12 +31,32 @@ LEADS = {
 }
 """How it is said that a zone keeps drones away, by what it holds."""
 
+BESIDE = {"customer": "It lies", "depot": "The depot lies"}
+"""The beginning of how far from a zone it lies whom `airspace.buffer` keeps drones from."""
+
 
 class Hindrance(NamedTuple):
     """What keeps drones from a customer, and what of the way there it holds."""
 
     holds: str
     part: Part
+    metres: float = 0.0  # that lie between, where the buffer alone holds it
+
+    def told(self, buffer: float) -> str:
+        """Return all of it in words, with the buffer that is kept."""
+        zone = words_of(self.part)
+        if self.metres:
+            return f"{_beside(self.holds, self.metres)} {zone} {_kept(buffer)}"
+        kept = f" {_kept(buffer)}" if buffer and self.holds == "way" else ""
+        return f"{LEADS[self.holds]}{zone}{kept}"
+
+
+def _beside(holds: str, metres: float) -> str:
+    return f"{BESIDE[holds]} {ceil(metres)} m from"
+
+
+def _kept(buffer: float) -> str:
+    return f"Flights keep {buffer:g} m from it (airspace.buffer)."
 
 
 @dataclass(frozen=True)
@@ -53,12 +75,28 @@ class Closures:
     def name(self, customer: str, reasons: Iterable[Data]) -> None:
         """Have reasons that no flight leads to a customer name the zone. In place."""
         for reason in reasons:
-            if self.ground.zones and reason["message"] == NO_FLIGHT:
-                found = self._why(customer, reason["vehicle_type"])
-                if found is not None:
+            if reason["message"] != NO_FLIGHT:
+                continue
+            found = self._why(customer, reason["vehicle_type"]) if self.ground.zones else None
+            if found is not None:
+                reason["code"] = CODE
+                reason["message"] = found.told(self.buffer)
+                reason["zone"] = zone_reply(found, self.buffer)
+                _add_remedy(reason, found.metres)
+            elif self.buffer:
+                self._name_area(customer, reason)
+
+    def _name_area(self, customer: str, reason: Data) -> None:
+        """Have a reason name the area that somebody lies too near to. In place."""
+        for holds, node in (("customer", self.nodes[customer]),
+                            ("depot", self._depot_of(reason["vehicle_type"]))):
+            for number, metres in self.ground.areas_near(node).items():
+                if metres:
                     reason["code"] = CODE
-                    reason["message"] = LEADS[found.holds] + words_of(found.part)
-                    reason["zone"] = zone_reply(*found)
+                    reason["message"] = (f"{_beside(holds, metres)} the area airspace.no_fly"
+                                         f"[{number}]. {_kept(self.buffer)}")
+                    _add_remedy(reason, metres)
+                    return
 
     def around(self, customer: str) -> list[Data]:
         """Return the zones in which a customer lies that drones may not fly to."""
@@ -67,7 +105,7 @@ class Closures:
         node = self.nodes[customer]
         parts = [part for altitude in self._altitudes() for part in
                  self.ground.zones_at(node, altitude)]
-        return [zone_reply("customer", part)
+        return [zone_reply(self._hindrance("customer", part, node), self.buffer)
                 for part in {words_of(part): part for part in parts}.values()]
 
     def _altitudes(self, kind: str | None = None) -> list[float]:
@@ -86,13 +124,30 @@ class Closures:
                     ("way", partial(self.ground.zones_between, depot, node)))
             for holds, look in ways:
                 for part in look(altitude):
-                    return Hindrance(holds, part)
+                    return self._hindrance(holds, part, node if holds == "customer" else depot)
         return None
+
+    def _hindrance(self, holds: str, part: Part, node: int) -> Hindrance:
+        between = 0.0 if holds == "way" else self.ground.metres_between(node, part)
+        return Hindrance(holds, part, between)
+
+    @property
+    def buffer(self) -> float:
+        """Metres that flights keep from areas and zones."""
+        return self._request.airspace.buffer
 
     def _depot_of(self, kind: str) -> int:
         stated = next(each for each in self._request.fleet if each.id == kind)
         ids = [depot.id for depot in self._request.depots]
         return 0 if stated.depot is None else ids.index(stated.depot)
+
+
+def _add_remedy(reason: Data, metres: float) -> None:
+    """Add by which buffer somebody who lies so far from an area is far enough away. In place."""
+    enough = floor(metres - WIDER_M)
+    if enough >= 0:
+        remedy = f"lies far enough away with airspace.buffer {enough}"
+        reason["remedy" if reason["remedy"] is None else "other_remedy"] = remedy
 
 
 def words_of(part: Part) -> str:
@@ -103,13 +158,14 @@ def words_of(part: Part) -> str:
             f"{part.volume.words}{whose}")
 
 
-def zone_reply(holds: str, part: Part) -> Data:
+def zone_reply(found: Hindrance, buffer: float) -> Data:
     """Return a volume of a zone, and what of the way to a customer it holds."""
-    zone, volume = part
-    return {"holds": holds, "name": zone.name, "identifier": zone.identifier,
+    zone, volume = found.part
+    told = {"holds": found.holds, "name": zone.name, "identifier": zone.identifier,
             "restriction": zone.restriction, "lower": _height_reply(volume.lower),
             "upper": _height_reply(volume.upper), "authority": zone.authority,
-            "message": words_of(part)}
+            "message": words_of(found.part)}
+    return told | ({"metres": ceil(found.metres), "buffer": buffer} if found.metres else {})
 
 
 def _height_reply(limit: Limit | None) -> Data | None:

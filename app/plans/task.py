@@ -151,6 +151,8 @@ class Task:
             self.name_hindrances(names_left_out(left), left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]
         reply["warnings"] = warning_replies(self.warnings)
+        if self.closures is not None and self.closures.buffer:
+            reply["airspace"] = {"buffer": self.closures.buffer}
         if self.rules:
             reply["rules"] = self.rules
         if self.laws:

@@ -6,8 +6,8 @@ import numpy as np
 
 from app.requests.draft import Draft, Errors, error_at, point_errors
 from app.requests.conversion.zones import reading_of
+from app.schemas.airspace import AirspaceInput
 from app.schemas.fields import Location, point_of
-from app.schemas.request import AirspaceInput
 from model.travel.airspace import Ring, invalid_polygon_reason
 from model.travel.matrices import LocalProjection
 

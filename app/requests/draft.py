@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.requests.conversion.places import Place, stands_of
+from app.schemas.airspace import AirspaceInput
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day
 from app.schemas.drones import DronesInput, Flyer
@@ -16,8 +17,8 @@ from app.schemas.fields import Location
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.relation import RelationInput
 from app.schemas.request import (
-    AirspaceInput, DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput,
-    OptionsInput, ReplanInput,
+    DepotInput, IncompatibleGoodsInput, LoadDimensionInput, MatrixInput, OptionsInput,
+    ReplanInput,
 )
 from app.schemas.vehicle import VehicleTypeInput
 from model.problem import FloatArray

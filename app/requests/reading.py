@@ -11,6 +11,7 @@ from app.requests.draft import Draft
 from app.requests.ends import added_names, stated_errors
 from app.requests.refusal import MAX_COUNTED_ERRORS, MAX_SEARCHED_BYTES, require_readable
 from app.requests.validation import semantic_errors
+from app.schemas.airspace import AirspaceInput
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, DayOfBody
 from app.schemas.errors import (
@@ -19,7 +20,6 @@ from app.schemas.errors import (
 from app.schemas.hints import with_hints
 from app.schemas.launch_site import LaunchSiteInput
 from app.schemas.request import (
-    AirspaceInput,
     DepotInput,
     MatrixInput,
     OptionsInput,

@@ -11,6 +11,12 @@ class _Reply(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
+class AirspaceReply(_Reply):
+    """What flights keep to."""
+
+    buffer: float = Field(description="Metres that they keep from areas and zones.")
+
+
 class HeightReply(_Reply):
     """A height, as it was published."""
 
@@ -32,6 +38,10 @@ class ZoneReply(_Reply):
     lower: HeightReply | None = Field(description="From which height. Null: none is stated.")
     upper: HeightReply | None = Field(description="To which height. Null: none, or all.")
     authority: str | None = Field(description="Who decides, and where to ask. Null: not stated.")
+    metres: float | None = Field(
+        None, description="How far it lies from the zone, where `buffer` alone holds it; left out "
+        "in the zone, so the next.")
+    buffer: float | None = Field(None, description="`airspace.buffer`, which flights keep.")
     message: str = Field(description="All of it in words.")
 
 

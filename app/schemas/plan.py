@@ -229,6 +229,7 @@ class PlanInput(_Plan):
     solver: Details = None
     energy_models: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     hubs: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
+    airspace: Details = None
     rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     driving_rules: list[dict[str, Any]] | None = Field(None, description=NOT_READ)
     replan: Details = None

@@ -8,13 +8,14 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
+from app.schemas.airspace import AirspaceInput
 from app.schemas.customer import CustomerInput
 from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fairness import FairnessInput
 from app.schemas.fields import (
     LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Count, Input,
-    Instant, Location, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
+    Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
 from app.schemas.launch_site import HoursInput, LaunchSiteInput
 from app.schemas.limits import (
@@ -25,20 +26,10 @@ from app.schemas.relation import RelationInput
 from app.schemas.shipment import ShipmentInput
 from app.schemas.times import Currency, PlanStart, TimeZone
 from app.schemas.vehicle import VehicleTypeInput
-from app.schemas.airspace import Zones
-from app.schemas.wind import Wind, WindInput
 from model.problem import MAX_DIMENSIONS, MOST_INCOMPATIBLE, MOST_RELATIONS
 
 MAX_VEHICLE_TYPES = 100
-MAX_NO_FLY = 10_000
-MAX_POLYGON_POINTS = 100_000
-MAX_ZONE_FILES = 100
-MAX_CLEARED = 10_000
 MAX_SHIPMENTS = MAX_CUSTOMERS // 2
-
-Height = Annotated[float, Field(ge=-500, le=9000)]
-
-Polygon = Annotated[list[Location], Field(min_length=3, max_length=MAX_POLYGON_POINTS)]
 
 
 class DepotInput(Input):
@@ -70,46 +61,6 @@ class MatrixInput(Input):
         None,
         description="Distances in metres, `distances[from][to]`, null where `durations` are. Null: "
         "computed from locations.",
-    )
-
-
-class GroundHeightInput(Input):
-    """Between which heights the ground lies."""
-
-    lowest: Height = Field(description="Metres above the sea of the lowest ground.")
-    highest: Height = Field(description="Metres above the sea of the highest ground.")
-
-
-class AirspaceInput(Input):
-    """What changes flights that are computed from locations."""
-
-    no_fly: Annotated[list[Polygon], Field(max_length=MAX_NO_FLY)] = Field(
-        [],
-        description="Polygons that drones fly around, each a list of at least three corners in the "
-        "coordinates of `location`.",
-    )
-    zones: Annotated[list[Zones], Field(max_length=MAX_ZONE_FILES)] = Field(
-        [],
-        description="Zones as authorities publish them, beside `no_fly`, for geographic locations. "
-        "One that is in force during the plan and reaches the drones' `altitude` is flown around, "
-        "if it is prohibited or asks for an authorisation, or is conditional.",
-    )
-    cleared: Annotated[list[Name], Field(max_length=MAX_CLEARED)] = Field(
-        [], description="Identifiers of zones that don't block, such as those one has leave for."
-    )
-    conditional: Literal["block", "allow"] = Field(
-        "block", description="Whether zones that are conditional block flights."
-    )
-    ground: GroundHeightInput | None = Field(
-        None,
-        description="Between which heights above the sea the ground lies that drones fly over, so "
-        "that limits above the sea can be compared with `altitude`. Null: unknown, and such a zone "
-        "blocks unless it lies above any ground there is.",
-    )
-    wind: Wind = Field(
-        WindInput(),
-        description="Wind, the same everywhere: always, or by the hour in a list, or as "
-        "`open_meteo` tells it.",
     )
 
 

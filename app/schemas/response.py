@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas.hindrances import StormReply, ZoneReply
+from app.schemas.hindrances import AirspaceReply, StormReply, ZoneReply
 from app.schemas.hub import ChargingReply, HubReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import (
@@ -367,6 +367,9 @@ class PlanReply(_Reply):
     hubs: list[HubReply] | None = Field(
         None, description="What is left at depots that state `batteries` or `chargers`. Left out "
         "if none does."
+    )
+    airspace: AirspaceReply | None = Field(
+        None, description="What flights keep to. Left out without a `buffer`."
     )
     rules: list[PublishedRuleReply] | None = Field(
         None, description="Published rules that drones name. Left out if none was named."

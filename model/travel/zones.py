@@ -27,34 +27,37 @@ WIDER_M = LONGEST_MITRE * (SIMPLER_M + EDGE_M) + SIMPLER_M
 """How far what is flown around may reach beyond what was published."""
 
 
-def within_reach(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
+def within_reach(areas: Sequence[Polygon], points: FloatArray, apart: float = 0.0) -> IntArray:
     """Return the indices of the areas that shortest flights between (point, 2) points may meet.
+
+    Those flights keep up to so many metres `apart` from them.
 
     A shortest way around some areas, made wider, lies within the convex hull of its ends and of
     those areas, or hardly beside it. So once that meets no others, these don't matter.
     """
     tree = shapely.STRtree(areas)
     hull = shapely.MultiPoint(points).convex_hull
-    found = new = tree.query(hull, predicate="dwithin", distance=WIDER_M)
+    wider = WIDER_M + apart
+    found = new = tree.query(hull, predicate="dwithin", distance=wider)
     while True:
         hull = GeometryCollection([hull, *(areas[index] for index in new)]).convex_hull
-        more = tree.query(hull, predicate="dwithin", distance=2 * WIDER_M)
+        more = tree.query(hull, predicate="dwithin", distance=2 * wider)
         new = np.setdiff1d(more, found)
         if len(new) == 0:
             return np.sort(found)
         found = more
 
 
-def are_within_reach(areas: Sequence[Polygon], points: FloatArray) -> bool:
+def are_within_reach(areas: Sequence[Polygon], points: FloatArray, apart: float = 0.0) -> bool:
     """Tell whether there are any areas that `within_reach` returns."""
     hull = shapely.MultiPoint(points).convex_hull
-    return bool(shapely.dwithin(np.array(areas, dtype=object), hull, 2 * WIDER_M).any())
+    return bool(shapely.dwithin(np.array(areas, dtype=object), hull, 2 * (WIDER_M + apart)).any())
 
 
-def holding(areas: Sequence[Polygon], points: FloatArray) -> IntArray:
-    """Return the indices of the areas in which any of (point, 2) points lies."""
+def holding(areas: Sequence[Polygon], points: FloatArray, apart: float = 0.0) -> IntArray:
+    """Return the indices of the areas in which any of (point, 2) points lies, or so near to."""
     tree = shapely.STRtree(areas)
-    _, found = tree.query(shapely.points(points), predicate="intersects")
+    _, found = tree.query(shapely.points(points), predicate="dwithin", distance=apart)
     return np.unique(found)
 
 

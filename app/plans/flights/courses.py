@@ -116,7 +116,7 @@ class _Courses:
             vehicle=flown.vehicle, drone=flown.drone, number=flown.number, altitude=altitude,
             lands=energy is None or energy.lands, way_points=way_points,
             recovery_time=flown.recovery_time, zones=self._zones[altitude].near(line),
-            plan_start=self._plan_start)
+            plan_start=self._plan_start, buffer=self._request.airspace.buffer)
 
     def _way_points(self, flown: Flown) -> Iterator[WayPoint]:
         nodes, leaving = flown.nodes, flown.launch_time

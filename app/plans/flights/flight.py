@@ -1,6 +1,6 @@
 """What a drone does in the air from take-off to recovery, whatever file tells it."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from typing import Literal
@@ -12,7 +12,7 @@ Ring = tuple[Place, ...]
 
 NOTE = ("Made from a plan by Tandem. These are facts for a flight controller and no permission to "
         "fly: whoever flies answers for permits, airspace, obstacles and weather.")
-"""What every file says of itself."""
+"""What every file says of itself, at least."""
 
 
 class BeyondFormatError(ValueError):
@@ -44,6 +44,7 @@ class Flight:
     recovery_time: float  # end of the recovery, in seconds since plan start
     zones: tuple[Ring, ...] = ()  # nearby ones that it stays out of
     plan_start: datetime | None = None
+    buffer: float = 0.0  # metres that it keeps from zones
 
     @property
     def name(self) -> str:
@@ -89,6 +90,12 @@ class Flight:
         if self.plan_start is None:
             return round(seconds, 3)
         return (self.plan_start + timedelta(seconds=round(seconds, 3))).isoformat()
+
+
+def note_of(flights: Sequence[Flight]) -> str:
+    """Return what a file says of itself, and how far its flights keep from zones."""
+    buffer = flights[0].buffer
+    return f"{NOTE} Flights keep {buffer:g} m from zones that bar them." if buffer else NOTE
 
 
 def _with_climbs(hop: tuple[WayPoint, ...],

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from lxml import etree
 from lxml.builder import ElementMaker
 
-from app.plans.flights.flight import NOTE, Flight, WayPoint
+from app.plans.flights.flight import Flight, WayPoint, note_of
 from app.plans.flights.numbers import plain
 from app.plans.flights.zones import zones_of
 
@@ -31,13 +31,14 @@ def kml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
         E.outerBoundaryIs(E.LinearRing(_coordinates((*place, 0.0) for place in ring)))))
         for number, ring in enumerate(zones_of(flights), 1)]
     document = E.kml(E.Document(
-        E.name(shown(flights[0].drone)), E.description(NOTE),
+        E.name(shown(flights[0].drone)), E.description(note_of(flights)),
         E.Style(E.LineStyle(E.color(BLUE), E.width("3")), E.PolyStyle(E.color("40b27200")),
                 id="flight"),
         E.Style(E.LineStyle(E.color(RED), E.width("1")), E.PolyStyle(E.color(HALF_RED)),
                 id="zone"),
         *map(_folder, flights),
-        *([E.Folder(E.name("Zones that flights stay out of"), *zones)] if zones else [])))
+        *([E.Folder(E.name("Zones that flights stay out of"), *_kept(flights[0]), *zones)]
+          if zones else [])))
     return {".kml": written(document)}
 
 
@@ -67,6 +68,10 @@ def _folder(flight: Flight) -> etree._Element:
                      _coordinates(flight.line())))
     return E.Folder(E.name(shown(flight.name)), line, *(
         _place(flight, point) for point in flight.way_points if point.role != "bend"))
+
+
+def _kept(flight: Flight) -> Iterable[etree._Element]:
+    return [E.description(f"Flights keep {flight.buffer:g} m from them.")] if flight.buffer else []
 
 
 def _place(flight: Flight, point: WayPoint) -> etree._Element:

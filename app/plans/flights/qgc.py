@@ -10,7 +10,7 @@ import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from app.plans.flights.flight import NOTE, Flight, Place
+from app.plans.flights.flight import Flight, Place, note_of
 from app.plans.flights.mavlink import Command, Frame, Item, fence_of, mission_of
 from app.plans.flights.numbers import plain
 from app.plans.flights.zones import zones_of
@@ -30,7 +30,7 @@ def plan_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
     """Return the mission of one drone, its fence and where its truck will be."""
     first = flights[0]
     plan = {
-        "fileType": "Plan", "version": 1, "groundStation": "Tandem", "comment": NOTE,
+        "fileType": "Plan", "version": 1, "groundStation": "Tandem", "comment": note_of(flights),
         "mission": {
             "version": 2, "firmwareType": ANY_FIRMWARE, "vehicleType": MULTIROTOR,
             "cruiseSpeed": round(first.top_speed, 3), "hoverSpeed": round(first.top_speed, 3),

@@ -20,6 +20,7 @@ from app.schemas.wind import WindInput
 from model.problem import FloatArray, Points
 from model.problem.distances import EXACT
 from model.travel.airspace import Airspace, Flights
+from model.travel.buffers import grown, planar_buffers
 from model.travel.matrices import (
     LocalProjection,
     planar_distances,
@@ -129,8 +130,9 @@ class Ground:
         met = self.zones.at(altitude)
         if met not in self._has_areas:
             around, over = map(self._projected, met)
-            self._has_areas[met] = (are_within_reach(around, self.points_m)
-                                    or len(holding(over, self.points_m)) > 0)
+            self._has_areas[met] = (
+                are_within_reach(around, self.points_m, self._apart(around))
+                or len(holding(over, self.points_m, self._apart(over))) > 0)
         return self._has_areas[met]
 
     def flights(self, altitude: float) -> Flights:
@@ -185,6 +187,20 @@ class Ground:
         """Return the zones that keep drones at an altitude from a place."""
         return self._met_by(shapely.Point(self.points_m[node]), altitude, (True, True))
 
+    def metres_between(self, node: int, part: Part) -> float:
+        """Return how far a place lies from a zone; 0 in it, or so near that it counts as that."""
+        area, = self._projected([part])
+        metres = area.distance(shapely.Point(self.points_m[node]))
+        return metres if metres > WIDER_M else 0.0
+
+    def areas_near(self, node: int) -> dict[int, float]:
+        """Return how far a place lies from the request's own areas that it is too near to."""
+        areas = [Polygon(self.planar(np.array(ring))) for ring in self._request.airspace.no_fly]
+        at = shapely.Point(self.points_m[node])
+        within = WIDER_M + self._apart(areas)
+        return {number: metres for number, area in enumerate(areas)
+                if (metres := area.distance(at)) <= within}
+
     def zones_between(self, start: int, end: int, altitude: float) -> list[Part]:
         """Return the zones that a straight flight between two places would meet, from its start."""
         line = shapely.LineString(self.points_m[[start, end]])
@@ -195,7 +211,8 @@ class Ground:
         parts = [part for met, asked in zip(self.zones.at(altitude), looked_at, strict=True)
                  if asked for part in met]
         areas = self._projected(parts)
-        near = shapely.STRtree(areas).query(what, predicate="dwithin", distance=WIDER_M)
+        near = shapely.STRtree(areas).query(what, predicate="dwithin",
+                                            distance=WIDER_M + self._apart(areas))
         start = shapely.Point(what.coords[0])
         return [parts[number] for number in sorted(
             near.tolist(), key=lambda number: (areas[number].distance(start), number))]
@@ -214,7 +231,11 @@ class Ground:
         around, over = self._projected(met.around), self._projected(met.over)
         # Ways around the request's own areas may lead to zones that others don't.
         reached = np.concatenate([self.points_m, *rings])
-        near = [around[number] for number in within_reach(around, reached)]
+        near = [around[number] for number in within_reach(around, reached, self._apart(around))]
+        low = [over[number] for number in holding(over, self.points_m, self._apart(over))]
+        if stated.buffer:
+            near = self._grown([*map(Polygon, rings), *near])
+            rings, low = [], self._grown(low)
         edges = edges_of([*map(Polygon, rings), *near])
         self._preparing.expect(merging_seconds(len(edges), count_nearby(edges)))
         return Airspace(
@@ -222,8 +243,18 @@ class Ground:
             wind_speed_kmh=steady.speed_kmh,
             wind_direction_deg=steady.direction_deg,
             zones=dissolved(near),
-            low_zones=tuple(over[number] for number in holding(over, self.points_m)),
+            low_zones=tuple(low),
         )
+
+    def _grown(self, areas: Sequence[Polygon]) -> list[Polygon]:
+        """Return areas on the plane with the distance that flights keep from them."""
+        buffer = self._request.airspace.buffer
+        return grown(areas, planar_buffers(areas, buffer, self.is_geographic))
+
+    def _apart(self, areas: Sequence[Polygon]) -> float:
+        """Return how far flights keep at most from any of some areas, in planar metres."""
+        buffer = self._request.airspace.buffer
+        return float(planar_buffers(areas, buffer, self.is_geographic).max(initial=0.0))
 
     def _projected(self, parts: Sequence[Part]) -> list[Polygon]:
         """Return the areas of zones on the plane."""

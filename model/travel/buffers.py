@@ -1,0 +1,39 @@
+"""Areas made wider by the distance that flights keep from them."""
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from shapely import Polygon
+
+from model.problem import FloatArray
+from model.problem.distances import EARTH_RADIUS_M
+
+ARC_SEGMENTS = 8
+"""Edges in place of each quarter of a circle around a corner."""
+
+ELLIPSOID = 1.006
+"""By how much a metre on the ellipsoid is at most longer than it is on the sphere."""
+
+FARTHEST = 2.5
+"""Radians from the centre beyond which no plane is true enough to plan on."""
+
+
+def planar_buffers(areas: Sequence[Polygon], buffer: float, on_globe: bool) -> FloatArray:
+    """Return how many metres each area grows by on the plane, for a buffer on the ground.
+
+    Never less than the buffer: at an angle c from its centre, `LocalProjection` stretches lengths
+    by up to c / sin c.
+    """
+    if not on_globe or not len(areas):
+        return np.full(len(areas), buffer)
+    west, south, east, north = shapely.bounds(np.array(areas, dtype=object)).T
+    away = np.hypot(np.maximum(-west, east), np.maximum(-south, north))
+    angle = np.clip(away / EARTH_RADIUS_M, 1e-9, FARTHEST)
+    return buffer * ELLIPSOID * angle / np.sin(angle)
+
+
+def grown(areas: Sequence[Polygon], by: FloatArray) -> list[Polygon]:
+    """Return areas grown by metres each, and at corners hardly more: no chord cuts its arc."""
+    outside = by / np.cos(np.pi / (4 * ARC_SEGMENTS))
+    return list(shapely.buffer(np.array(areas, dtype=object), outside, quad_segs=ARC_SEGMENTS))
