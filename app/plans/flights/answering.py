@@ -36,7 +36,7 @@ def answer_flights(body: bytes, bounds: Bounds, should_stop: Callable[[], bool] 
     request = read_about_plan(body, bounds, FlightsRequest)
     flights = judged_flights(request.problem, request.plan, preparing_within(bounds, should_stop),
                              roads)
-    return flight_file(flights, request.format, request.per, "$.format")
+    return flight_file(flights, request.format, request.per, "$.format", request.wpml)
 
 
 def judged_flights(problem: PlanRequest, plan: PlanInput, preparing: Preparing = UNHURRIED,

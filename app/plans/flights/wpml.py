@@ -13,10 +13,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from lxml import etree
 from lxml.builder import ElementMaker
 
-from app.plans.flights.flight import NOTE, BeyondFormatError, Flight, WayPoint
+from app.plans.flights.flight import BeyondFormatError, Flight, WayPoint, note_of
 from app.plans.flights.kml import KML, written
 from app.plans.flights.numbers import plain
 from app.plans.flights.packing import packed
+from app.schemas.flights import WpmlInput
 
 WPML = "http://www.dji.com/wpmz/1.0.2"
 
@@ -29,14 +30,11 @@ MOST_SPEED = 15.0
 LEAST_HEIGHT, MOST_HEIGHT = 1.2, 1500.0
 """Metres above the launch between which it flies."""
 
-MATRICE_350_RTK = "89"
-"""The format wants an aircraft; operators put their own in its place."""
-
 STRAIGHT_TO_THE_POINT = "toPointAndStopWithDiscontinuityCurvature"
 """How corners are turned: otherwise they are cut, at zones into these."""
 
 
-def wpml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
+def wpml_files(flights: Sequence[Flight], asked: WpmlInput) -> Mapping[str, bytes]:
     """Return the KMZ of one drone's flights.
 
     Raises
@@ -48,8 +46,8 @@ def wpml_files(flights: Sequence[Flight]) -> Mapping[str, bytes]:
         _require_sayable(flight)
     hops = [(flight, hop) for flight in flights for hop in flight.hops()]
     return {".kmz": packed({
-        "wpmz/template.kml": written(_template(flights, hops)),
-        "wpmz/waylines.wpml": written(_way_lines(flights, hops))})}
+        "wpmz/template.kml": written(_template(flights, hops, asked)),
+        "wpmz/waylines.wpml": written(_way_lines(flights, hops, asked))})}
 
 
 Hops = Sequence[tuple[Flight, tuple[WayPoint, ...]]]
@@ -66,10 +64,10 @@ def _require_sayable(flight: Flight) -> None:
             f"{MOST_HEIGHT:g}: plan with another drones.altitude, or take another format.")
 
 
-def _template(flights: Sequence[Flight], hops: Hops) -> etree._Element:
+def _template(flights: Sequence[Flight], hops: Hops, asked: WpmlInput) -> etree._Element:
     now = str(round(time.time() * 1000))
     return _document(
-        W.author("Tandem"), W.createTime(now), W.updateTime(now), _mission(flights),
+        flights, W.author("Tandem"), W.createTime(now), W.updateTime(now), _mission(flights, asked),
         *(K.Folder(
             W.templateType("waypoint"), W.templateId(str(number)),
             W.waylineCoordinateSysParam(
@@ -88,8 +86,8 @@ def _template(flights: Sequence[Flight], hops: Hops) -> etree._Element:
           for number, (flight, hop) in enumerate(hops)))
 
 
-def _way_lines(flights: Sequence[Flight], hops: Hops) -> etree._Element:
-    return _document(_mission(flights), *(
+def _way_lines(flights: Sequence[Flight], hops: Hops, asked: WpmlInput) -> etree._Element:
+    return _document(flights, _mission(flights, asked), *(
         K.Folder(
             W.templateId(str(number)), W.executeHeightMode("relativeToStartPoint"),
             W.waylineId(str(number)), W.autoFlightSpeed(plain(flight.top_speed)),
@@ -104,17 +102,19 @@ def _way_lines(flights: Sequence[Flight], hops: Hops) -> etree._Element:
         for number, (flight, hop) in enumerate(hops)))
 
 
-def _document(*parts: etree._Element) -> etree._Element:
-    return K.kml(K.Document(etree.Comment(NOTE), *parts))
+def _document(flights: Sequence[Flight], *parts: etree._Element) -> etree._Element:
+    return K.kml(K.Document(etree.Comment(note_of(flights)), *parts))
 
 
-def _mission(flights: Sequence[Flight]) -> etree._Element:
+def _mission(flights: Sequence[Flight], asked: WpmlInput) -> etree._Element:
     """Return what holds for all way lines: they begin at their height, and end on the ground."""
     return W.missionConfig(
-        W.flyToWaylineMode("safely"), W.finishAction("autoLand"), W.exitOnRCLost("goContinue"),
-        W.executeRCLostAction("hover"), W.takeOffSecurityHeight(plain(flights[0].altitude)),
+        W.flyToWaylineMode(asked.fly_to_wayline), W.finishAction("autoLand"),
+        W.exitOnRCLost(asked.exit_on_rc_lost), W.executeRCLostAction(asked.rc_lost_action),
+        W.takeOffSecurityHeight(plain(flights[0].altitude)),
         W.globalTransitionalSpeed(plain(max(flight.top_speed for flight in flights))),
-        W.droneInfo(W.droneEnumValue(MATRICE_350_RTK), W.droneSubEnumValue("0")))
+        W.droneInfo(W.droneEnumValue(str(asked.aircraft)),
+                    W.droneSubEnumValue(str(asked.aircraft_variant))))
 
 
 def _speed_from(hop: Sequence[WayPoint], index: int) -> float:

@@ -5,7 +5,7 @@ import re
 from pathlib import Path
 from typing import Annotated
 
-from fastapi import APIRouter, FastAPI, Query, Request, Response, Security
+from fastapi import APIRouter, Depends, FastAPI, Query, Request, Response, Security
 from fastapi.security import HTTPAuthorizationCredentials, HTTPBearer
 from fastapi.staticfiles import StaticFiles
 from starlette.types import Scope
@@ -19,7 +19,9 @@ from app.records.dispatches.schemas import DriverDay, EventsReply, EventsRequest
 from app.records.dispatches.store import DispatchStore
 from app.records.prepared import Database
 from app.requests.reading import read_model
-from app.schemas.flights import FORMAT_TEXT, PER_TEXT, FlightFormat, Per
+from app.schemas.flights import (
+    FORMAT_TEXT, PER_TEXT, FlightFormat, Per, WpmlInput, wpml_asked,
+)
 from app.schemas.openapi import json_body, problems
 from app.serving.access.guard import Guard
 from app.serving.load.bodies import Body
@@ -86,6 +88,7 @@ async def driver_day(request: Request, token: Token, database: Database) -> Resp
 async def driver_flights(
     request: Request, token: Token, database: Database,
     file_format: Annotated[FlightFormat, Query(alias="format", description=FORMAT_TEXT)],
+    wpml: Annotated[WpmlInput, Depends(wpml_asked)],
     per: Annotated[Per, Query(description=PER_TEXT)] = "sortie",
 ) -> Response:
     """Return the flights of the vehicle's drones as `POST /flights` does; no permission to fly."""
@@ -93,7 +96,7 @@ async def driver_flights(
         flights = await database.reach(lambda engine: read_flights(DispatchStore(engine), token))
     except UnknownLinkError:
         raise _unknown(request) from None
-    return sent(flight_file(flights, file_format, per, FORMAT_ASKED))
+    return sent(flight_file(flights, file_format, per, FORMAT_ASKED, wpml))
 
 
 @router.post("/drive/events", summary="Tell of a vehicle's day", response_model=EventsReply,

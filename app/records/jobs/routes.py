@@ -25,7 +25,9 @@ from app.requests.bounds import Bounds
 from app.requests.paging import cursor_of, read_cursor
 from app.requests.plan_reading import parse_plan
 from app.schemas.explain import ExplainOptions, ExplainReply
-from app.schemas.flights import FORMAT_TEXT, PER_TEXT, FlightFormat, Per
+from app.schemas.flights import (
+    FORMAT_TEXT, PER_TEXT, FlightFormat, Per, WpmlInput, wpml_asked,
+)
 from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.openapi import EXAMPLES, event_stream, json_body, problems
 from app.schemas.request import PlanRequest
@@ -199,6 +201,7 @@ async def write_flights(
     request: Request, job_id: JobId, principal: Jobs, planning: Planning, desk: Desk,
     file_format: Annotated[FlightFormat, Query(alias="format", description=FORMAT_TEXT)],
     service: Service,
+    wpml: Annotated[WpmlInput, Depends(wpml_asked)],
     per: Annotated[Per, Query(description=PER_TEXT)] = "sortie",
 ) -> Response:
     """Return the same as `POST /flights` of a job's best plan so far."""
@@ -206,7 +209,7 @@ async def write_flights(
     bounds = Bounds.of_plans(request.app.state.settings)
     return sent(await planning.run(request, lambda should_stop: flight_file(
         planned_flights(wanted, parse_plan(plan), preparing_within(bounds, should_stop),
-                        service.roads), file_format, per, FORMAT_ASKED)))
+                        service.roads), file_format, per, FORMAT_ASKED, wpml)))
 
 
 @router.delete("/jobs/{job_id}", summary="Stop a job", response_model=JobReply, responses=FOUND)

@@ -853,6 +853,13 @@ export default {
       sortie: 'eine je Flug',
       vehicle: 'eine je Drohne',
     },
+    lost: {
+      label: 'Fernsteuerung verloren',
+      goContinue: 'weiterfliegen',
+      hover: 'schweben',
+      landing: 'dort landen',
+      goBack: 'geradewegs zurückfliegen',
+    },
     saveFlights: 'Flüge sichern',
     drivers: 'Für Fahrer',
     printAll: 'Alle Fahrerblätter drucken',

@@ -841,6 +841,13 @@ export default {
       sortie: 'one a flight',
       vehicle: 'one a drone',
     },
+    lost: {
+      label: 'Remote control lost',
+      goContinue: 'fly on',
+      hover: 'hover',
+      landing: 'land there',
+      goBack: 'fly back, straight',
+    },
     saveFlights: 'Save flights',
     drivers: 'For drivers',
     printAll: 'Print all driver sheets',

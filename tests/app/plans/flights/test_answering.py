@@ -1,9 +1,12 @@
 """`POST /flights`: what is asked for, and what is refused."""
 
 import copy
+import io
+import zipfile
 
 import httpx
 import pytest
+from lxml import etree
 
 from app.plans.flights.flight import NOTE
 from tests.app.plans.asking import documented, refused
@@ -92,6 +95,36 @@ def test_drones_too_fast_or_low_for_wpml_are_told(client: httpx.Client) -> None:
     low = city(drones={"altitude": 0})
     body = {"problem": low, "plan": planned(client, low), "format": "dji-wpml"}
     assert refused(client, body, "/flights") == [("BEYOND_FORMAT", "$.format")]
+
+
+def wpml_of(reply: httpx.Response) -> dict[str, str]:
+    """Return what holds for all way lines of the first file of a reply, in both of its parts."""
+    content = next(iter(files_of(reply).values()))
+    with zipfile.ZipFile(io.BytesIO(content)) as archive:
+        parts = [etree.fromstring(archive.read(name)) for name in archive.namelist()]
+    found = [{etree.QName(each).localname: each.text or "" for each in
+              part.find(".//{*}missionConfig").iter()} for part in parts]
+    assert found[0] == found[1]
+    return found[0]
+
+
+def test_what_way_lines_do_where_control_is_lost_is_asked_for(client: httpx.Client) -> None:
+    problem = city()
+    plan = planned(client, problem)
+    body: Data = {"problem": problem, "plan": plan, "format": "dji-wpml"}
+    told = wpml_of(client.post("/flights", json=body))
+    assert (told["exitOnRCLost"], told["executeRCLostAction"]) == ("goContinue", "hover")
+    assert (told["flyToWaylineMode"], told["droneEnumValue"]) == ("safely", "89")
+    body["wpml"] = {"exit_on_rc_lost": "executeLostAction", "rc_lost_action": "landing",
+                    "fly_to_wayline": "pointToPoint", "aircraft": 77, "aircraft_variant": 1}
+    told = wpml_of(client.post("/flights", json=body))
+    assert (told["exitOnRCLost"], told["executeRCLostAction"]) == ("executeLostAction", "landing")
+    assert (told["flyToWaylineMode"], told["droneEnumValue"], told["droneSubEnumValue"]) == (
+        "pointToPoint", "77", "1")
+    body["wpml"] = {"exit_on_rc_lost": "land", "aircraft": -1, "drone": 1}
+    assert set(refused(client, body, "/flights")) == {
+        ("UNKNOWN_VALUE", "$.wpml.exit_on_rc_lost"), ("OUT_OF_RANGE", "$.wpml.aircraft"),
+        ("UNKNOWN_FIELD", "$.wpml.drone")}
 
 
 def test_no_flight_of_stated_durations_leads_through_a_zone(client: httpx.Client) -> None:

@@ -17,10 +17,20 @@ const FORMATS = {
   geojson: 'GeoJSON',
 };
 
+/** What DJI's aircraft do where the remote control is lost, as `wpml` of a request says it. */
+const LOST = {
+  goContinue: {},
+  ...Object.fromEntries(['hover', 'landing', 'goBack'].map((action) => [
+    action,
+    { exit_on_rc_lost: 'executeLostAction', rc_lost_action: action },
+  ])),
+};
+
 /** The choice of a format, and the button that saves; nothing where no drone flies. */
 export function FlightFiles({ entry }) {
   const [format, setFormat] = useState('qgc-plan');
   const [per, setPer] = useState('sortie');
+  const [lost, setLost] = useState('goContinue');
   const [refused, setRefused] = useState([]);
   const [isAsking, setAsking] = useState(false);
   useEffect(() => setRefused([]), [entry.plan, format]);
@@ -35,6 +45,7 @@ export function FlightFiles({ entry }) {
         plan: entry.plan,
         format,
         per,
+        ...(format === 'dji-wpml' && { wpml: LOST[lost] }),
       });
       save(name, content.type, content);
     } catch (error) {
@@ -56,6 +67,11 @@ export function FlightFiles({ entry }) {
           (value) => html`<option key=${value} value=${value} selected=${value === per}>${
             t(`take.per.${value}`)}</option>`,
         )}</select></label>
+      ${format === 'dji-wpml' && html`<label>${t('take.lost.label')} <select value=${lost}
+        onChange=${(event) => setLost(event.target.value)}>${Object.keys(LOST).map(
+          (value) => html`<option key=${value} value=${value} selected=${value === lost}>${
+            t(`take.lost.${value}`)}</option>`,
+        )}</select></label>`}
       <button type="button" disabled=${!isGeographic || isAsking} onClick=${write}>
         ${t('take.saveFlights')}</button></div>
     ${refused.length > 0 && html`<div role="alert">${refused.map(
