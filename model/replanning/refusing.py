@@ -1,6 +1,6 @@
 """What of a plan given can't have happened in a problem."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from dataclasses import replace
 
 from model.judge.past import Past, Vehicle
@@ -15,6 +15,13 @@ class SettledPartError(ValueError):
         super().__init__("; ".join(f"{violation.path}: {violation.message}"
                                    for violation in violations))
         self.violations = tuple(violations)
+
+
+def refuse(violations: Iterable[Violation]) -> None:
+    """Raise `SettledPartError` if there is anything that can't have happened."""
+    found = tuple(violations)
+    if found:
+        raise SettledPartError(found)
 
 
 def gone_from(plan: Solution, past: Past) -> Iterator[Violation]:
@@ -32,20 +39,19 @@ def gone_from(plan: Solution, past: Past) -> Iterator[Violation]:
                                     f"{path}.sorties[{place}]")
 
 
-def as_given(plan: Solution, settled: Solution,
-              violations: Collection[Violation]) -> list[Violation]:
-    """Return violations of the settled routes with paths in the plan given."""
+def as_given(plan: Solution, settled: Solution, violations: Iterable[Violation],
+             codes: Collection[str]) -> Iterator[Violation]:
+    """Yield violations of some codes by the settled routes with paths in the plan given."""
     places = {(route.vehicle_type, route.vehicle): index
               for index, route in enumerate(plan.routes)}
-    moved = []
     for violation in violations:
-        begin, _, _ = violation.path.partition("]")
-        if not begin.startswith("routes["):
-            moved.append(violation)
+        if violation.code not in codes:
             continue
-        number = int(begin.removeprefix("routes["))
-        route = settled.routes[number]
-        index = places[route.vehicle_type, route.vehicle]
-        moved.append(replace(violation, path=violation.path.replace(
-            f"routes[{number}]", f"routes[{index}]", 1)))
-    return moved
+        begin, _, _ = violation.path.partition("]")
+        if begin.startswith("routes["):
+            number = int(begin.removeprefix("routes["))
+            route = settled.routes[number]
+            index = places[route.vehicle_type, route.vehicle]
+            path = violation.path.replace(f"routes[{number}]", f"routes[{index}]", 1)
+            violation = replace(violation, path=path)
+        yield violation

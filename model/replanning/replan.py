@@ -22,7 +22,7 @@ from model.replanning.kept import Kept, kept_routes
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
-from model.replanning.refusing import SettledPartError, as_given, gone_from
+from model.replanning.refusing import as_given, gone_from, refuse
 from model.replanning.remainder import Remainder, what_is_left
 from model.replanning.workers import Worker, find_workers
 from model.solution import Route, Solution, renumbered
@@ -80,16 +80,12 @@ class Replanning:
         terms = replace(terms, plan=with_charging(problem, terms.plan))
         self._plan = terms.plan
         past = _past(problem, terms)
-        gone = list(gone_from(terms.plan, past))
-        if gone:
-            raise SettledPartError(gone)
+        refuse(gone_from(terms.plan, past))
         self.problem = problem = _released(problem, past)
         self._kept = kept_routes(problem, terms.plan, past)
         self._settled = settled(problem, self._kept)
         broken = check(problem, self._settled, past).violations
-        unreadable = [item for item in broken if item.code in UNREADABLE]
-        if unreadable:
-            raise SettledPartError(as_given(terms.plan, self._settled, unreadable))
+        refuse(as_given(terms.plan, self._settled, broken, UNREADABLE))
         on_the_way = {*past.carriers(), *(
             node for kept in self._kept.values() for node in kept.served)}
         self.stranded = {each.left[-1]: each.vehicle for each in parted
@@ -108,9 +104,7 @@ class Replanning:
             self._settled = settled(problem, self._kept)
             broken = check(problem, self._settled, past).violations
             workers = find_workers(problem, self.past, self._kept)
-        unkept = [item for item in broken if item.code in PAST_RULES]
-        if unkept:
-            raise SettledPartError(as_given(terms.plan, self._settled, unkept))
+        refuse(as_given(terms.plan, self._settled, broken, PAST_RULES))
         self._left = what_is_left(problem, self.past, self._kept, workers)
         self._judge = Memory(problem, self.past)
         self.excused = tuple(item for item in broken if item.code not in PAST_RULES)

@@ -40,8 +40,8 @@ def tour(*breaks: Data) -> Data:
     place = len(stops) - 2
     flight = {"drone": "van-1/drone-1", "launch_stop": place, "recovery_stop": place,
               "launch_time": 180 + later, "recovery_time": 192 + later,
-              "customers": [stop("customer", "b", 186 + later, 186 + later)]}
-    del flight["customers"][0]["kind"]
+              "customers": [{"id": "b", "arrival": 186 + later, "service_start": 186 + later,
+                             "departure": 186 + later}]}
     return {"routes": [{"vehicle": "van-1", "type": "van",
                         "trips": [{"stops": stops, "sorties": [flight]}]}]}
 
