@@ -2,10 +2,13 @@
 
 import numpy as np
 
+from app.requests.conversion.names import drones_of
+from app.requests.conversion.service import by_any
 from app.requests.conversion.winds import Winds
 from app.requests.warnings.survey import Survey
 from app.requests.warnings.warning import Warnings, amount_text, customers_text, warning_at
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
+from app.schemas.vehicle import VehicleTypeInput
 from model.problem import BoolArray, FloatArray
 from model.travel.matrices import LocalProjection
 from model.travel.wind import Breeze, Wind
@@ -22,7 +25,7 @@ def wind_warnings(survey: Survey) -> Warnings:
             if len(felt) < 2 or not drones.count or drones.profile in (
                     survey.request.matrices or {}):
                 continue
-            lost = int(np.count_nonzero(_lost(survey, drones, felt)))
+            lost = int(np.count_nonzero(_lost(survey, kind, drones, felt)))
             if lost:
                 strongest = max(speed for speed, _ in felt)
                 yield warning_at(
@@ -34,13 +37,12 @@ def wind_warnings(survey: Survey) -> Warnings:
                     "or plan a shorter shift.")
 
 
-def _lost(survey: Survey, drones: Flyer, felt: tuple[Breeze, ...]) -> BoolArray:
+def _lost(survey: Survey, kind: VehicleTypeInput, drones: Flyer,
+          felt: tuple[Breeze, ...]) -> BoolArray:
     """Mark the customers a drone reaches from the nearest base and back in some wind, not in all.
     """
     away = _metres(survey)
-    own = drones.service_duration if isinstance(drones, DronesInput) else None
-    service = np.array([each.service_duration if own is None else own
-                        for each in survey.customers])
+    service = _services(survey, kind, drones)
     airspeed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
     limit = np.inf if drones.endurance is None else drones.endurance
     lengths = np.hypot(*away.T)
@@ -54,6 +56,18 @@ def _lost(survey: Survey, drones: Flyer, felt: tuple[Breeze, ...]) -> BoolArray:
         some |= _lasts(ways, service, limit)
     lost: BoolArray = some & ~_lasts(worst, service, limit)
     return lost
+
+
+def _services(survey: Survey, kind: VehicleTypeInput, drones: Flyer) -> FloatArray:
+    """Return (customer,) the seconds that a drone serves each."""
+    if not isinstance(drones, DronesInput):
+        return np.array([each.service_duration_by_type.get(kind.id, each.service_duration)
+                         for each in survey.customers])
+    name, own = drones_of(kind.id, drones.id), drones.service_duration
+    places = by_any(survey.customers)
+    return np.array([each.service_duration_by_type.get(
+        name, each.service_duration if own is None or each.id in places else own)
+        for each in survey.customers])
 
 
 def _lasts(ways: FloatArray, service: FloatArray, limit: float) -> BoolArray:

@@ -48,6 +48,24 @@ def test_the_place_that_is_used_is_named_and_paid_for(searching: httpx.Client,
     assert checked["cost"] == plan["cost"]
 
 
+@pytest.mark.parametrize(("at_locker", "takes"), [(45, 45), (None, 30)])
+def test_a_drone_serves_as_long_as_the_place_says(searching: httpx.Client, lockers: Request,
+                                                  at_locker: int | None, takes: int) -> None:
+    customer = lockers["customers"][0] | {"served_by": "drone", "service_duration": 60}
+    customer["location"] = [300, 0]
+    customer["alternatives"] = [{"id": "locker", "location": [1, 0],
+                                 "service_duration": at_locker}]
+    lockers["customers"] = [customer]
+    lockers["fleet"][0]["drones"] = [
+        {"id": "large", "count": 1, "capacity": [0], "service_duration": 5},
+        {"id": "small", "count": 1, "capacity": [1], "service_duration": 30}]
+    plan = searching.post("/plan", json=lockers).json()
+    served = halts(plan)["A"]
+    assert served["alternative"] == "locker"
+    assert served["departure"] - served["service_start"] == takes
+    assert searching.post("/check", json={"problem": lockers, "plan": plan}).json()["feasible"]
+
+
 def test_of_two_places_the_cheaper_is_used(searching: httpx.Client, lockers: Request) -> None:
     # The shop is farther by two km there and back less than the locker's price, and opens late.
     lockers["customers"][0]["alternatives"][0]["cost"] = 9
