@@ -104,8 +104,14 @@ def _listed(amounts: Iterable[float]) -> str:
 
 
 def _capacity(survey: Survey, by_types: dict[Types, IntArray]) -> Warnings:
-    """Compare what is to be carried with what all trips hold, all together and by who may."""
-    served = {types: customers for types, customers in by_types.items() if types}
+    """Compare what is to be carried with what all trips hold, all together and by who may.
+
+    Shipments are nobody's load: what is delivered makes room on the same trip.
+    """
+    ends = sum(len(each.named_ends()) for each in survey.request.shipments)
+    first_end = len(survey.customers) - ends
+    served = {types: customers[customers < first_end]
+              for types, customers in by_types.items() if types}
     together = np.concatenate([*served.values(), np.zeros(0, np.int64)]).astype(np.int64)
     everyone = tuple(range(len(survey.request.fleet)))
     for types, customers in ({everyone: together} | {

@@ -147,9 +147,11 @@ class Survey:
 
     @cached_property
     def shortest_service(self) -> FloatArray:
-        """(customer,) by whatever vehicle serves it fastest."""
+        """(customer,) by whatever vehicle serves it fastest, at whichever of its places."""
         return np.array([min([customer.service_duration,
-                              *customer.service_duration_by_type.values()])
+                              *customer.service_duration_by_type.values(),
+                              *(place.service_duration for place in customer.alternatives
+                                if place.service_duration is not None)])
                          for customer in self.customers], float)
 
     @cached_property

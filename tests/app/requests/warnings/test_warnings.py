@@ -235,3 +235,38 @@ def test_warnings_of_many_customers_take_no_time() -> None:
     began = time.process_time()
     assert warnings_of(parsed)
     assert time.process_time() - began < 1.0
+
+
+def of_shipments(amount: int, number: int = 2) -> Request:
+    """Return orders that are shipments alone, for one vehicle of four."""
+    request = munich()
+    request["customers"] = []
+    request["shipments"] = [
+        {"id": f"S{index}", "amount": [amount], "pickup": {"location": [11.5, 48.1]},
+         "delivery": {"location": [11.6, 48.2]}} for index in range(number)]
+    request["fleet"] = [{"id": "van", "count": 1, "capacity": [4]}]
+    return request
+
+
+def test_shipments_are_not_added_up_since_one_makes_room_for_the_next() -> None:
+    assert not [each for each in seen(of_shipments(4)) if each.code == "FLEET_TOO_SMALL"]
+    beside = of_shipments(4)
+    beside["customers"] = [{"id": "C", "location": [11.55, 48.15], "demand": [4]}]
+    assert not [each for each in seen(beside) if each.code == "FLEET_TOO_SMALL"]
+    beside["customers"].append({"id": "D", "location": [11.56, 48.15], "demand": [1]})
+    assert [each.message[:31] for each in seen(beside) if each.code == "FLEET_TOO_SMALL"] == [
+        "Customers ask for 5 in all, and"]
+    assert [each.code for each in seen(of_shipments(5))] == ["LARGER_THAN_ANY_VEHICLE"]
+
+
+def test_the_shortest_service_of_a_customers_places_is_what_he_takes() -> None:
+    request = munich()
+    request["fleet"] = [{"id": "van", "count": 1, "capacity": [4000],
+                         "shift": {"earliest": 28800, "latest": 36000}}]
+    for customer in request["customers"]:
+        customer["service_duration"] = 200
+    assert [each.code for each in seen(request)] == ["SHIFTS_TOO_SHORT"]
+    for customer in request["customers"]:
+        customer["alternatives"] = [{"id": "locker", "location": [11.56, 48.14],
+                                     "service_duration": 20}]
+    assert "SHIFTS_TOO_SHORT" not in [each.code for each in seen(request)]
