@@ -29,4 +29,5 @@ class FairnessInput(Input):
     min_vehicles: int = Field(
         0, ge=0, le=MAX_VEHICLES,
         description="Least number of vehicles to use, whatever that costs; as many as there are "
-        "customers, if they are fewer. Where no plan does, `summary.vehicles_lacking` says so.")
+        "customers and shipments, if they are fewer. Where no plan does, "
+        "`summary.vehicles_lacking` says so.")

@@ -118,7 +118,7 @@ def _dearest_stops(request: PlanRequest) -> float:
 def _fairness(request: PlanRequest) -> Fairness:
     """Return what the plan costs as a whole, but for what vehicles cost that lack."""
     stated = request.fairness
-    balance, served = stated.balance, len(request.customers) + len(request.shipments)
+    balance, served = stated.balance, request.num_stated + len(request.shipments)
     return Fairness(stated.makespan_cost_per_hour,
                     None if balance is None else Balance(balance.measure, balance.cost),
                     min(stated.min_vehicles, served, sum([kind.count for kind in request.fleet])))

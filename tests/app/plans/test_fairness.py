@@ -56,6 +56,19 @@ def test_at_least_so_many_vehicles_are_used(client: httpx.Client, searching: htt
     assert plan["cost"]["too_few_vehicles"] == 0
 
 
+def test_a_shipment_and_a_customer_with_two_places_ask_for_one_vehicle_each(
+        searching: httpx.Client) -> None:
+    request = street({"min_vehicles": 3})
+    request["customers"] = [{"id": "A", "location": [8, 0], "demand": [1], "alternatives": [
+        {"id": "locker", "location": [2, 0]}, {"id": "shop", "location": [3, 0]}]}]
+    request["shipments"] = [{"id": "s", "amount": [1], "pickup": {"location": [1, 0]},
+                             "delivery": {"location": [2, 0]}}]
+    request["fleet"][0]["count"] = 3
+    plan = planned(searching, request)
+    assert (plan["summary"]["vehicles"], plan["summary"]["vehicles_lacking"]) == (2, 0)
+    assert plan["cost"]["too_few_vehicles"] == 0
+
+
 def test_vehicles_that_lack_are_told_where_no_plan_uses_as_many(client: httpx.Client) -> None:
     request = street({"min_vehicles": 2})
     request["fleet"].append({"id": "truck", "count": 1, "capacity": [5]})
