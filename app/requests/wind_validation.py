@@ -33,7 +33,7 @@ def _forecast_errors(stated: OpenMeteoInput, day: Day) -> Errors:
     path, hourly = (*WIND, "open_meteo", "hourly"), stated.hourly
     lists = {"wind_speed_10m": hourly.wind_speed_10m,
              "wind_direction_10m": hourly.wind_direction_10m,
-             **({} if hourly.wind_gusts_10m is None else {"wind_gusts_10m": hourly.wind_gusts_10m})}
+             **({"wind_gusts_10m": hourly.gusts} if hourly.gusts else {})}
     if not hourly.time:
         yield error_at("WIND_HOURS", (*path, "time"), "There is no hour: ask for some days more.")
     for name, values in lists.items():
@@ -46,7 +46,9 @@ def _forecast_errors(stated: OpenMeteoInput, day: Day) -> Errors:
         if unknown:
             yield error_at("WIND_HOURS", (*path, name, unknown[0]),
                            "Nothing is known of this hour: leave it out, with its time, or ask for "
-                           "fewer days.")
+                           "fewer days." if name != "wind_gusts_10m" else
+                           "Gusts are known of other hours, and not of this one: leave the hour "
+                           "out of all lists, or wind_gusts_10m as a whole.")
     last = None
     for index, time in enumerate(hourly.time):
         try:

@@ -82,7 +82,7 @@ class Flyer(Protocol):
 
     @property
     def max_wind_kmh(self) -> float | None:
-        """Largest gusts in which it may be in the air."""
+        """Strongest wind, and gusts, in which it may be in the air."""
 
     @property
     def energy(self) -> EnergyInput | None:
@@ -128,7 +128,7 @@ class DronesInput(Input):
     )
     max_wind_kmh: Annotated[float, Field(ge=0, le=500)] | None = Field(
         None,
-        description="Largest gusts in km/h, or wind where no gusts are stated, in which a drone "
+        description="Strongest wind and strongest gusts in km/h in which a drone "
         "may be in the air: no flight lasts into an hour that has more. Null: any.",
     )
     endurance_includes_waiting: bool = Field(

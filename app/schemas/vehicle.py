@@ -280,8 +280,8 @@ class VehicleTypeInput(Input):
     )
     max_wind_kmh: Annotated[float, Field(ge=0, le=500)] | None = Field(
         None,
-        description="Largest gusts in km/h, or wind where no gusts are stated, in which a vehicle "
-        "that flies may be in the air: trips wait until it is calm enough. Null: any.",
+        description="Strongest wind and strongest gusts in km/h in which a vehicle that "
+        "flies may be in the air: trips wait until it is calm enough. Null: any.",
     )
     preset: RuleName | None = Field(
         None,

@@ -37,7 +37,8 @@ class WindHourInput(Input):
     speed_kmh: Strength = Field(description="Speed in km/h.")
     direction_deg: Direction = Field(0.0, description=DIRECTION_TEXT)
     gust_kmh: Strength | None = Field(
-        None, description="Speed of gusts in km/h, which `max_wind_kmh` is about. Null: the wind's."
+        None, description="Speed of gusts in km/h, where they are stronger than the wind. "
+        "`max_wind_kmh` bounds both. Null: as strong as the wind."
     )
 
 
@@ -63,8 +64,15 @@ class HourlyInput(_Forecast):
         description="Where it comes from in degrees clockwise from north."
     )
     wind_gusts_10m: _Speeds | None = Field(
-        None, description="Gusts of each hour. Null: none are known, and the wind's speed counts."
+        None, description="Gusts of each hour, where they are stronger than the wind. Null, or "
+        "null in all hours: none are known, and the wind's speed counts."
     )
+
+    @property
+    def gusts(self) -> list[float | None]:
+        """Gusts of each hour; empty if none of any is known."""
+        stated = self.wind_gusts_10m or []
+        return stated if any(gust is not None for gust in stated) else []
 
 
 class HourlyUnitsInput(_Forecast):

@@ -95,7 +95,7 @@ def _is_storm(hour: Hour, drones: Flyer) -> bool:
 
 
 _Begun = tuple[int, Breeze, float]
-"""From when, the wind, and the strongest of wind and gusts."""
+"""From when, the wind, and the stronger of wind and gusts."""
 
 
 def _stated(wind: Wind, day: Day | None) -> Sequence[_Begun]:
@@ -104,19 +104,20 @@ def _stated(wind: Wind, day: Day | None) -> Sequence[_Begun]:
     if isinstance(wind, ForecastInput):
         return [] if day is None else list(_forecast(wind.open_meteo, day))
     return [(thousandths(each.from_time), (each.speed_kmh, each.direction_deg),
-             each.speed_kmh if each.gust_kmh is None else each.gust_kmh) for each in wind]
+             max(each.speed_kmh, each.gust_kmh or 0.0)) for each in wind]
 
 
 def _forecast(stated: OpenMeteoInput, day: Day) -> Iterator[_Begun]:
     hourly, units = stated.hourly, stated.hourly_units
-    gusts = hourly.wind_gusts_10m or [None] * len(hourly.time)
+    gusts = hourly.gusts or [None] * len(hourly.time)
     for time, speed, direction, gust in zip(hourly.time, hourly.wind_speed_10m,
                                             hourly.wind_direction_10m, gusts, strict=True):
         if speed is None or direction is None:
             continue
         kmh = speed * KMH[units.wind_speed_10m]
-        strongest = kmh if gust is None else gust * KMH[units.wind_gusts_10m]
-        yield hour_of(time, stated.utc_offset_seconds, day), (kmh, direction), strongest
+        gust_kmh = 0.0 if gust is None else gust * KMH[units.wind_gusts_10m]
+        yield (hour_of(time, stated.utc_offset_seconds, day), (kmh, direction),
+               max(kmh, gust_kmh))
 
 
 def hour_of(time: str | int, offset_s: int, day: Day) -> int:

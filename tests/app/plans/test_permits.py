@@ -135,6 +135,10 @@ def test_a_flight_waits_until_the_wind_is_weaker(client: httpx.Client, smallest:
     ({"open_meteo": {"hourly": {"time": ["2026-06-01T07:00"], "wind_speed_10m": [None],
                                 "wind_direction_10m": [1]}}},
      "WIND_HOURS", ".open_meteo.hourly.wind_speed_10m[0]"),
+    ({"open_meteo": {"hourly": {
+        "time": ["2026-06-01T07:00", "2026-06-01T08:00"], "wind_speed_10m": [1, 1],
+        "wind_direction_10m": [1, 1], "wind_gusts_10m": [5, None]}}},
+     "WIND_HOURS", ".open_meteo.hourly.wind_gusts_10m[1]"),
     ({"open_meteo": {"hourly": {"time": ["today"], "wind_speed_10m": [1],
                                 "wind_direction_10m": [1]}}},
      "WIND_HOURS", ".open_meteo.hourly.time[0]"),
@@ -203,3 +207,14 @@ def test_each_rule_sets_what_it_has_a_number_for(
 
 def test_without_a_rule_the_reply_names_none(client: httpx.Client, smallest: Request) -> None:
     assert "rules" not in planned(client, by_drone(smallest))
+
+
+def test_what_a_customer_states_for_a_drone_counts_in_that_warning(client: httpx.Client,
+                                                                   smallest: Request) -> None:
+    request = by_drone(smallest, endurance=900, service_duration=0)
+    request["airspace"] = {"wind": [{"from": 0, "speed_kmh": 0}, {"from": 3600, "speed_kmh": 45}]}
+    name = f"{request['fleet'][0]['id']}/drone"
+    for customer in request["customers"]:
+        customer["service_duration_by_type"] = {name: 899}
+    codes = [each["code"] for each in planned(client, request)["warnings"]]
+    assert "WIND_AT_WORST" not in codes

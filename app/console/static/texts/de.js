@@ -1369,7 +1369,7 @@ export default {
       max_range:
         'Wie weit Kunden von Start und Ziel der Touren entfernt liegen, wo es fliegt. Leer: ohne Grenze.',
       max_wind_kmh:
-        'Böen, bei denen am Boden bleibt, was fliegt. Leer: alle.',
+        'Wind oder Böen, bei denen am Boden bleibt, was fliegt. Leer: alle.',
       preset:
         'Eine veröffentlichte Vorschrift, deren Zahlen gelten, wo es fliegt.',
       max_airborne:
@@ -1450,7 +1450,7 @@ export default {
       max_range:
         'Wie weit Kunden höchstens vom Start und von der Aufnahme entfernt liegen. ' +
         'Leer: ohne Grenze.',
-      max_wind_kmh: 'Böen, bei denen Drohnen an Bord bleiben, wenn sie stärker sind. Leer: alle.',
+      max_wind_kmh: 'Wind oder Böen, bei denen Drohnen an Bord bleiben, wenn stärker. Leer: alle.',
       endurance_includes_waiting: 'Ob Warten in der Luft auf das Fahrzeug zählt.',
       launch_duration: 'Zeit zum Starten; das Fahrzeug steht solange.',
       recovery_duration: 'Zeit zum Aufnehmen; das Fahrzeug steht solange.',

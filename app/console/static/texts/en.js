@@ -1353,7 +1353,7 @@ export default {
       max_range:
         'How far customers lie from where trips begin and end, where it flies. Empty: no limit.',
       max_wind_kmh:
-        'Gusts in which what flies stays on the ground, if stronger. Empty: any may blow.',
+        'Wind or gusts in which what flies stays on the ground, if stronger. Empty: any may blow.',
       preset:
         'A published rule whose numbers count where it flies, unless others are stated.',
       max_airborne: 'How many drones of one truck are in the air at once. Empty: all.',
@@ -1429,7 +1429,7 @@ export default {
       max_range:
         'How far customers lie at most from where the drone is launched, and recovered. ' +
         'Empty: no limit.',
-      max_wind_kmh: 'Gusts in which drones stay aboard, if stronger. Empty: any may blow.',
+      max_wind_kmh: 'Wind or gusts in which drones stay aboard, if stronger. Empty: any may blow.',
       endurance_includes_waiting: 'Whether waiting in the air for the truck counts.',
       launch_duration: 'Time to launch; the truck stands meanwhile.',
       recovery_duration: 'Time to recover; the truck stands meanwhile.',

@@ -54,6 +54,23 @@ def test_wind_counts_where_no_gusts_are_stated(smallest: Request) -> None:
     assert storms_of(windy(smallest, wind, max_wind_kmh=40)) == [(1, UNLIMITED)]
 
 
+@pytest.mark.parametrize("wind", [
+    [{"from": 0, "speed_kmh": 45, "gust_kmh": 20}, {"from": 3600, "speed_kmh": 10, "gust_kmh": 0}],
+    {"open_meteo": {"hourly": {
+        "time": ["2026-06-01T00:00", "2026-06-01T01:00"], "wind_speed_10m": [45, 10],
+        "wind_direction_10m": [0, 0], "wind_gusts_10m": [20, 20]}}},
+    {"open_meteo": {"hourly_units": {"wind_speed_10m": "m/s", "wind_gusts_10m": "km/h"}, "hourly": {
+        "time": ["2026-06-01T00:00", "2026-06-01T01:00"], "wind_speed_10m": [12, 10],
+        "wind_direction_10m": [0, 0], "wind_gusts_10m": [39, 39]}}},
+    {"open_meteo": {"hourly": {
+        "time": ["2026-06-01T00:00", "2026-06-01T01:00"], "wind_speed_10m": [45, 10],
+        "wind_direction_10m": [0, 0], "wind_gusts_10m": [None, None]}}}])
+def test_drones_stay_aboard_while_wind_is_too_strong_whatever_gusts_say(smallest: Request,
+                                                                        wind: object) -> None:
+    request = windy(smallest | {"plan_start": "2026-06-01T00:00Z"}, wind, max_wind_kmh=40)
+    assert storms_of(request) == [(0, 1)]
+
+
 def test_only_hours_of_the_shift_count(smallest: Request) -> None:
     gusts = hours(50, 10, 50, 10, 50)
     shift = {"earliest": 1.5 * 3600, "latest": 3.5 * 3600}

@@ -106,7 +106,7 @@ export function removeHour(request, hour) {
 
 /** Return the names of the types whose drones stay down in an hour, since it blows too much. */
 export function staysDown({ fleet }, { speed_kmh: speed, gust_kmh: gust }) {
-  const strongest = gust ?? speed;
+  const strongest = Math.max(speed ?? 0, gust ?? 0);
   const isTooMuch = ({ max_wind_kmh: most }) => most != null && strongest > most;
   return fleet
     .filter((type) => (type.flies ? [type] : droneTypes(type)).some(isTooMuch))
