@@ -17,6 +17,7 @@ from app.schemas.plan import (
     ON_THE_WAY, PlanInput, RouteInput, SortieInput, StopInput, TripInput, VisitInput,
 )
 from app.schemas.times import read_body
+from model.judge.clock import with_all_setups
 from model.problem import REST, Problem, VehicleType
 from model.solution import (
     BreakPlace, Charge, Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit,
@@ -82,7 +83,7 @@ def read_plan(plan: PlanInput, problem: Problem, path: Path = ()) -> Solution:
     solution = reader.plan(plan, path)
     if reader.errors:
         raise InvalidRequestError(reader.errors)
-    return _by_parts(problem, solution)
+    return with_all_setups(problem, _by_parts(problem, solution))
 
 
 def plan_errors(plan: PlanInput, known: "Known", path: Path = ()) -> list[InputError]:
@@ -107,7 +108,7 @@ def read_earlier_plan(plan: PlanInput, problem: Problem, path: Path) -> Solution
     solution = reader.plan(plan, path)
     if reader.errors:
         raise InvalidRequestError(reader.errors)
-    return _by_parts(problem, solution)
+    return with_all_setups(problem, _by_parts(problem, solution))
 
 
 def _by_parts(problem: Problem, solution: Solution) -> Solution:

@@ -93,7 +93,7 @@ def with_setups(problem: Problem, node: int, visits: tuple[Visit, ...]) -> tuple
 
 
 def with_all_setups(problem: Problem, solution: Solution) -> Solution:
-    """Return a plan without broken rules, as it may be stated, with all its setups."""
+    """Return a plan as it is stated, which may break any rule, with all its setups."""
     if not any(customer.setup_duration for customer in problem.customers):
         return solution
     return replace(solution, routes=tuple([
@@ -102,9 +102,9 @@ def with_all_setups(problem: Problem, solution: Solution) -> Solution:
 
 
 def _set_up(problem: Problem, trip: Trip) -> Trip:
-    stops = (trip.stops[0], *(
+    stops = (*trip.stops[:1], *(
         replace(stop, setup=problem.setup_between(before.node, stop.node))
         for before, stop in pairwise(trip.stops)))
     return replace(trip, stops=stops, sorties=tuple([
         replace(sortie, visits=with_setups(problem, stops[sortie.launch_stop].node, sortie.visits))
-        for sortie in trip.sorties]))
+        if 0 <= sortie.launch_stop < len(stops) else sortie for sortie in trip.sorties]))

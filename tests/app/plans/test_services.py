@@ -48,6 +48,46 @@ def test_a_van_sets_up_serves_and_leaves_as_late_as_goods_have_to_be_fresh(
     assert far["service_start"] - stops["hub"]["departure"] <= 600
 
 
+def test_setups_of_plans_sent_are_told_as_setups_and_not_as_waiting(client: httpx.Client,
+                                                                    street: Request) -> None:
+    street["fleet"] = [{"id": "van", "count": 2, "capacity": [2], "speed_kmh": 60, "drones": {
+        "count": 1, "capacity": [1], "speed_kmh": 60}}]
+    street["customers"][1] = {"id": "far", "location": [2, 0], "demand": [1],
+                              "setup_duration": 45}
+    street["customers"].append({"id": "by air", "location": [0, 1], "demand": [1],
+                                "setup_duration": 15, "served_by": "drone"})
+    times = {"arrival": 0.0, "service_start": 0.0, "departure": 0.0}
+    depot = {"kind": "depot", "id": "hub"}
+    timed = {"vehicle": "van-1", "type": "van", "trips": [{"stops": [
+        depot | times,
+        {"kind": "customer", "id": "far", "arrival": 120, "service_start": 165, "departure": 165},
+        depot | dict.fromkeys(times, 285)], "sorties": [
+            {"drone": "van-1/drone-1", "launch_stop": 0, "recovery_stop": 2, "launch_time": 0,
+             "recovery_time": 285, "customers": [
+                {"id": "by air", "arrival": 60, "service_start": 75, "departure": 75}]}]}]}
+    plan = {"routes": [timed, {"vehicle": "van-2", "type": "van", "trips": [
+        {"stops": [depot, {"kind": "customer", "id": "near"}, depot], "sorties": []}]}]}
+    told = client.post("/check", json={"problem": street, "plan": plan}).json()
+    assert told["feasible"], told
+    stops = stops_of(told)
+    assert (stops["near"]["setup"], stops["near"]["waiting"]) == (30, 0)
+    assert (stops["far"]["setup"], stops["far"]["waiting"]) == (45, 0)
+    (sortie,) = told["routes"][0]["trips"][0]["sorties"]
+    assert sortie["customers"][0]["setup"] == 15
+
+
+def test_a_sortie_that_cannot_be_is_told_though_setups_are_read(client: httpx.Client,
+                                                                street: Request) -> None:
+    street["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
+    plan = planned_and_judged(client, street)
+    plan["routes"][0]["trips"][0]["sorties"] = [
+        {"drone": "van-1/drone-1", "launch_stop": 99, "recovery_stop": 1, "launch_time": 0,
+         "recovery_time": 0, "customers": []}]
+    told = client.post("/check", json={"problem": street, "plan": plan})
+    assert told.status_code == 200, told.text
+    assert not told.json()["feasible"]
+
+
 def test_what_is_too_long_aboard_is_said_and_how_it_could_be_served(client: httpx.Client,
                                                                     street: Request) -> None:
     plan = planned_and_judged(client, street)
