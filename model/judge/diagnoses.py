@@ -203,32 +203,46 @@ def _time_aboard(attempt: Attempt) -> Diagnosis:
     )
 
 
-def _more_overtime(attempt: Attempt, overtime: Overtime, limit: int, excess: int,
-                   code: str, message: str) -> Diagnosis:
-    """Say what more overtime would do, which goes on from a limit that is exceeded by so much."""
-    vehicle_type, enough = attempt.vehicle_type, overtime.max_duration + excess
+def _more_overtime(attempt: Attempt, overtime: Overtime, code: str, message: str) -> Diagnosis:
+    """Say what more overtime would do, which goes on from shift and working duration alike."""
+    kind, evaluation = attempt.vehicle_type, attempt.evaluation
+    ends = [(kind.latest, evaluation.makespan)]
+    if kind.max_working_duration is not None:
+        ends.append((kind.max_working_duration, evaluation.routes[0].working_duration))
+    lacking = max([end - limit - overtime.max_duration for limit, end in ends])
+    excess = up_to_tenth(lacking, MS_PER_MINUTE)
+    enough = overtime.max_duration + excess
     changed = replace(overtime, max_duration=min(enough, UNLIMITED))
     return Diagnosis(
         code, message,
-        if_stated(f"fits if {vehicle_type.id} could work {in_minutes(excess)} more overtime",
-                   max(enough, limit + enough)),
-        with_type(attempt, replace(vehicle_type, overtime=changed)))
+        if_stated(f"fits if {kind.id} could work {in_minutes(excess)} more overtime",
+                  max([enough, *(limit + enough for limit, end in ends if end > limit)])),
+        with_type(attempt, replace(kind, overtime=changed)))
 
 
 def _depot_hours(attempt: Attempt, closes: int) -> Diagnosis:
     """Say that a vehicle would be back after its depot closes, which its shift might allow."""
-    problem, vehicle_type = attempt.problem, attempt.vehicle_type
-    depot, end = problem.depots[vehicle_type.ends_at], attempt.evaluation.makespan
-    late = up_to_tenth(end - closes, MS_PER_MINUTE)
-    enough = closes + late
-    longer = vehicle_type.latest + allowed_overtime(vehicle_type)
-    changed = replace(vehicle_type, latest=(
-        vehicle_type.latest if longer >= enough else min(enough, UNLIMITED)))
-    suffices = enough <= vehicle_type.last_by_shift
+    vehicle_type = attempt.vehicle_type
+    depot = attempt.problem.depots[vehicle_type.ends_at]
+    late = up_to_tenth(attempt.evaluation.makespan - closes, MS_PER_MINUTE)
+    return _open_longer(attempt, depot, late, f"{vehicle_type.id} would be back {in_minutes(late)} "
+                        f"after {depot.id} closes.")
+
+
+def _open_longer(attempt: Attempt, depot: Depot, late: int, message: str) -> Diagnosis:
+    """Say what a depot would do that closed so much later; a day that it bounds grows with it.
+
+    As far as the shift goes: what that lacks is a limit of its own.
+    """
+    problem, kind = attempt.problem, attempt.vehicle_type
+    enough, changed = depot.latest + late, kind
+    suffices = depot is not problem.depots[kind.ends_at] or enough <= kind.last_by_shift
+    if depot is problem.depots[kind.ends_at] and kind.latest + allowed_overtime(kind) < enough:
+        changed = replace(kind, latest=min(enough, kind.last_by_shift))
     return Diagnosis(
-        "SHIFT", f"{vehicle_type.id} would be back {in_minutes(late)} after {depot.id} closes.",
+        "SHIFT", message,
         if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough)
-        if suffices else None,
+        if suffices or kind.overtime is None else None,
         replace(with_type(attempt, changed), depots=_open_until(problem, depot, enough)))
 
 
@@ -240,16 +254,15 @@ def _open_until(problem: Problem, depot: Depot, enough: int) -> tuple[Depot, ...
 
 def _closed_before_departure(attempt: Attempt) -> Diagnosis | None:
     """Say by how much the depot closes before a vehicle leaves it; None if it doesn't."""
-    problem, start = attempt.problem, attempt.solution.routes[0].trips[0].stops[0]
-    depot = problem.depots[start.node]
+    start, kind = attempt.solution.routes[0].trips[0].stops[0], attempt.vehicle_type
+    depot = attempt.problem.depots[start.node]
     if start.departure <= depot.latest:
         return None
     late = up_to_tenth(start.departure - depot.latest, MS_PER_MINUTE)
-    enough = depot.latest + late
-    return Diagnosis(
-        "SHIFT", f"{attempt.vehicle_type.id} would leave {in_minutes(late)} after {depot.id} "
-        "closes.", if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough),
-        replace(problem, depots=_open_until(problem, depot, enough)))
+    comes_back = attempt.evaluation.makespan if kind.ends_at == start.node else start.departure
+    return _open_longer(
+        attempt, depot, up_to_tenth(comes_back - depot.latest, MS_PER_MINUTE),
+        f"{kind.id} would leave {in_minutes(late)} after {depot.id} closes.")
 
 
 def _shift(attempt: Attempt) -> Diagnosis:
@@ -264,7 +277,7 @@ def _shift(attempt: Attempt) -> Diagnosis:
         end = vehicle_type.latest + overtime.max_duration
         excess = up_to_tenth(attempt.evaluation.makespan - end, MS_PER_MINUTE)
         return _more_overtime(
-            attempt, overtime, vehicle_type.latest, excess, "SHIFT",
+            attempt, overtime, "SHIFT",
             f"{vehicle_type.id} would be back {in_minutes(excess)} after its shift and all the "
             "overtime allowed.")
     late = up_to_tenth(attempt.evaluation.makespan - vehicle_type.latest, MS_PER_MINUTE)
@@ -286,7 +299,7 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
     excess = up_to_tenth(attempt.evaluation.routes[0].working_duration - most, MS_PER_MINUTE)
     if overtime is not None:
         return _more_overtime(
-            attempt, overtime, limit, excess, "WORKING_HOURS",
+            attempt, overtime, "WORKING_HOURS",
             f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work "
             "with all the overtime allowed.")
     enough = limit + excess

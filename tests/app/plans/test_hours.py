@@ -73,6 +73,46 @@ def test_who_would_leave_after_the_depot_closes_is_told(client: httpx.Client,
         "fits if hub closed 1 minute later"}
 
 
+@pytest.mark.parametrize(("shift", "overtime", "remedy"), [
+    (20_000, None, "fits if hub closed 47.5 minutes later"),
+    (6000, None, "fits if hub closed 47.5 minutes later and if van's shift ended 7.5 minutes "
+     "later"),
+    (6000, {"max_duration": 600, "cost_per_hour": 1}, "fits if hub closed 47.5 minutes later")])
+def test_a_depot_is_named_once_by_how_much_suffices_there_and_back(
+        client: httpx.Client, shift: int, overtime: Request | None, remedy: str) -> None:
+    request = {
+        "planar_unit": 1000,
+        "depots": [{"id": "hub", "location": [0, 0], "time_window": {"latest": 3600}}],
+        "customers": [{"id": "a", "location": [5, 0], "demand": [1],
+                       "time_window": {"earliest": 6000, "latest": 9000}}],
+        "fleet": [{"id": "van", "count": 1, "capacity": [1], "shift": {"latest": shift},
+                   "overtime": overtime}],
+        "options": {"time_limit": 0}}
+    (left_out,) = client.post("/plan", json=request).json()["unassigned"]
+    (reason,) = left_out["reasons"]
+    assert reason["message"] == "van would leave 32.5 minutes after hub closes."
+    assert reason["remedy"] == remedy
+    request["depots"][0]["time_window"]["latest"] += 2850
+    if " and " in remedy:
+        assert client.post("/plan", json=request).json()["unassigned"]
+        request["fleet"][0]["shift"]["latest"] += 450
+    assert not client.post("/plan", json=request).json()["unassigned"]
+
+
+def test_overtime_is_named_once_for_shift_and_working_duration(client: httpx.Client,
+                                                               smallest: Request) -> None:
+    smallest["planar_unit"], smallest["depots"][0]["location"] = 1, [0, 0]
+    smallest["customers"] = [{"id": "a", "location": [6000, 0], "demand": [1]}]
+    smallest["fleet"] = [{"id": "van", "count": 1, "capacity": [1], "speed_kmh": 36,
+                          "shift": {"latest": 1000}, "max_working_duration": 900,
+                          "overtime": {"max_duration": 60, "cost_per_hour": 1}}]
+    (left_out,) = client.post("/plan", json=smallest).json()["unassigned"]
+    (reason,) = left_out["reasons"]
+    assert reason["remedy"] == "fits if van could work 4 minutes more overtime"
+    smallest["fleet"][0]["overtime"]["max_duration"] += 240
+    assert not client.post("/plan", json=smallest).json()["unassigned"]
+
+
 def test_vehicles_that_fly_have_depots_open_from_the_first(client: httpx.Client,
                                                            smallest: Request) -> None:
     smallest["depots"].append({"id": "yard", "location": [9, 9], "time_window": {"earliest": 600}})
