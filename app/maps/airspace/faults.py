@@ -3,8 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from shapely import Polygon
-
+from app.maps.airspace.masks import Piece
 from app.maps.airspace.shapes import ShapeError
 from app.maps.airspace.zone import Zone
 
@@ -27,10 +26,10 @@ class Reading:
     faults: list[Fault] = field(default_factory=list)  # what can't be read
     doubts: list[Fault] = field(default_factory=list)  # what was read as if it said less
 
-    def area(self, path: Path, make: Callable[[], Polygon]) -> Polygon | None:
-        """Return an area; None if it is none, which is noted."""
+    def areas(self, path: Path, make: Callable[[], list[Piece]]) -> list[Piece]:
+        """Return an area, in one piece or several; none if it is none, which is noted."""
         try:
             return make()
         except ShapeError as error:
             self.faults.append(Fault(path, str(error)))
-            return None
+            return []

@@ -9,6 +9,7 @@ import shapely
 from pyproj import Geod
 from shapely import Polygon
 
+from app.maps.airspace.masks import Piece, around, is_mask
 from model.problem import FloatArray
 
 EARTH = Geod(ellps="WGS84")
@@ -38,24 +39,37 @@ class ShapeError(ValueError):
     """Corners or a radius make no area."""
 
 
-def polygon_of(rings: Sequence[Corners]) -> Polygon:
+def areas_of(rings: Sequence[Corners]) -> list[Piece]:
     """Return the area within a ring and outside those after it; rings needn't be closed.
+
+    A mask of the world with holes comes in pieces.
 
     Raises
     ------
     ShapeError
         If it is none, or lies around the world.
     """
+    if len(rings) > 1 and is_mask(_on_globe(rings[0])):
+        return around([_valid(Polygon(_unwrapped(hole))) for hole in rings[1:]], LONGEST_EDGE_DEG)
+    return [Piece(_polygon_of(rings))]
+
+
+def _polygon_of(rings: Sequence[Corners]) -> Polygon:
     shell, *holes = map(_unwrapped, rings)
-    area = Polygon(shell, [_beside(hole, shell) for hole in holes])
+    area = _valid(Polygon(shell, [_beside(hole, shell) for hole in holes]))
+    if holes or np.abs(shell[1:] - shell[:-1]).max() > LONGEST_EDGE_DEG:
+        return shapely.segmentize(area, LONGEST_EDGE_DEG)
+    return area
+
+
+def _valid(area: Polygon) -> Polygon:
+    """Return an area that is one."""
     if not area.is_valid:
         if shapely.convex_hull(area).area > 0:
             raise ShapeError(f"The boundary crosses itself, or its holes do "
                              f"({shapely.is_valid_reason(area)}): list its corners once each, in "
                              "order around the area.")
         raise ShapeError("The area has no size: list its corners once each, in order around it.")
-    if holes or np.abs(shell[1:] - shell[:-1]).max() > LONGEST_EDGE_DEG:
-        return shapely.segmentize(area, LONGEST_EDGE_DEG)
     return area
 
 
@@ -64,8 +78,8 @@ def _beside(hole: FloatArray, shell: FloatArray) -> FloatArray:
     return hole + np.array((360 * round((shell[:, 0].mean() - hole[:, 0].mean()) / 360), 0))
 
 
-def _unwrapped(stated: Corners) -> FloatArray:
-    """Return a ring, closed, whose longitudes don't jump where it crosses 180 degrees."""
+def _on_globe(stated: Corners) -> FloatArray:
+    """Return a ring, closed, of longitudes and latitudes as they are stated."""
     lengths = set(map(len, stated))
     corners = stated if len(lengths) == 1 else [corner[:2] for corner in stated]
     ring = np.array(corners, np.float64)[:, :2]
@@ -78,7 +92,13 @@ def _unwrapped(stated: Corners) -> FloatArray:
         ring = np.concatenate([ring, ring[:1]])
     if len(ring) < 4:
         raise ShapeError("A ring needs at least 3 corners that differ: add some.")
-    if east - west <= 180:
+    return ring
+
+
+def _unwrapped(stated: Corners) -> FloatArray:
+    """Return a ring, closed, whose longitudes don't jump where it crosses 180 degrees."""
+    ring = _on_globe(stated)
+    if np.ptp(ring[:, 0]) <= 180:
         return ring
     steps = np.diff(ring[:, 0])
     turns = np.where(steps > 180, -360.0, np.where(steps < -180, 360.0, 0.0)).cumsum()
@@ -88,7 +108,7 @@ def _unwrapped(stated: Corners) -> FloatArray:
     return ring
 
 
-def circle_of(center: Sequence[float], radius: float) -> Polygon:
+def circle_of(center: Sequence[float], radius: float) -> list[Piece]:
     """Return a polygon around a circle of metres on the ellipsoid.
 
     Raises
@@ -105,7 +125,7 @@ def circle_of(center: Sequence[float], radius: float) -> Polygon:
     azimuths, outside = _directions(count)
     longitudes, latitudes, _ = EARTH.fwd(np.full(count, center[0]), np.full(count, center[1]),
                                          azimuths, radius * outside)
-    return polygon_of([np.stack([longitudes, latitudes], axis=1)])
+    return [Piece(_polygon_of([np.stack([longitudes, latitudes], axis=1)]))]
 
 
 @cache

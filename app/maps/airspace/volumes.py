@@ -3,11 +3,10 @@
 from collections.abc import Callable, Iterator
 from functools import partial
 
-from shapely import Polygon as Area
-
 from app.maps.airspace.faults import Path, Reading
 from app.maps.airspace.kml import KmlArea
-from app.maps.airspace.shapes import ShapeError, circle_of, polygon_of
+from app.maps.airspace.masks import Piece
+from app.maps.airspace.shapes import ShapeError, areas_of, circle_of
 from app.maps.airspace.zone import Limit, Reference, Unit, Volume
 from app.schemas.zones.ed269 import Projection, UasZone
 from app.schemas.zones.geojson import (
@@ -16,20 +15,20 @@ from app.schemas.zones.geojson import (
 )
 from app.schemas.zones.parts import UNLIMITED
 
-Made = tuple[Path, Callable[[], Area]]
+Made = tuple[Path, Callable[[], list[Piece]]]
 
 
 def ed269_volumes(zone: UasZone, path: Path, reading: Reading) -> Iterator[Volume]:
     """Yield the volumes of a zone of ED-269; note in `reading` which can't be read."""
     for number, volume in enumerate(zone.geometry):
         place = (*path, "geometry", number, "horizontalProjection")
-        area = reading.area(place, partial(_projected, volume.area))
-        if area is not None:
-            yield Volume(area, _limit(volume.lower, volume.unit, volume.lower_reference),
-                         _limit(volume.upper, volume.unit, volume.upper_reference))
+        for piece in reading.areas(place, partial(_projected, volume.area)):
+            yield Volume(piece.area, _limit(volume.lower, volume.unit, volume.lower_reference),
+                         _limit(volume.upper, volume.unit, volume.upper_reference),
+                         piece.is_far)
 
 
-def _projected(area: Projection) -> Area:
+def _projected(area: Projection) -> list[Piece]:
     if area.type == "Circle":
         if area.center is None or area.radius is None:
             raise ShapeError("A circle needs its center and its radius: add them.")
@@ -37,7 +36,7 @@ def _projected(area: Projection) -> Area:
         return circle_of(area.center, area.radius)
     if area.coordinates is None:
         raise ShapeError("A polygon needs its coordinates: add them.")
-    return polygon_of(area.coordinates)
+    return areas_of(area.coordinates)
 
 
 def geojson_volumes(feature: Ed318Feature | PlainFeature, path: Path,
@@ -48,9 +47,8 @@ def geojson_volumes(feature: Ed318Feature | PlainFeature, path: Path,
     for inner, part in _parts(geometry):
         layer = part.layer or geometry.layer or usual
         for place, make in _areas(part, (*path, "geometry", *inner)):
-            area = reading.area(place, make)
-            if area is not None:
-                yield _layered(area, layer)
+            for piece in reading.areas(place, make):
+                yield _layered(piece, layer)
 
 
 def _parts(geometry: Polygon | MultiPolygon | Point | GeometryCollection
@@ -67,32 +65,32 @@ def _areas(part: Polygon | MultiPolygon | Point, path: Path) -> Iterator[Made]:
     if isinstance(part, Point):
         yield path, partial(circle_of, part.coordinates, part.extent.radius)
     elif isinstance(part, Polygon):
-        yield inner, partial(polygon_of, part.coordinates)
+        yield inner, partial(areas_of, part.coordinates)
     else:
         for number, rings in enumerate(part.coordinates):
-            yield (*inner, number), partial(polygon_of, rings)
+            yield (*inner, number), partial(areas_of, rings)
 
 
 def kml_volumes(mark: KmlArea, reading: Reading) -> Iterator[Volume]:
     """Yield the volumes of a place mark of KML; note in `reading` which can't be read."""
     for rings in mark.polygons:
-        area = reading.area((), partial(_named, mark, rings))
-        if area is not None:
-            yield Volume(area)
+        for area, is_far in reading.areas((), partial(_named, mark, rings)):
+            yield Volume(area, is_far=is_far)
 
 
-def _named(mark: KmlArea, rings: list[list[tuple[float, float]]]) -> Area:
+def _named(mark: KmlArea, rings: list[list[tuple[float, float]]]) -> list[Piece]:
     try:
-        return polygon_of(rings)
+        return areas_of(rings)
     except ShapeError as error:
         raise ShapeError(f"{mark.title}: {error}") from error
 
 
-def _layered(area: Area, layer: Layer | PlainProperties | None) -> Volume:
+def _layered(piece: Piece, layer: Layer | PlainProperties | None) -> Volume:
     if layer is None:
-        return Volume(area)
-    return Volume(area, _limit(layer.lower, layer.unit, layer.lower_reference),
-                  _limit(layer.upper, layer.unit, layer.upper_reference))
+        return Volume(piece.area, is_far=piece.is_far)
+    return Volume(piece.area, _limit(layer.lower, layer.unit, layer.lower_reference),
+                  _limit(layer.upper, layer.unit, layer.upper_reference),
+                         piece.is_far)
 
 
 def _limit(value: float | None, unit: Unit, reference: Reference | None) -> Limit | None:

@@ -70,6 +70,7 @@ class Volume:
     area: Polygon  # in degrees; longitudes go on beyond 180 where it lies across
     lower: Limit | None = None
     upper: Limit | None = None
+    is_far: bool = False  # flights meet others of its zone before; only who is in it matters
 
     def is_above(self, altitude: float, ground: Ground) -> bool:
         """Tell whether it plainly lies above metres over the ground."""

@@ -35,6 +35,10 @@ from model.travel.zones import (
 )
 
 
+QUARTER_M = 1e7
+"""A quarter of the way around the globe."""
+
+
 class Detours(NamedTuple):
     """Where flights bend around no-fly areas."""
 
@@ -257,6 +261,16 @@ class Ground:
         return float(planar_buffers(areas, buffer, self.is_geographic).max(initial=0.0))
 
     def _projected(self, parts: Sequence[Part]) -> list[Polygon]:
-        """Return the areas of zones on the plane."""
-        areas = np.array([part.volume.area for part in parts], dtype=object)
-        return list(shapely.transform(areas, self._projection.project)) if len(areas) else []
+        """Return the areas of zones on the plane; nothing of those on the other side of the globe.
+
+        What lies around the antipode would lie around all else.
+        """
+        if not parts:
+            return []
+        areas = shapely.transform(np.array([part.volume.area for part in parts], dtype=object),
+                                  self._projection.project)
+        corners, number = shapely.get_coordinates(areas, return_index=True)
+        nearest = np.full(len(areas), np.inf)
+        np.minimum.at(nearest, number, np.hypot(*corners.T))
+        areas[nearest > QUARTER_M] = Polygon()
+        return list(areas)

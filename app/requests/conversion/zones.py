@@ -97,7 +97,8 @@ class ZonesMet:
             ground = Ground() if stated is None else Ground(stated.lowest, stated.highest)
             reached = [Part(zone, volume) for zone in self._closed for volume in zone.volumes
                        if not volume.is_above(altitude, ground)]
-            below = [part.volume.is_below(altitude, ground) for part in reached]
+            below = [part.volume.is_far or part.volume.is_below(altitude, ground)
+                     for part in reached]
             self._met[altitude] = Met(
                 tuple(part for part, low in zip(reached, below, strict=True) if not low),
                 tuple(part for part, low in zip(reached, below, strict=True) if low))

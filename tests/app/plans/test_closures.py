@@ -201,6 +201,48 @@ def test_what_is_wrong_with_zones_is_told(client: httpx.Client, changes: dict[st
     assert (code, path) in {(error["code"], error["path"]) for error in reply.json()["errors"]}
 
 
+def mask(*holes: list[list[float]]) -> dict[str, Any]:
+    """Return a zone that closes the world but for holes."""
+    edge = [[-180, -90], [180, -90], [180, 90], [-180, 90]]
+    return geojson({"type": "Polygon", "coordinates": [edge, *holes]}, identifier="mask")
+
+
+def test_flights_stay_in_the_hole_of_a_mask(client: httpx.Client) -> None:
+    square = [[24.8, 60.1], [25.0, 60.1], [25.0, 60.2], [24.8, 60.2]]
+    assert flown(client, asked(mask(square))) == pytest.approx(2 * STRAIGHT_M, rel=1e-3)
+    # A bay in the hole's south edge lies between the two, the way leads north around it.
+    bay = [[24.8, 60.1], [24.92, 60.1], [24.92, 60.19], [24.94, 60.19], [24.94, 60.1],
+           [25.0, 60.1], [25.0, 60.3], [24.8, 60.3]]
+    around = 2 * (2 * (1105.6**2 + 2224**2) ** 0.5 + 1105.9)
+    assert flown(client, asked(mask(bay))) == pytest.approx(around, rel=3e-3)
+
+
+@pytest.mark.parametrize("where", [[25.2, 60.17], [40.0, 55.0]])
+def test_who_lies_outside_the_holes_of_a_mask_is_told(client: httpx.Client,
+                                                      where: list[float]) -> None:
+    square = [[24.8, 60.1], [25.0, 60.1], [25.0, 60.2], [24.8, 60.2]]
+    request = asked(mask(square))
+    request["customers"].append(
+        {"id": "abroad", "location": where, "demand": [1], "served_by": "drone"})
+    (left,) = planned(client, request)["unassigned"]
+    (reason,) = left["reasons"]
+    assert (left["id"], reason["code"], reason["zone"]["identifier"]) == (
+        "abroad", "AIRSPACE", "mask")
+
+
+def test_no_flight_leads_from_hole_to_hole_of_a_mask(client: httpx.Client) -> None:
+    holes = [[[west, 60.1], [west + 0.03, 60.1], [west + 0.03, 60.2], [west, 60.2]]
+             for west in (24.88, 24.94)]
+    (left,) = planned(client, asked(mask(*holes)))["unassigned"]
+    assert [reason["code"] for reason in left["reasons"]] == ["AIRSPACE"]
+
+
+def test_a_zone_on_the_other_side_of_the_globe_bars_nobody(client: httpx.Client) -> None:
+    antipode = [DEPOT[0] - 180, -DEPOT[1]]
+    assert flown(client, asked(ed269(zone(circle(50_000, antipode))))) == pytest.approx(
+        2 * STRAIGHT_M, rel=1e-3)
+
+
 BELT = [[longitude, latitude] for latitude, longitudes in (
     (60.0, (-180, -90, 0, 90, 180)), (60.1, (180, 90, 0, -90, -180))) for longitude in longitudes]
 WORLD = [[longitude, 60.0] for longitude in (0, 120, -120)]

@@ -169,6 +169,75 @@ def test_kml_is_read_with_holes(namespace: str) -> None:
     assert not covers(only_volume, 24.913, 60.204)
 
 
+@pytest.mark.parametrize("ring", [
+    "24.90, 60.20, 0 24.92, 60.20, 0 24.92, 60.21, 0 24.90, 60.21, 0",
+    "24.90 ,60.20 24.92 ,60.20 24.92 ,60.21 24.90 , 60.21",
+    "\n 24.90,60.20,5\t24.92,60.20\n24.92,60.21 24.90,6.021e1 "])
+def test_coordinates_of_kml_may_be_set_apart_in_any_way(ring: str) -> None:
+    pytest.importorskip("fastkml")
+    (found,) = only(kml(ring)).volumes
+    assert covers(found, 24.91, 60.205)
+    assert not covers(found, 24.93, 60.205)
+
+
+@pytest.mark.parametrize(("ring", "corner"), [
+    ("24.90 60.20 24.92 60.20 24.92 60.21", "'24.90'"),
+    ("24.90,60.20, 24.92,60.20, 24.92,60.21", "'24.90,60.20,24.92,60.20,24.92,60.21'"),
+    ("24.90;60.20 24.92;60.20 24.92;60.21", "'24.90;60.20'"),
+    ("nan,60.20 24.92,60.20 24.92,60.21 24.90,60.21", "'nan,60.20'"),
+    ("24.90,60.20,x 24.92,60.20 24.92,60.21", "'24.90,60.20,x'")])
+def test_coordinates_that_are_none_are_told_in_words(ring: str, corner: str) -> None:
+    pytest.importorskip("fastkml")
+    (fault,) = read(kml(ring)).faults
+    assert fault.message == (f"{corner} is no corner: write longitude,latitude with a comma "
+                             "between the two, and spaces between corners.")
+
+
+COUNTRY = [[20, 57], [28, 57], [28, 60], [20, 60], [20, 57]]
+MAPS_EDGES = [
+    [[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]],
+    [[-180, 85.0511], [-180, -85.0511], [180, -85.0511], [180, 85.0511]],
+    [[-180, 90], [-90, 90], [0, 90], [90, 90], [180, 90], [180, 0], [180, -90], [0, -90],
+     [-180, -90], [-180, 0]],
+    [[-179.9, -89.9], [179.9, -89.9], [179.9, 89.9], [-179.9, 89.9]]]
+
+
+def closes(found: Zone, longitude: float, latitude: float) -> bool:
+    return any(covers(each, longitude, latitude) for each in found.volumes)
+
+
+@pytest.mark.parametrize("edge", MAPS_EDGES)
+@pytest.mark.parametrize("form", ["ed269", "ed318", "geojson", "MultiPolygon", "kml"])
+def test_a_mask_of_the_world_closes_all_but_its_holes(edge: list[list[float]], form: str) -> None:
+    far = [[-3.5, 40], [-3.5, 41], [-3, 40.5]]
+    area: dict[str, Any] = {"type": "Polygon", "coordinates": [edge, COUNTRY, far]}
+    if form == "kml":
+        pytest.importorskip("fastkml")
+        stated = kml(*(" ".join(f"{x},{y}" for x, y in ring) for ring in area["coordinates"]))
+    else:
+        stated = {
+            "ed269": ed269(zone(volume(horizontalProjection=area))), "ed318": ed318(area),
+            "geojson": geojson(area),
+            "MultiPolygon": geojson({"type": form, "coordinates": [area["coordinates"]]})}[form]
+    found = only(stated)
+    for open_to_all in ([24, 58], [20.01, 57.01], [-3.4, 40.5]):
+        assert not closes(found, *open_to_all)
+    for closed in ([19.99, 58], [24, 60.01], [-3.6, 40.5], [10, 50], [-100, 30], [175, -41],
+                   [-179, 66], [30, 0], [0, 0]):
+        assert closes(found, *closed)
+    assert all(each.area.is_valid and each.area.bounds[2] - each.area.bounds[0] < 180
+               for each in found.volumes)
+
+
+def test_a_hole_across_180_degrees_is_open_on_both_sides() -> None:
+    hole = [[175, -45], [-175, -45], [-175, -35], [175, -35]]
+    found = only(geojson({"type": "Polygon", "coordinates": [MAPS_EDGES[0], hole]}))
+    assert not closes(found, 176, -40)
+    assert not closes(found, -176, -40)
+    assert closes(found, 174, -40)
+    assert closes(found, -174, -40)
+
+
 BOWTIE = [[24.90, 60.20], [24.92, 60.21], [24.92, 60.20], [24.90, 60.21]]
 WORLD = [[-170, 10], [-60, 10], [60, 10], [170, 10], [170, 20], [-170, 20]]
 
@@ -178,6 +247,7 @@ WORLD = [[-170, 10], [-60, 10], [60, 10], [170, 10], [170, 20], [-170, 20]]
     ({"type": "Polygon", "coordinates": [[[24, 60], [25, 61], [26, 62]]]}, "no size"),
     ({"type": "Polygon", "coordinates": [[[24, 60], [24, 60], [24, 60]]]}, "3 corners"),
     ({"type": "Polygon", "coordinates": [WORLD]}, "around the world"),
+    ({"type": "Polygon", "coordinates": [MAPS_EDGES[0], BOWTIE]}, "crosses itself"),
     ({"type": "Polygon", "coordinates": [[[24, 60], [25, 91], [26, 60]]]}, "[25, 91] is no"),
     ({"type": "Circle", "center": [190, 60], "radius": 9}, "[190, 60] is no longitude"),
     ({"type": "Polygon"}, "needs its coordinates"),
@@ -210,7 +280,8 @@ def test_what_the_standards_lack_is_refused(stated: dict[str, Any]) -> None:
     ({"format": "kml", "data": "hello"}, "no KML"),
     ({"format": "kml", "data": "<!DOCTYPE a [<!ENTITY b 'c'>]><kml/>"}, "entities"),
     ({"format": "kml", "data": "<kml></kml>"}, "no polygon"),
-    (kml("24.90,60.20 24,x 24.92,60.21"), "can't be read"),
+    (kml("24.90,60.20 24,x 24.92,60.21"), "'24,x' is no corner"),
+    (kml(""), "can't be read"),
     (kml("24.90,160.20 24.92,60.20 24.92,60.21"), "Old town: [24.9, 160.2] is no longitude"),
     (kml("24.90,60.20 24.92,60.21 24.92,60.20 24.90,60.21"), "Old town: The boundary crosses"),
 ])
