@@ -11,6 +11,10 @@ NAMESPACE = "http://www.opengis.net/kml/2.2"
 _OLDER = re.compile(r"http://(?:earth\.google\.com|www\.opengis\.net)/kml/2\.\d")
 _ROOT = re.compile(r"<kml(?=[\s>])(?![^>]*\sxmlns=)")
 _POLYGON = re.compile(r"<(?:\w+:)?Polygon[\s>]")
+_COORDINATES = re.compile(r"(<(?:\w+:)?coordinates(?:\s[^>]*)?>)([^<]*)")
+_COMMA = re.compile(r"\s*,\s*")
+_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_CORNER = re.compile(rf"({_NUMBER},{_NUMBER})(?:,{_NUMBER})?")
 
 HOW_TO_INSTALL = ("KML is read by fastkml, which is not installed: install tandem-planner[geo], or "
                   "send GeoJSON")
@@ -51,10 +55,15 @@ def kml_areas(text: str) -> list[KmlArea]:
     if "<!DOCTYPE" in text or "<!ENTITY" in text:
         raise KmlError("KML has no DOCTYPE and no entities: leave them out.")
     try:
-        document = KML.from_string(_in_today_s_words(text), strict=False)
+        document = KML.from_string(_COORDINATES.sub(_plain, _in_today_s_words(text)), strict=False)
         marks: list[Any] = list(find_all(document, of_type=Placemark))
-    except (SyntaxError, ValueError, TypeError, AttributeError) as error:
+    except SyntaxError as error:
         raise KmlError(f"It is no KML that can be read ({error}).") from error
+    except (ValueError, TypeError, AttributeError) as error:
+        if isinstance(error, KmlError):
+            raise
+        raise KmlError("It is no KML that can be read: it has fields with values that KML doesn't "
+                       "know.") from error
     areas = [KmlArea(mark.name, mark.id or None, polygons) for mark in marks
              if (polygons := list(_polygons(mark.geometry)))]
     stated, found = len(_POLYGON.findall(text)), sum(len(area.polygons) for area in areas)
@@ -66,6 +75,18 @@ def kml_areas(text: str) -> list[KmlArea]:
     if not areas:
         raise KmlError("There is no polygon in it: is it KML, with Placemarks that have polygons?")
     return areas
+
+
+def _plain(coordinates: re.Match[str]) -> str:
+    """Return coordinates without heights, which the reader wants of all corners or none."""
+    corners = []
+    for stated in _COMMA.sub(",", coordinates[2]).split():
+        corner = _CORNER.fullmatch(stated)
+        if corner is None:
+            raise KmlError(f"{stated[:60]!r} is no corner: write longitude,latitude with a comma "
+                           "between the two, and spaces between corners.")
+        corners.append(corner[1])
+    return coordinates[1] + " ".join(corners)
 
 
 def _in_today_s_words(text: str) -> str:
