@@ -1,5 +1,6 @@
 """What the schema can't tell of a vehicle type."""
 
+import re
 from collections.abc import Mapping, Sequence
 from math import inf
 
@@ -11,7 +12,8 @@ from app.schemas.driving import REST_ID
 from app.schemas.drones import Flyer, TurnaroundInput
 from app.schemas.energy import EnergyInput
 from app.schemas.launch_site import HoursInput
-from app.schemas.vehicle import SpeedChangeInput, VehicleTypeInput
+from app.schemas.times import Written
+from app.schemas.vehicle import BreakInput, SpeedChangeInput, VehicleTypeInput
 from model.problem import MAX_QUANTITY
 
 
@@ -73,16 +75,38 @@ def _closing(hours: HoursInput) -> float:
     return inf if hours.latest is None else hours.latest
 
 
+def _start_errors(path: Path, each: BreakInput) -> Errors:
+    """Say which ends of a break's start are written as what they aren't."""
+    for name, end in (("earliest", each.start.earliest), ("latest", each.start.latest)):
+        if not isinstance(end, Written) or end.is_length == each.after_departure:
+            continue
+        if end.is_length:
+            yield error_at("WRONG_TYPE", (*path, "start", name),
+                           f"{end.text} is a length of time, and the break is stated by instants: "
+                           "state after_departure, or write a time such as 12:30.")
+        else:
+            clock = re.fullmatch(r"(\d\d?):(\d\d)(?::\d\d)?", end.text)
+            length = "PT5H30M" if clock is None else f"PT{int(clock[1])}H{int(clock[2])}M"
+            yield error_at("WRONG_TYPE", (*path, "start", name),
+                           f"{end.text} is an instant, and with after_departure this is a length "
+                           f"of time from then on: write it as seconds or such as {length}.")
+
+
 def break_errors(draft: Draft) -> Errors:
     """Say which breaks can't begin, or can't be told from others of their driver."""
     for path, vehicle_type in draft.vehicle_types():
         seen: dict[str, int] = {}
         for index, each in enumerate(vehicle_type.breaks):
             here, start = (*path, "breaks", index), each.start
-            if start.latest is not None and start.latest < start.earliest:
+            miswritten = list(_start_errors(here, each))
+            yield from miswritten
+            if not miswritten and start.latest is not None and start.latest < start.earliest:
+                ends, starts = ([f"{end:g} s" for end in (start.latest, start.earliest)]
+                                if each.after_departure
+                                else map(draft.told, (start.latest, start.earliest)))
                 yield error_at("WINDOW_ENDS_BEFORE_START", (*here, "start", "latest"),
-                               f"The window ends at {draft.told(start.latest)}, before it starts "
-                               f"at {draft.told(start.earliest)}: raise latest or lower earliest.")
+                               f"The window ends at {ends}, before it starts at {starts}: raise "
+                               "latest or lower earliest.")
             if seen.setdefault(each.id, index) != index:
                 yield error_at("DUPLICATE_ID", (*here, "id"),
                                f"breaks[{seen[each.id]}] has the same id: give each its own.")

@@ -8,7 +8,7 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import (
     AfterValidator, BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter,
-    ValidationInfo,
+    ValidationInfo, ValidatorFunctionWrapHandler,
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
@@ -69,10 +69,10 @@ def _wrong_time(info: ValidationInfo, code: str, message: str) -> PydanticCustom
     return _error(code, message)
 
 
-def _day(info: ValidationInfo) -> Day | None:
+def _day(info: ValidationInfo, what: str = "A time of day tells") -> Day | None:
     """Return the day of the body that is read; None if it states what is none.
 
-    That is an error of its own, and one is enough.
+    That is an error of its own, and one is enough. `what` begins the sentence on a body without.
     """
     stated = info.context
     try:
@@ -80,9 +80,8 @@ def _day(info: ValidationInfo) -> Day | None:
     except ValueError:
         return None
     if day is None:
-        raise _wrong_time(info, "MISSING_PLAN_START", "A time of day tells an instant only if "
-                          "the request states plan_start: add it, or state seconds since plan "
-                          "start.")
+        raise _wrong_time(info, "MISSING_PLAN_START", f"{what} an instant only if the request "
+                          "states plan_start: add it, or state seconds since plan start.")
     return day
 
 
@@ -97,13 +96,9 @@ def _read_instant(text: str, info: ValidationInfo) -> float:
 
 
 def _read_epoch(instant: float, info: ValidationInfo) -> float:
-    """Return an instant told in seconds since 1970; itself where no day is stated."""
-    stated = info.context
-    try:
-        day = stated.day if isinstance(stated, DayOfBody) else None
-    except ValueError:
-        day = None
-    return instant if day is None else day.seconds_since_epoch(instant)
+    """Return an instant told in seconds since 1970."""
+    day = _day(info, "So large a number counts seconds since 1970, and tells")
+    return 0.0 if day is None else day.seconds_since_epoch(instant)
 
 
 def _no_instant(info: ValidationInfo) -> PydanticCustomError:
@@ -136,6 +131,13 @@ def _read_later_epoch(instant: float, info: ValidationInfo) -> float:
 
 def _read_opening_epoch(instant: float, info: ValidationInfo) -> float:
     return max(0.0, _read_epoch(instant, info))
+
+
+class Written(float):
+    """Seconds that were written as a text: a length of time, or an instant."""
+
+    text: str
+    is_length: bool
 
 
 def _read_duration(text: str, info: ValidationInfo) -> float:
@@ -171,11 +173,8 @@ class _Readable:
     def __get_pydantic_core_schema__(self, source: Any,
                                      handler: GetCoreSchemaHandler) -> CoreSchema:
         number = handler(source)
-        text = core_schema.chain_schema([
-            core_schema.str_schema(min_length=1),
-            core_schema.with_info_plain_validator_function(self.read),
-            number,
-        ])
+        text = core_schema.chain_schema([core_schema.str_schema(min_length=1),
+                                         *self._from_text(number)])
         # Numbers come first: they are read without a call of Python.
         choices: list[CoreSchema | tuple[CoreSchema, str]] = [(number, AS_NUMBER)]
         if self.read_epoch is not None:
@@ -187,6 +186,9 @@ class _Readable:
         return core_schema.union_schema([*choices, (text, AS_TEXT)], mode="left_to_right",
                                         serialization=core_schema.simple_ser_schema("float"))
 
+    def _from_text(self, number: CoreSchema) -> list[CoreSchema]:
+        return [core_schema.with_info_plain_validator_function(self.read), number]
+
     def __get_pydantic_json_schema__(self, schema: CoreSchema,
                                      handler: GetJsonSchemaHandler) -> dict[str, Any]:
         number, *epochs, text = handler(schema)["anyOf"]
@@ -197,6 +199,26 @@ class _Readable:
             "examples": list(self.examples)}]}
 
 
+class _AsWritten(_Readable):
+    """Reads a length of time after ISO 8601, too, and keeps how a text was written."""
+
+    def _from_text(self, number: CoreSchema) -> list[CoreSchema]:
+        return [core_schema.with_info_wrap_validator_function(self._written, number)]
+
+    def _written(self, text: str, number: ValidatorFunctionWrapHandler,
+                 info: ValidationInfo) -> Written:
+        is_length = text.startswith("P")
+        try:
+            found = Written(number((_read_duration if is_length else self.read)(text, info)))
+        except PydanticCustomError as error:
+            if error.type != "MISSING_PLAN_START":
+                raise
+            raise _error(error.type, f"{error.message()} With after_departure state a length of "
+                         "time, such as PT5H30M.") from None
+        found.text, found.is_length = text, is_length
+        return found
+
+
 _INSTANT_TEXT = ("A time of the plan's day in its zone, `+1 06:00` being on the next, or a date "
                  "and time after ISO 8601; needs `plan_start`.")
 _INSTANTS = ("07:30", "+1 06:00", "2026-03-29T07:30:00+02:00")
@@ -205,6 +227,13 @@ READ_INSTANT = _Readable("Instant", _read_later, _INSTANT_TEXT, _INSTANTS, _read
 READ_OPENING = _Readable(
     "Opening", _read_opening, f"{_INSTANT_TEXT} Before plan start: from then on.", _INSTANTS,
     _read_opening_epoch)
+_OR_LENGTH = "With `after_departure` a length of time after ISO 8601 instead."
+READ_INSTANT_OR_LENGTH = _AsWritten(
+    "InstantOrLength", _read_later, f"{_INSTANT_TEXT} {_OR_LENGTH}", (*_INSTANTS, "PT5H30M"),
+    _read_later_epoch)
+READ_OPENING_OR_LENGTH = _AsWritten(
+    "OpeningOrLength", _read_opening, f"{_INSTANT_TEXT} Before plan start: from then on. "
+    f"{_OR_LENGTH}", (*_INSTANTS, "PT5H30M"), _read_opening_epoch)
 READ_ANY_INSTANT = _Readable("Instant", _read_instant, _INSTANT_TEXT, _INSTANTS)
 READ_DURATION = _Readable(
     "Duration", _read_duration, "A length of time: `H:MM`, or a duration after ISO 8601.",

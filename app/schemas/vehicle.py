@@ -24,11 +24,13 @@ from app.schemas.fields import (
     Duration,
     Input,
     Instant,
+    InstantOrLength,
     LocationIndex,
     Metres,
     Money,
     Name,
     Opening,
+    OpeningOrLength,
     PlaceLocation,
     Skills,
     Speed,
@@ -118,10 +120,12 @@ class OvertimeInput(Input):
 class BreakStartInput(Input):
     """When a break may begin."""
 
-    earliest: Opening = Field(0.0, description="Earliest begin in seconds since plan start.")
-    latest: Instant | None = Field(
-        None, description="Latest begin in seconds since plan start. Null: any time, so that the "
-        "break is due on no route."
+    earliest: OpeningOrLength = Field(
+        0.0, description="Earliest begin in seconds since plan start, or since the departure."
+    )
+    latest: InstantOrLength | None = Field(
+        None, description="Latest begin in seconds since plan start, or since the departure. Null: "
+        "any time, so that the break is due on no route."
     )
 
 
@@ -135,7 +139,8 @@ class BreakInput(Input):
         "before the route begins, or begin once it has ended."
     )
     after_departure: bool = Field(
-        False, description="Whether `start` counts from when the vehicle's first trip begins."
+        False, description="Whether `start` counts from when the vehicle's first trip begins: then "
+        "it is seconds or a length of time, such as `PT5H30M`."
     )
     at: Literal["stop", "anywhere"] = Field(
         "stop", description="Where it is taken: at a `stop`, before or after its service, or "

@@ -156,7 +156,61 @@ def test_large_numbers_are_unix_time(client: httpx.Client, day: Request) -> None
 
 def test_large_numbers_need_a_day(client: httpx.Client, smallest: Request) -> None:
     smallest["customers"][0]["time_window"] = {"latest": 1774738800}
-    assert refused(client, smallest) == {"$.customers[0].time_window.latest": "OUT_OF_RANGE"}
+    smallest["fleet"][0]["shift"] = {"earliest": 1774738800}
+    smallest["fleet"][0]["max_working_duration"] = 1774738800
+    errors = client.post("/plan", json=smallest).json()["errors"]
+    assert {error["path"]: error["code"] for error in errors} == {
+        "$.customers[0].time_window.latest": "MISSING_PLAN_START",
+        "$.fleet[0].shift.earliest": "MISSING_PLAN_START",
+        "$.fleet[0].max_working_duration": "OUT_OF_RANGE"}
+    assert all("plan_start" in error["message"] for error in errors
+               if error["code"] == "MISSING_PLAN_START")
+    assert refused(client, smallest | {"plan_start": "soon"}) == {
+        "$.plan_start": "WRONG_TYPE", "$.fleet[0].max_working_duration": "OUT_OF_RANGE"}
+
+
+def with_break(day: Request, start: Request, **fields: Any) -> Request:
+    """Return a day whose drivers have a break."""
+    stated = {"id": "lunch", "duration": "0:30", "start": start} | fields
+    return day | {"fleet": [day["fleet"][0] | {"breaks": [stated]}]}
+
+
+def test_a_break_after_departure_is_stated_by_lengths_of_time(client: httpx.Client,
+                                                              day: Request) -> None:
+    for start in ({"earliest": "PT5M", "latest": "PT1H30M"}, {"earliest": 300, "latest": 5400}):
+        request = with_break(day, start, after_departure=True)
+        read = read_body(PlanRequest, to_json(request)).fleet[0].breaks[0].start
+        assert (read.earliest, read.latest) == (300, 5400)
+        assert "errors" not in client.post("/plan", json=request).json()
+
+
+@pytest.mark.parametrize(("start", "says"), [
+    ({"earliest": "5:30", "latest": "06:30:00"}, ("PT5H30M", "PT6H30M")),
+    ({"latest": "2026-03-29T12:00"}, ("PT5H30M",)), ({"earliest": "+1 05:00"}, ("PT5H30M",))])
+def test_a_break_after_departure_at_a_time_of_day_is_refused_with_how_to_write_it(
+        client: httpx.Client, day: Request, start: Request, says: tuple[str, ...]) -> None:
+    request = with_break(day, start, after_departure=True)
+    errors = client.post("/plan", json=request).json()["errors"]
+    assert [(error["code"], error["path"]) for error in errors] == [
+        ("WRONG_TYPE", f"$.fleet[0].breaks[0].start.{name}") for name in start]
+    assert all(words in error["message"] for words, error in zip(says, errors, strict=True))
+    undated = {name: value for name, value in request.items()
+               if name not in ("plan_start", "time_zone")}
+    assert any("PT5H30M" in error["message"]
+               for error in client.post("/plan", json=undated).json()["errors"])
+
+
+def test_a_break_that_is_stated_by_instants_has_no_lengths_of_time(client: httpx.Client,
+                                                                   day: Request) -> None:
+    request = with_break(day, {"earliest": "PT5H", "latest": "P1"})
+    assert refused(client, request) == {"$.fleet[0].breaks[0].start.latest": "WRONG_TYPE"}
+    request = with_break(day, {"earliest": "PT5H", "latest": "12:00"})
+    assert refused(client, request) == {"$.fleet[0].breaks[0].start.earliest": "WRONG_TYPE"}
+    request = with_break(day, {"latest": "2026-03-01T00:00"})
+    assert refused(client, request) == {"$.fleet[0].breaks[0].start.latest": "BEFORE_PLAN_START"}
+    request = with_break(day, {"earliest": "PT2H", "latest": "PT1H"}, after_departure=True)
+    (error,) = client.post("/plan", json=request).json()["errors"]
+    assert error["message"].startswith("The window ends at 3600 s, before it starts at 7200 s")
 
 
 @pytest.mark.parametrize(("changes", "errors"), [
