@@ -169,7 +169,7 @@ def _windows(row: Row) -> Data:
                        "meant.", *cells)
     ends = sorted((earliest or 0.0, latest) for earliest, latest in stated
                   if earliest is not None or latest is not None)
-    merged = _merged(ends)
+    merged = disjoint(ends)
     if len(merged) > MOST_WINDOWS:
         row.refuse("TOO_MANY_WINDOWS", f"There are {len(merged)} windows, and {MOST_WINDOWS} are "
                    "possible at most.", "window")
@@ -201,7 +201,7 @@ def _latest(customer: Data) -> float:
     return max(window.get("latest", 0.0) for window in windows)
 
 
-def _merged(windows: Iterable[tuple[float, float | None]]) -> list[tuple[float, float | None]]:
+def disjoint(windows: Iterable[tuple[float, float | None]]) -> list[tuple[float, float | None]]:
     """Return windows of which none touches another."""
     merged: list[tuple[float, float | None]] = []
     for earliest, latest in windows:

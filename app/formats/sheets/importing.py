@@ -21,6 +21,7 @@ from app.formats.sheets.fleet import Incomplete
 from app.formats.sheets.geography import Ground, far_off, ground_of
 from app.formats.sheets.looks import with_looks
 from app.formats.sheets.meanings import MEANINGS
+from app.formats.sheets.nights import into_the_night
 from app.formats.sheets.plan_rules import fairness_of
 from app.formats.sheets.questions import Asking, Question
 from app.formats.sheets.readers import read
@@ -162,6 +163,7 @@ def _complete(work: Import, depots: Sequence[Row], ground: Ground, settings: Imp
     if relations:
         request["relations"] = [relation.stated for relation in relations]
     work.doubts += doubts + alone
+    work.doubts += into_the_night(request["fleet"], [*work.stops, *work.shipments])
     day = work.style.day
     if day is not None and settings.time_zone is not None:
         request = on_day(request, day, settings.time_zone)

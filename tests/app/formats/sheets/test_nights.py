@@ -48,3 +48,38 @@ def test_customers_have_several_windows_in_columns_of_their_own() -> None:
     assert first["time_windows"] == [{"earliest": 28800, "latest": 36000},
                                      {"earliest": 50400, "latest": 57600}]
     assert second["time_window"] == {"earliest": 32400, "latest": 43200}
+
+
+def test_a_window_of_the_small_hours_is_on_the_day_after_in_a_shift_of_the_night() -> None:
+    reply = read("A,1,1,3:00,5:30,", "B,2,2,22:00,23:00,", "C,3,3,3:00,6:30,",
+                 "D,4,4,0:30,1:30,5", head="name,x,y,from,to,late cost", shift="21:00-6:00")
+    assert reply.request is not None
+    windows = [customer["time_window"] for customer in reply.request["customers"]]
+    assert windows[0] == {"earliest": 27 * 3600, "latest": 29.5 * 3600}
+    assert windows[1] == {"earliest": 22 * 3600, "latest": 23 * 3600}
+    # Half of it is after the shift: which day is meant can't be told.
+    assert windows[2] == {"earliest": 3 * 3600, "latest": 6.5 * 3600}
+    assert windows[3] == {"earliest": 24.5 * 3600, "latest": 25.5 * 3600,
+                          "late_cost_per_hour": 5}
+    [doubt] = [doubt for doubt in reply.doubts if doubt.code == "NEXT_NIGHT"]
+    assert doubt.cell == "D2"
+    assert doubt.message == ("2 windows are taken for the day after, since nobody works before "
+                             "21:00: such as D2 from +1 03:00.")
+
+
+def test_windows_of_both_sides_of_midnight_stay_in_order() -> None:
+    reply = read("A,1,1,1:00,2:00,22:00,23:00", "B,1,1,22:00,24:00,0:00,2:00",
+                 head="name,x,y,open 1,close 1,open 2,close 2", shift="21:00-6:00")
+    assert reply.request is not None
+    first, second = reply.request["customers"]
+    assert first["time_windows"] == [{"earliest": 22 * 3600, "latest": 23 * 3600},
+                                     {"earliest": 25 * 3600, "latest": 26 * 3600}]
+    assert second["time_window"] == {"earliest": 22 * 3600, "latest": 26 * 3600}
+
+
+@pytest.mark.parametrize("shift", ["8:00-17:00", "2:00-12:00"])
+def test_windows_before_a_shift_of_the_day_stay(shift: str) -> None:
+    reply = read("A,1,1,0:30,1:30", head="name,x,y,from,to", shift=shift)
+    assert reply.request is not None
+    assert reply.request["customers"][0]["time_window"]["latest"] == 5400
+    assert "NEXT_NIGHT" not in codes(reply)
