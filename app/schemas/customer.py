@@ -1,21 +1,22 @@
 """A customer of a request."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from operator import attrgetter
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import AfterValidator, Field, model_validator
 
 from app.schemas.fields import (
     LAUNCH_TEXT,
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
+    MAX_AMOUNT,
     Demand,
     Duration,
     DurationsByType,
     Goods,
     Info,
     Input,
-    Instant,
     LocationIndex,
     Money,
     Name,
@@ -24,16 +25,21 @@ from app.schemas.fields import (
     Skills,
     VehicleCosts,
 )
+from app.schemas.written import READ_WINDOW_END, READ_WINDOW_START, moved_end, on_the_day_after
 from model.problem import MAX_DIMENSIONS
+
+
+Earliest = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_WINDOW_START]
+Latest = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_WINDOW_END]
 
 
 class TimeWindowInput(Input):
     """When service at a customer may start; both ends belong to the window."""
 
-    earliest: Opening = Field(
+    earliest: Earliest = Field(
         0.0, description="Earliest start of service in seconds since plan start; earlier waits."
     )
-    latest: Instant | None = Field(
+    latest: Latest | None = Field(
         None, description="Latest arrival in seconds since plan start. Null: no limit."
     )
     late_cost_per_hour: Money | None = Field(
@@ -47,6 +53,17 @@ class TimeWindowInput(Input):
     early_cost_per_hour: Money = Field(
         0.0, description="Cost per hour of waiting for `earliest` at the customer."
     )
+
+    @model_validator(mode="after")
+    def _of_its_day(self) -> Self:
+        return on_the_day_after(self)
+
+
+def _in_order(windows: list[TimeWindowInput]) -> list[TimeWindowInput]:
+    """Return windows, of which some may have been moved behind others."""
+    if not any(map(moved_end, windows)):
+        return windows
+    return sorted(windows, key=attrgetter("earliest"))
 
 
 Vehicles = Annotated[list[Name], Field(min_length=1, max_length=1000)]
@@ -70,7 +87,8 @@ class VehiclesInput(Input):
         return self.allowed or self.forbidden or []
 
 
-Windows = Annotated[list[TimeWindowInput], Field(min_length=1, max_length=8)]
+Windows = Annotated[list[TimeWindowInput], Field(min_length=1, max_length=8),
+                    AfterValidator(_in_order)]
 
 
 class AlternativeInput(Input):

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from datetime import MAXYEAR, MINYEAR, UTC, datetime, time, timedelta
 from functools import cached_property
-from typing import Literal
+from typing import Literal, NamedTuple
 from zoneinfo import ZoneInfo
 
 from pydantic import BaseModel
@@ -14,6 +14,9 @@ FIRST_YEAR, LAST_YEAR = 1900, 2200
 """Years of a plan's start."""
 
 LONGEST_TEXT = 64
+
+EPOCH_FROM = 1e9
+"""Numbers above are seconds since 1970 where the plan's day is stated."""
 
 Times = Literal["seconds", "iso", "clock"]
 """How replies tell instants."""
@@ -49,6 +52,12 @@ def _require_year(start: datetime) -> None:
 def is_instant(text: str) -> bool:
     """Tell whether a text has the form of a wall time, or of a date and time."""
     return bool(_WALL.fullmatch(text) or _DATE_TIME.fullmatch(text))
+
+
+def is_clock(text: str) -> bool:
+    """Tell whether a text is a time of day, of no stated day."""
+    wall = _WALL.fullmatch(text)
+    return wall is not None and wall["days"] is None and wall["offset"] is None
 
 
 def zone_of(name: str) -> ZoneInfo:
@@ -189,6 +198,32 @@ class _StatedDay(BaseModel):
     time_zone: str | None = None
 
 
+class _StatedShift(BaseModel):
+    earliest: str | float | None = None
+    latest: str | float | None = None
+
+
+class _StatedKind(BaseModel):
+    shift: _StatedShift = _StatedShift()
+
+
+class _StatedFleet(BaseModel):
+    fleet: list[_StatedKind] = []
+
+
+class _StatedFleets(_StatedFleet):
+    problem: _StatedFleet = _StatedFleet()
+    base: _StatedFleet = _StatedFleet()
+
+
+class Night(NamedTuple):
+    """When anybody works, which may be until the day after."""
+
+    day: Day
+    opens: float  # seconds since plan start
+    closes: float
+
+
 class _Stating(_StatedDay):
     problem: _StatedDay = _StatedDay()
     base: _StatedDay = _StatedDay()
@@ -215,3 +250,25 @@ class DayOfBody:
             if part.plan_start is not None:
                 return Day.of(part.plan_start, part.time_zone)
         return None
+
+    @cached_property
+    def night(self) -> Night | None:
+        """When anybody works; None if that can't be told, or it is from the day's begin on."""
+        try:
+            day, whole = self.day, _StatedFleets.model_validate_json(self._body)
+            fleet = whole.problem.fleet or whole.base.fleet or whole.fleet
+            if day is None or not fleet:
+                return None
+            opens = min([_seconds(day, kind.shift.earliest) for kind in fleet])
+            closes = max([_seconds(day, kind.shift.latest) for kind in fleet])
+        except (ValueError, OverflowError):
+            return None
+        return Night(day, opens, closes) if opens > 0 else None
+
+
+def _seconds(day: Day, stated: str | float | None) -> float:
+    """Return an instant as it was stated in seconds since plan start."""
+    if isinstance(stated, str):
+        return day.seconds_at(stated)
+    seconds = stated or 0.0
+    return day.seconds_since_epoch(seconds) if seconds > EPOCH_FROM else seconds

@@ -7,9 +7,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 from app.schemas.errors import IN_PLACE, LISTED
 from app.schemas.limits import MAX_CUSTOMERS
 from app.schemas.rows import HeldAsArray, Row
-from app.schemas.times import (
-    READ_DURATION, READ_INSTANT, READ_INSTANT_OR_LENGTH, READ_OPENING, READ_OPENING_OR_LENGTH,
-)
+from app.schemas.times import READ_DURATION, READ_INSTANT, READ_OPENING
 from model.problem import MAX_DIMENSIONS, MAX_MONEY, MAX_QUANTITY
 
 MAX_AMOUNT = MAX_QUANTITY // 1000
@@ -24,9 +22,6 @@ Amount = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
 Duration = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_DURATION]
 Instant = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_INSTANT]
 Opening = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_OPENING]
-InstantOrLength = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_INSTANT_OR_LENGTH]
-OpeningOrLength = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_OPENING_OR_LENGTH]
-"""Since plan start or, if so stated beside it, since something else."""
 """An instant from which on something is so."""
 Metres = Annotated[float, Field(ge=0, le=MAX_AMOUNT)]
 Money = Annotated[float, Field(ge=0, le=MAX_MONEY)]

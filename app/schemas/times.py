@@ -8,11 +8,13 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import (
     AfterValidator, BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter,
-    ValidationInfo, ValidatorFunctionWrapHandler,
+    ValidationInfo,
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
-from app.schemas.day import LONGEST_TEXT, Day, DayOfBody, is_instant, read_date_time, zone_of
+from app.schemas.day import (
+    EPOCH_FROM, LONGEST_TEXT, Day, DayOfBody, is_instant, read_date_time, zone_of,
+)
 from app.schemas.errors import AS_EPOCH, AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
 
 Model = TypeVar("Model", bound=BaseModel)
@@ -21,8 +23,8 @@ _HOURS = re.compile(r"(\d{1,4}):([0-5]\d)(?::([0-5]\d(?:\.\d{1,6})?))?")
 _ISO_DURATION = re.compile(r"P(?:[\d.]+[WD])*(?:T(?:[\d.]+[HMS])+)?")
 _PARSED = TypeAdapter(timedelta)
 
-EPOCH_FROM, EPOCH_UNTIL = 1e9, 7.5e9
-"""Numbers between are seconds since 1970 where the plan's day is stated: until the year 2207."""
+EPOCH_UNTIL = 7.5e9
+"""Until when numbers are seconds since 1970: the year 2207."""
 
 MAX_UNREADABLE = 20_000
 """Unreadable times of a body after which reading ends."""
@@ -133,13 +135,6 @@ def _read_opening_epoch(instant: float, info: ValidationInfo) -> float:
     return max(0.0, _read_epoch(instant, info))
 
 
-class Written(float):
-    """Seconds that were written as a text: a length of time, or an instant."""
-
-    text: str
-    is_length: bool
-
-
 def _read_duration(text: str, info: ValidationInfo) -> float:
     hours = _HOURS.fullmatch(text)
     if len(text) > LONGEST_TEXT:
@@ -161,7 +156,7 @@ def _no_duration(info: ValidationInfo) -> PydanticCustomError:
 
 
 @dataclass(frozen=True)
-class _Readable:
+class Readable:
     """Lets a number of seconds be stated as a text, too."""
 
     title: str
@@ -174,7 +169,7 @@ class _Readable:
                                      handler: GetCoreSchemaHandler) -> CoreSchema:
         number = handler(source)
         text = core_schema.chain_schema([core_schema.str_schema(min_length=1),
-                                         *self._from_text(number)])
+                                         *self.from_text(number)])
         # Numbers come first: they are read without a call of Python.
         choices: list[CoreSchema | tuple[CoreSchema, str]] = [(number, AS_NUMBER)]
         if self.read_epoch is not None:
@@ -186,7 +181,8 @@ class _Readable:
         return core_schema.union_schema([*choices, (text, AS_TEXT)], mode="left_to_right",
                                         serialization=core_schema.simple_ser_schema("float"))
 
-    def _from_text(self, number: CoreSchema) -> list[CoreSchema]:
+    def from_text(self, number: CoreSchema) -> list[CoreSchema]:
+        """Return what reads a text, and then looks at it as at a number."""
         return [core_schema.with_info_plain_validator_function(self.read), number]
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema,
@@ -199,43 +195,16 @@ class _Readable:
             "examples": list(self.examples)}]}
 
 
-class _AsWritten(_Readable):
-    """Reads a length of time after ISO 8601, too, and keeps how a text was written."""
-
-    def _from_text(self, number: CoreSchema) -> list[CoreSchema]:
-        return [core_schema.with_info_wrap_validator_function(self._written, number)]
-
-    def _written(self, text: str, number: ValidatorFunctionWrapHandler,
-                 info: ValidationInfo) -> Written:
-        is_length = text.startswith("P")
-        try:
-            found = Written(number((_read_duration if is_length else self.read)(text, info)))
-        except PydanticCustomError as error:
-            if error.type != "MISSING_PLAN_START":
-                raise
-            raise _error(error.type, f"{error.message()} With after_departure state a length of "
-                         "time, such as PT5H30M.") from None
-        found.text, found.is_length = text, is_length
-        return found
-
-
 _INSTANT_TEXT = ("A time of the plan's day in its zone, `+1 06:00` being on the next, or a date "
                  "and time after ISO 8601; needs `plan_start`.")
 _INSTANTS = ("07:30", "+1 06:00", "2026-03-29T07:30:00+02:00")
 
-READ_INSTANT = _Readable("Instant", _read_later, _INSTANT_TEXT, _INSTANTS, _read_later_epoch)
-READ_OPENING = _Readable(
+READ_INSTANT = Readable("Instant", _read_later, _INSTANT_TEXT, _INSTANTS, _read_later_epoch)
+READ_OPENING = Readable(
     "Opening", _read_opening, f"{_INSTANT_TEXT} Before plan start: from then on.", _INSTANTS,
     _read_opening_epoch)
-_OR_LENGTH = "With `after_departure` a length of time after ISO 8601 instead."
-READ_INSTANT_OR_LENGTH = _AsWritten(
-    "InstantOrLength", _read_later, f"{_INSTANT_TEXT} {_OR_LENGTH}", (*_INSTANTS, "PT5H30M"),
-    _read_later_epoch)
-READ_OPENING_OR_LENGTH = _AsWritten(
-    "OpeningOrLength", _read_opening, f"{_INSTANT_TEXT} Before plan start: from then on. "
-    f"{_OR_LENGTH}", (*_INSTANTS, "PT5H30M"), _read_opening_epoch)
-READ_ANY_INSTANT = _Readable("Instant", _read_instant, _INSTANT_TEXT, _INSTANTS)
-READ_DURATION = _Readable(
+READ_ANY_INSTANT = Readable("Instant", _read_instant, _INSTANT_TEXT, _INSTANTS)
+READ_DURATION = Readable(
     "Duration", _read_duration, "A length of time: `H:MM`, or a duration after ISO 8601.",
     ("0:10", "PT10M"))
 

@@ -18,25 +18,25 @@ from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fields import (
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
+    MAX_AMOUNT,
     MAX_DEPOTS,
     Count,
     Demand,
     Duration,
     Input,
     Instant,
-    InstantOrLength,
     LocationIndex,
     Metres,
     Money,
     Name,
     Opening,
-    OpeningOrLength,
     PlaceLocation,
     Skills,
     Speed,
 )
 from app.schemas.limits import MAX_VEHICLES
 from app.schemas.rulebook import RULES, RuleName, fill_in
+from app.schemas.written import READ_BREAK_EARLIEST, READ_BREAK_LATEST, on_the_day_after
 from model.problem import MAX_BREAKS
 
 DEFAULT_TRUCK_SPEED_KMH = 40.0
@@ -117,16 +117,24 @@ class OvertimeInput(Input):
     )
 
 
+Earliest = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_BREAK_EARLIEST]
+Latest = Annotated[float, Field(ge=0, le=MAX_AMOUNT), READ_BREAK_LATEST]
+
+
 class BreakStartInput(Input):
     """When a break may begin."""
 
-    earliest: OpeningOrLength = Field(
+    earliest: Earliest = Field(
         0.0, description="Earliest begin in seconds since plan start, or since the departure."
     )
-    latest: InstantOrLength | None = Field(
+    latest: Latest | None = Field(
         None, description="Latest begin in seconds since plan start, or since the departure. Null: "
         "any time, so that the break is due on no route."
     )
+
+    @model_validator(mode="after")
+    def _of_its_day(self) -> Self:
+        return on_the_day_after(self)
 
 
 class BreakInput(Input):

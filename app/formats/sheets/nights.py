@@ -19,7 +19,7 @@ def into_the_night(fleet: Iterable[Data], served: Iterable[Entry]) -> list[Doubt
     shifts = [_ends(kind) for kind in fleet]
     for kind, shift in zip(fleet, shifts, strict=True):
         for pause in kind.get("breaks", ()):
-            if not pause.get("after_departure") and _is_after(pause["start"], *shift):
+            if not pause.get("after_departure") and _is_after(pause.get("start", {}), *shift):
                 pause["start"] = _a_day_later(pause["start"])
     opens, closes = min(opens for opens, _ in shifts), max(closes for _, closes in shifts)
     moved = [(row, place) for entry in served for row, whole in entry.places()

@@ -7,6 +7,7 @@ import numpy as np
 from app.requests.warnings.survey import SLOWEST_KMH, Survey
 from app.requests.warnings.warning import Path, Warnings, amount_text, customers_text, warning_at
 from app.schemas.vehicle import VehicleTypeInput
+from app.schemas.written import moved_end
 from model.problem import BoolArray, FloatArray
 
 MOST_HOURS, MOST_MINUTES = 48.0, 2880.0
@@ -59,6 +60,7 @@ def time_warnings(survey: Survey) -> Warnings:
         yield from _windows(survey, unit)
     elif not shifts:
         yield from _outside_shifts(survey)
+    yield from _nights(survey)
     yield from _services(survey)
     yield from shifts
     for index, kind in enumerate(survey.request.fleet):
@@ -112,6 +114,19 @@ def _windows(survey: Survey, unit: Unit) -> Warnings:
 def _window_path(survey: Survey, index: int) -> Path:
     several = survey.customers[index].time_windows is not None
     return ("customers", index, "time_windows" if several else "time_window")
+
+
+def _nights(survey: Survey) -> Warnings:
+    """Yield a warning if times of day were read as of the day after."""
+    moved = [(index, end) for index, windows in enumerate(survey.windows)
+             for end in map(moved_end, windows) if end is not None]
+    if moved:
+        (index, end), count = moved[0], len({index for index, _ in moved})
+        yield warning_at(
+            "WINDOWS_OF_NEXT_DAY", _window_path(survey, index),
+            f"{customers_text(count, len(survey.customers), 'have', 'has')} windows that end "
+            "before any shift begins, and are read as of the day after, such as "
+            f"{survey.customers[index].id!r}: until {end.text}. Write +1 {end.text} to say so.")
 
 
 def _outside_shifts(survey: Survey) -> Warnings:

@@ -184,6 +184,68 @@ def test_a_break_after_departure_is_stated_by_lengths_of_time(client: httpx.Clie
         assert "errors" not in client.post("/plan", json=request).json()
 
 
+def at_night(smallest: Request, **stated: Any) -> Request:
+    """Return a request of a night's shift."""
+    smallest |= {"plan_start": "2026-03-28T00:00", "time_zone": "Europe/Berlin"}
+    smallest["fleet"][0]["shift"] = {"earliest": "21:00", "latest": "+1 06:00"}
+    return smallest | stated
+
+
+@pytest.mark.parametrize("plan_start", ["2026-03-28T00:00", "2026-03-28T20:00"])
+def test_windows_of_a_night_are_on_the_day_after(client: httpx.Client, smallest: Request,
+                                                 plan_start: str) -> None:
+    request = at_night(smallest, plan_start=plan_start, options={"times": "iso"})
+    # In that night the clock goes forward, from two to three.
+    request["customers"][0]["time_windows"] = [
+        {"earliest": "00:30", "latest": "01:00"}, {"earliest": "20:30", "latest": "21:00"}]
+    request["customers"][1]["time_window"] = {"earliest": "03:30", "latest": "05:30"}
+    plan = planned(client, request)
+    assert not plan["unassigned"]
+    stops = {stop["id"]: stop for stop in plan["routes"][0]["trips"][0]["stops"]}
+    assert stops[request["customers"][0]["id"]]["service_start"] == "2026-03-29T00:30:00+01:00"
+    assert stops[request["customers"][1]["id"]]["service_start"] == "2026-03-29T03:30:00+02:00"
+    (warning,) = [each for each in plan["warnings"] if each["code"] == "WINDOWS_OF_NEXT_DAY"]
+    assert "2 of " in warning["message"] or "All 2 " in warning["message"]
+    assert "until 01:00. Write +1 01:00" in warning["message"]
+    checked = client.post("/check", json={"problem": request, "plan": plan}).json()
+    assert checked["feasible"], checked
+
+
+@pytest.mark.parametrize(("window", "read"), [
+    ({"earliest": "23:00", "latest": "02:00"}, (23, 26)),
+    ({"latest": "05:00"}, (0, 29)),
+    ({"earliest": "03:00", "latest": "+1 04:00"}, (3, 28)),
+    ({"earliest": "03:00", "latest": "22:00"}, (3, 22)),
+    ({"earliest": "03:00", "latest": "07:00"}, (3, 7)),
+    ({"earliest": 10800, "latest": 18000}, (3, 5)),
+    ({"earliest": "2026-03-27T03:00", "latest": "2026-03-27T05:00"}, (3, 5)),
+])
+def test_what_is_of_the_night_and_what_is_not(smallest: Request, window: Request,
+                                              read: tuple[int, int]) -> None:
+    request = at_night(smallest, plan_start="2026-03-27T00:00")
+    request["customers"][0]["time_window"] = window
+    request["customers"][0]["alternatives"] = [
+        {"id": "there", "location": [1, 1], "time_window": window}]
+    for customer in read_body(PlanRequest, to_json(request)).customers[::2]:
+        assert (customer.time_window.earliest, customer.time_window.latest) == (
+            read[0] * HOUR, read[1] * HOUR)
+
+
+def test_windows_before_a_shift_of_the_day_stay_on_it(client: httpx.Client, day: Request) -> None:
+    day["customers"][0]["time_window"] = {"earliest": "00:15", "latest": "00:45"}
+    assert read_body(PlanRequest, to_json(day)).customers[0].time_window.latest == 2700
+    day["plan_start"] = "2026-03-29T00:30"
+    day["customers"][0]["time_window"] = {"earliest": "00:15", "latest": "00:20"}
+    assert refused(client, day) == {"$.customers[0].time_window.latest": "BEFORE_PLAN_START"}
+
+
+def test_breaks_of_a_night_are_on_the_day_after(smallest: Request) -> None:
+    request = at_night(smallest)
+    start = {"earliest": "01:00", "latest": "01:30"}
+    read = read_body(PlanRequest, to_json(with_break(request, start))).fleet[0].breaks[0].start
+    assert (read.earliest, read.latest) == (25 * HOUR, 25.5 * HOUR)
+
+
 @pytest.mark.parametrize(("start", "says"), [
     ({"earliest": "5:30", "latest": "06:30:00"}, ("PT5H30M", "PT6H30M")),
     ({"latest": "2026-03-29T12:00"}, ("PT5H30M",)), ({"earliest": "+1 05:00"}, ("PT5H30M",))])

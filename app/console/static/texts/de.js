@@ -1756,6 +1756,8 @@ export default {
     WINDOWS_LOOK_LIKE_HOURS: 'Die Zeitfenster sehen nach Stunden aus: Geben Sie Uhrzeiten an.',
     WINDOWS_LOOK_LIKE_MILLISECONDS: 'Die Zeitfenster sehen nach Millisekunden aus.',
     WINDOWS_OUTSIDE_SHIFTS: 'Die meisten Zeitfenster liegen außerhalb aller Schichten.',
+    WINDOWS_OF_NEXT_DAY:
+      'Zeitfenster, die vor Beginn aller Schichten enden, gelten für den Tag darauf.',
     SERVICE_LOOKS_LIKE_MINUTES: 'Servicezeiten sehen nach Minuten aus, als Sekunden angegeben.',
     SERVICE_LOOKS_LIKE_MILLISECONDS: 'Servicezeiten sind länger als sechs Stunden.',
     SHIFT_LOOKS_LIKE_MINUTES: 'Diese Schicht sieht nach Minuten aus, als Sekunden angegeben.',

@@ -1720,6 +1720,7 @@ export default {
     WINDOWS_LOOK_LIKE_HOURS: 'The windows look like hours: state times of day.',
     WINDOWS_LOOK_LIKE_MILLISECONDS: 'The windows look like milliseconds.',
     WINDOWS_OUTSIDE_SHIFTS: 'Most windows are when no vehicle works.',
+    WINDOWS_OF_NEXT_DAY: 'Windows that end before any shift begins are taken for the day after.',
     SERVICE_LOOKS_LIKE_MINUTES: 'Times at customers look like minutes told as seconds.',
     SERVICE_LOOKS_LIKE_MILLISECONDS: 'Times at customers are longer than six hours.',
     SHIFT_LOOKS_LIKE_MINUTES: 'This shift looks like minutes told as seconds.',
