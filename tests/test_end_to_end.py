@@ -1,6 +1,7 @@
 """The service as users run it: the real command, the committed weights, real HTTP."""
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -33,6 +34,27 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
         yield http
     process.terminate()
     process.wait()
+
+
+def shows(told: Any, replied: Any) -> bool:
+    """Tell whether a reply has all that is told of it, in shortened lists too."""
+    if isinstance(told, dict):
+        return all(name in replied and shows(value, replied[name])
+                   for name, value in told.items() if name != "search_iterations")
+    if isinstance(told, list):
+        return bool(told) == bool(replied) and all(
+            any(shows(value, each) for each in replied) for value in told)
+    return bool(told == replied)
+
+
+def test_readme_shows_what_is_replied_to_its_request(client: httpx.Client) -> None:
+    readme = (ROOT / "README.md").read_text("utf-8")
+    request = re.search(r"/plan -d '(.*?)'", readme, re.DOTALL)
+    told = re.search(r"^```json\n(.*?)^```", readme, re.DOTALL | re.MULTILINE)
+    assert request is not None
+    assert told is not None
+    reply = client.post("/plan", json=json.loads(request[1])).json()
+    assert shows(json.loads(told[1]), reply), reply
 
 
 def is_ready(http: httpx.Client) -> bool:

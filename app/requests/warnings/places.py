@@ -81,10 +81,17 @@ def _degrees(survey: Survey) -> Warnings:
     within = ((sizes[:, 0] <= 180) & (sizes[:, 1] <= 180) & (sizes.min(axis=1) <= 90)).all()
     fine = np.abs(np.round(everywhere, 2) - everywhere) > 1e-9
     unit = survey.request.planar_unit
-    if not within or sizes.max() <= 1 or fine.mean() <= FINE_SHARE or unit >= DEGREES_M:
+    if not within or sizes.max() <= 1 or unit >= DEGREES_M:
         return
     width, away = _width(everywhere), float(np.hypot(*everywhere.mean(axis=0)))
-    if away >= DEGREE_WIDTH * width or (away >= width and width * unit <= 5 * TINY_M):
+    is_tiny = away >= width and width * unit <= 5 * TINY_M
+    if fine.mean() <= FINE_SHARE:
+        # Degrees may be as rough where nobody has said that places are on a plane.
+        stated = survey.request.model_fields_set & {"coordinate_system", "planar_unit"}
+        is_meant = not stated and is_tiny and survey.is_lifelike
+    else:
+        is_meant = is_tiny or away >= DEGREE_WIDTH * width
+    if is_meant:
         first = survey.bases[0].tolist()
         yield warning_at(
             "LOOKS_LIKE_DEGREES", ("coordinate_system",),

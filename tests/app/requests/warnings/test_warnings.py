@@ -237,6 +237,36 @@ def test_warnings_of_many_customers_take_no_time() -> None:
     assert time.process_time() - began < 1.0
 
 
+@pytest.mark.parametrize("places", [
+    [[11.57, 48.13], [11.61, 48.12], [11.53, 48.12]], [[24, 58], [24, 58.1], [24.1, 58]],
+    [[13.4, 52.5], [11.6, 48.1], [9, 53.5]], [[-74, 40.7], [-118.2, 34.1], [-95.4, 29.8]],
+    [[151.2, -33.87], [151.25, -33.9], [151.1, -33.8]]])
+def test_rough_degrees_are_told_where_no_coordinate_system_is_stated(
+        places: list[list[float]]) -> None:
+    depot, *customers = places
+    request: Request = {
+        "depots": [{"id": "d", "location": depot}],
+        "customers": [{"id": str(index), "location": place, "demand": [1]}
+                      for index, place in enumerate(customers)],
+        "fleet": [{"id": "van", "count": 1, "capacity": [9]}]}
+    (warning,) = seen(request)
+    assert (warning.code, warning.path) == ("LOOKS_LIKE_DEGREES", "$.coordinate_system")
+    assert '"coordinate_system": "geographic"' in warning.message
+    for stated in ({"coordinate_system": "planar"}, {"planar_unit": 1000}):
+        assert "LOOKS_LIKE_DEGREES" not in [each.code for each in seen(request | stated)]
+
+
+@pytest.mark.parametrize("places", [
+    [[0, 0], [3.5, 4], [6, 0.5]], [[40, 50], [45, 68], [42, 66], [20, 85], [88, 30]]])
+def test_small_planes_around_the_origin_are_no_degrees(places: list[list[float]]) -> None:
+    request: Request = {
+        "depots": [{"id": "d", "location": places[0]}],
+        "customers": [{"id": str(index), "location": place, "demand": [1]}
+                      for index, place in enumerate(places[1:])],
+        "fleet": [{"id": "van", "count": 1, "capacity": [9]}]}
+    assert "LOOKS_LIKE_DEGREES" not in [each.code for each in seen(request)]
+
+
 def of_shipments(amount: int, number: int = 2) -> Request:
     """Return orders that are shipments alone, for one vehicle of four."""
     request = munich()
