@@ -5,13 +5,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import Any
 
+from app.maps.roads.engine import Driving
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.carried import named
 from app.plans.road_lines import Line, RoadLines, encoded
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.launches import drones_named
 from app.requests.conversion.leg_origins import LegOrigin
-from app.requests.conversion.places import PlacedRequest
+from app.requests.conversion.places import PlacedRequest, avoided
 from app.requests.conversion.winds import Winds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
 from app.schemas.vehicle import VehicleTypeInput
@@ -44,6 +45,7 @@ class Geometry:
         self._locations: list[tuple[float, float]] | None = (
             [(float(x), float(y)) for x, y in ground.locations]
             if all(place.location is not None for place in ground.places) else None)
+        self._curb = placed.curb
         self._winds = Winds(request)
         self._detours = {flyer.altitude: ground.detours(flyer.altitude)
                          for kind in request.fleet for flyer in kind.flyers
@@ -68,7 +70,7 @@ class Geometry:
                 places = _places(trip["stops"])
                 nodes = [self._nodes[named(stop)] for stop in stops]
                 driven = (self._flown(nodes, kind, kind, until) if kind.flies
-                          else self._driven(nodes, kind.profile, until))
+                          else self._driven(nodes, kind, until))
                 for stop, line in zip(stops[1:], driven, strict=True):
                     stop["geometry"] = line
                 for sortie in trip["sorties"]:
@@ -88,10 +90,13 @@ class Geometry:
             visit["geometry"] = line
         sortie["recovery_geometry"] = last
 
-    def _driven(self, nodes: Sequence[int], profile: str, until: float) -> Iterable[Line]:
-        if profile not in self._roads.profiles or self._locations is None or len(nodes) < 2:
+    def _driven(self, nodes: Sequence[int], kind: VehicleTypeInput,
+                until: float) -> Iterable[Line]:
+        if kind.profile not in self._roads.profiles or self._locations is None or len(nodes) < 2:
             return self._straight(nodes)
-        return self._roads.along(profile, [self._locations[node] for node in nodes], until)
+        curb = None if self._curb is None else self._curb[list(nodes)]
+        return self._roads.along(kind.profile, [self._locations[node] for node in nodes], until,
+                                 Driving(avoided(kind), curb))
 
     def _straight(self, nodes: Sequence[int]) -> Iterator[Line]:
         for start, end in pairwise(nodes):

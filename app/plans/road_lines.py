@@ -6,7 +6,7 @@ from itertools import pairwise
 import numpy as np
 import polyline
 
-from app.maps.roads.engine import NoWayError, RoadsError
+from app.maps.roads.engine import USUAL, Driving, NoWayError, RoadsError
 from app.maps.roads.roads import Roads
 
 DECIMALS = 6
@@ -38,18 +38,20 @@ class RoadLines:
     def __init__(self, roads: Roads, profiles: Collection[str]) -> None:
         self.profiles = profiles
         self._roads = roads
-        self._known: dict[tuple[str, tuple[Place, ...]], list[Line]] = {}
+        self._known: dict[tuple[object, ...], list[Line]] = {}
 
-    def along(self, profile: str, places: Sequence[Place], until: float) -> list[Line]:
+    def along(self, profile: str, places: Sequence[Place], until: float,
+              driving: Driving = USUAL) -> list[Line]:
         """Return the line of each drive from place to place, ways to and from the road included.
 
         Where no road leads from one to the next, which a request may have allowed, it is straight;
         null if roads don't answer until then, on `time.perf_counter`.
         """
-        key = (profile, tuple(places))
+        curb = () if driving.curb is None else tuple(driving.curb.tolist())
+        key = (profile, tuple(places), driving.avoid, curb)
         if key not in self._known:
             try:
-                lines = self._asked(profile, places, until)
+                lines = self._asked(profile, places, until, driving)
             except RoadsError:
                 return [None] * (len(places) - 1)
             if len(self._known) >= MOST_KNOWN:
@@ -57,14 +59,16 @@ class RoadLines:
             self._known[key] = lines
         return self._known[key]
 
-    def _asked(self, profile: str, places: Sequence[Place], until: float) -> list[Line]:
+    def _asked(self, profile: str, places: Sequence[Place], until: float,
+               driving: Driving) -> list[Line]:
         try:
-            legs = self._roads.route(profile, np.array(places), until).legs
+            legs = self._roads.route(profile, np.array(places), until, driving).legs
         except NoWayError:
             if len(places) == 2:
                 return [encoded(places)]
-            return [line for leg in pairwise(places)
-                    for line in self._asked(profile, leg, until)]
+            return [line for start, leg in enumerate(pairwise(places))
+                    for line in self._asked(profile, leg, until,
+                                            driving.among(slice(start, start + 2)))]
         return list(_from_door_to_door(legs, places))
 
 

@@ -211,7 +211,7 @@ def _is_countable(draft: Draft, drones: Flyer, energy: EnergyInput) -> bool:
 
 TRUCKS = ("breaks", "driving_rules", "drones", "speed_profile", "max_travel_duration",
           "start_location", "start_location_index", "max_sorties", "max_airborne",
-          "truck_waits", "revisits")
+          "truck_waits", "revisits", "avoid")
 """Fields of a vehicle type that nothing has which flies by itself."""
 
 FLYING = ("altitude", "endurance", "max_range", "max_wind_kmh", "preset", "launch_duration",

@@ -7,10 +7,12 @@ from typing import Annotated, Literal, Self
 from pydantic import AfterValidator, Field, model_validator
 
 from app.schemas.fields import (
+    APPROACH_TEXT,
     LAUNCH_TEXT,
     LOCATION_INDEX_TEXT,
     LOCATION_TEXT,
     MAX_AMOUNT,
+    Approach,
     Demand,
     Duration,
     DurationsByType,
@@ -105,6 +107,8 @@ class AlternativeInput(Input):
     time_windows: Windows | None = Field(
         None, description="Several windows instead of `time_window`, as a customer's.")
     cost: Money = Field(0.0, description="Cost of being served there, among those of `stops`.")
+    approach: Approach | None = Field(
+        None, description="How roads lead there. Null: as the customer says.")
 
 
 class CustomerInput(Input):
@@ -194,6 +198,7 @@ class CustomerInput(Input):
         "or one of these.",
     )
     launch: bool = Field(True, description=LAUNCH_TEXT)
+    approach: Approach | None = Field(None, description=APPROACH_TEXT)
     info: Info = Field(
         default_factory=dict,
         json_schema_extra={"default": {}},
@@ -214,6 +219,7 @@ class CustomerInput(Input):
                 **dict(self), "id": place_name(self.id, place.id), "location": place.location,
                 "location_index": place.location_index, "time_window": place.time_window,
                 "time_windows": place.time_windows, "unassigned_cost": 0.0, "alternatives": [],
+                "approach": place.approach or self.approach,
                 **({"service_duration": place.service_duration, "service_duration_by_type": {}}
                    if own else {})})
 

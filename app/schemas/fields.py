@@ -60,6 +60,17 @@ LAUNCH_TEXT = ("Whether drones may take off from a truck there and be recovered.
                "of who may serve the place.")
 
 
+Approach = Literal["any", "curb"]
+"""From which side of the street a place may be reached."""
+
+APPROACH_TEXT = (
+    "How roads lead there: `any`, or `curb`, with the place on the side of the street where one "
+    "stops, and on in the same direction, without a U-turn. Null: as `roads.approach` says.")
+
+Avoided = Literal["tolls", "motorways", "ferries"]
+"""What vehicles may keep off."""
+
+
 class Input(BaseModel):
     """Strict on types, names and finiteness."""
 

@@ -14,8 +14,8 @@ from app.schemas.day import Day, Times
 from app.schemas.errors import IN_PLACE, IN_WORDS
 from app.schemas.fairness import FairnessInput
 from app.schemas.fields import (
-    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Count, Input,
-    Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
+    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_DEPOTS, MAX_LAUNCH_SITES, Approach, Count,
+    Input, Instant, LocationIndex, Money, Name, PlaceLocation, Rounding, Table,
 )
 from app.schemas.launch_site import HoursInput, LaunchSiteInput
 from app.schemas.limits import (
@@ -93,6 +93,9 @@ class RoadsInput(Input):
         description="Speed in km/h between a place and the road nearest to it, where the vehicle "
         "halts.",
     )
+    approach: Approach = Field(
+        "any", description="How roads lead to customers, their other places and shipments' ends "
+        "who don't say it themselves: `any`, or `curb`, on their side of the street.")
 
 
 class AddressesInput(Input):

@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from app.schemas.hindrances import AirspaceReply, StormReply, ZoneReply
 from app.schemas.hub import ChargingReply, HubReply
+from app.schemas.legs import LegsReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import (
     ALTERNATIVE_TEXT, PART_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
@@ -270,25 +271,6 @@ class SolverReply(_Reply):
         "iterations asked for were made, or none was. False if the clock ended the search."
     )
     elapsed: ElapsedReply = Field(description="Seconds by phase.")
-
-
-class LegsReply(_Reply):
-    """What the legs of a profile are made of."""
-
-    profile: str = Field(description="`profile` of vehicle types, or of drones.")
-    by: Literal["matrix", "roads", "great_circle", "straight", "flight"] = Field(
-        description="The request's `matrix`, the service's `roads`, the `great_circle` between "
-        "geographic locations, the `straight` line between planar ones, or a drone's `flight`."
-    )
-    engine: str | None = Field(description="What the roads were asked of, such as `osrm`.")
-    estimated: int = Field(
-        description="Legs that no road tells, and so are great circles times `detour`."
-    )
-    detour: float | None = Field(description="As the request states it, if any are estimated.")
-    farthest_from_road_m: float | None = Field(
-        description="Most metres between a place on the roads and the road."
-    )
-    note: str | None = Field(description="What to know of these legs, in words.")
 
 
 class LoadDimensionReply(_Reply):

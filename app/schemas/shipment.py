@@ -8,8 +8,9 @@ from pydantic_core import PydanticCustomError
 
 from app.schemas.customer import CustomerInput, TimeWindowInput, VehiclesInput, Windows
 from app.schemas.fields import (
-    LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_AMOUNT, Demand, Duration, DurationsByType,
-    Goods, Info, Input, LocationIndex, Money, Name, PlaceLocation, Skills, VehicleCosts,
+    APPROACH_TEXT, LAUNCH_TEXT, LOCATION_INDEX_TEXT, LOCATION_TEXT, MAX_AMOUNT, Approach, Demand,
+    Duration, DurationsByType, Goods, Info, Input, LocationIndex, Money, Name, PlaceLocation,
+    Skills, VehicleCosts,
 )
 from model.problem import MOST_PICKUPS
 
@@ -35,6 +36,7 @@ class ShipmentEndInput(Input):
         None, description="Several windows instead of `time_window`, as a customer's."
     )
     launch: bool = Field(True, description=LAUNCH_TEXT)
+    approach: Approach | None = Field(None, description=APPROACH_TEXT)
     info: Info = Field(
         default_factory=dict, json_schema_extra={"default": {}},
         description="What drivers are to know there, in words.",

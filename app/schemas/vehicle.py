@@ -1,6 +1,6 @@
 """A vehicle type of a request."""
 
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, get_args
 
 from pydantic import Discriminator, Field, Tag, model_validator
 
@@ -20,6 +20,7 @@ from app.schemas.fields import (
     LOCATION_TEXT,
     MAX_AMOUNT,
     MAX_DEPOTS,
+    Avoided,
     Count,
     Demand,
     Duration,
@@ -213,6 +214,11 @@ class VehicleTypeInput(Input):
     profile: Name = Field(
         "truck",
         description="Entry of `matrices` that holds the legs. Where it flies, `drone` by default.",
+    )
+    avoid: Annotated[list[Avoided], Field(max_length=len(get_args(Avoided)))] = Field(
+        [],
+        description="What the vehicles never drive on, where their legs are on roads: any of "
+        "`tolls`, `motorways` and `ferries`.",
     )
     speed_profile: Annotated[list[SpeedChangeInput], Field(max_length=1000)] = Field(
         [],

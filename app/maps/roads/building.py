@@ -15,11 +15,12 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
+from operator import itemgetter
 from pathlib import Path
 
-from app.maps.roads.setting import Extract
+from app.maps.roads.setting import Extract, Vehicle
 from app.maps.roads.stages import CONTRACTING, EXTRACTING, ToolFailedError, run_tool
-from app.maps.roads.tools import OWN_PROFILES, Tools
+from app.maps.roads.tools import OWN_PROFILES, SHARED, Tools
 from app.maps.streets.filing import folder_beside
 
 DATA = "roads.osrm"
@@ -38,6 +39,14 @@ READING_SHARE, EXTRACTING_SHARE = 0.03, 0.57
 
 _NO_LARGE_PART = "(0 large"
 _ROADS = re.compile(r"Generated (\d+) nodes")
+
+_FORMER: dict[Vehicle, str] = {
+    "car": "car",
+    "bicycle": "bicycle",
+    "van": "08b0f730958843caff92806426b3378335540afb63fa541c2d856a066f9fb48b",
+    "truck": "6d814783a47da317317fa3eb153427b06c9681f038a0db920c4e0d69ea118559",
+}
+"""Profiles of builds that know of nothing to avoid, or not of several at once: they still serve."""
 
 LARGE_SHARE = 10
 """A part of a small extract is large, so that places are put on its roads rather than on a nearer
@@ -121,13 +130,14 @@ def find_build(extract: Extract, tools: Tools) -> Build:
     """
     _require_file(extract.path)
     remove_leftovers(folder_beside(extract.path))
-    state, profile = extract.path.stat(), _profile_hash(extract, tools)
-    known = ""
-    for folder in sorted(folder_beside(extract.path).glob(f"{extract.vehicle}-*/{NOTES}")):
-        build = Build(folder.parent)
-        notes = build.notes()
-        if (notes.profile, notes.osrm, notes.size) != (profile, tools.version, state.st_size):
-            continue
+    state, known = extract.path.stat(), ""
+    profiles = (_profile_hash(extract, tools), _FORMER[extract.vehicle])
+    builds = [Build(notes.parent) for notes in sorted(
+        folder_beside(extract.path).glob(f"{extract.vehicle}-*/{NOTES}"))]
+    of_these = [(profiles.index(notes.profile), notes, build) for build in builds
+                if (notes := build.notes()).profile in profiles
+                and (notes.osrm, notes.size) == (tools.version, state.st_size)]
+    for _, notes, build in sorted(of_these, key=itemgetter(0)):
         if notes.changed == state.st_mtime_ns:
             return build
         known = known or _hash_of(extract.path)
@@ -238,9 +248,6 @@ def _hash_of(path: Path) -> str:
 
 
 def _profile_hash(extract: Extract, tools: Tools) -> str:
-    """Return what tells a profile from another; those of OSRM are known by its version."""
-    script = tools.profile(extract.vehicle)
-    if script.parent != OWN_PROFILES:
-        return extract.vehicle
-    scripts = (script, OWN_PROFILES / "goods.lua")
+    """Return what tells a profile from another; what it has of OSRM's is known by the version."""
+    scripts = (tools.profile(extract.vehicle), *(OWN_PROFILES / f"{name}.lua" for name in SHARED))
     return hashlib.sha256("".join(map(_hash_of, scripts)).encode()).hexdigest()

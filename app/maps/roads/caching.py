@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from app.maps.roads.engine import RoadTable
-from model.problem import FloatArray, IntArray
+from model.problem import BoolArray, FloatArray, IntArray
 
 DECIMALS = 6
 
@@ -25,6 +25,9 @@ MEMORY_BYTES = 256 * 2**20
 
 TABLES_SEARCHED = 16
 """Latest tables that are looked through for one with more places than those asked for."""
+
+_OF_ONE_SIDE = 2**61
+"""More than any place's number."""
 
 _SIDE_COLUMNS = 3  # where a place is on the road, and how far from there
 
@@ -55,9 +58,16 @@ class TableCache:
         self._lock = threading.Lock()
         self._filed: OrderedDict[str, _Filed] = OrderedDict()
 
-    def get(self, scope: str, lon_lat: FloatArray) -> RoadTable | None:
-        """Return the table between places, if it or a larger one is known."""
-        places = _numbers(lon_lat)
+    def get(self, scope: str, lon_lat: FloatArray,
+            curb: BoolArray | None = None) -> RoadTable | None:
+        """Return the table between places, if it or a larger one is known.
+
+        Parameters
+        ----------
+        curb
+            (place,) whether it is that to one side of the street. None: of none.
+        """
+        places = _numbers(lon_lat, curb)
         key = _key(scope, places)
         with self._lock:
             if key in self._filed:
@@ -73,9 +83,10 @@ class TableCache:
             self._keep(key, scope, places, table)
         return table
 
-    def overlap(self, scope: str, lon_lat: FloatArray) -> tuple[RoadTable, IntArray] | None:
+    def overlap(self, scope: str, lon_lat: FloatArray,
+                curb: BoolArray | None = None) -> tuple[RoadTable, IntArray] | None:
         """Return a table with at least half of the places, and the row of each, -1 for none."""
-        places = _numbers(lon_lat)
+        places = _numbers(lon_lat, curb)
         with self._lock:
             latest = list(reversed(self._filed.values()))[:TABLES_SEARCHED]
         best, fewest = None, len(places) // 2
@@ -89,9 +100,10 @@ class TableCache:
                 best, fewest = (filed.table, rows), missing
         return best
 
-    def put(self, scope: str, lon_lat: FloatArray, table: RoadTable) -> None:
+    def put(self, scope: str, lon_lat: FloatArray, table: RoadTable,
+            curb: BoolArray | None = None) -> None:
         """File a table. In place."""
-        places = _numbers(lon_lat)
+        places = _numbers(lon_lat, curb)
         key = _key(scope, places)
         self._keep(key, scope, places, table)
         if self._folder is not None and _size(table) <= self._disk_bytes:
@@ -165,10 +177,11 @@ def _states(folder: Path) -> Iterator[tuple[float, int, Path]]:
             yield state.st_mtime, state.st_size, path
 
 
-def _numbers(lon_lat: FloatArray) -> IntArray:
-    """Return a number for each place."""
+def _numbers(lon_lat: FloatArray, curb: BoolArray | None) -> IntArray:
+    """Return a number for each place, another one for its side of the street."""
     lon, lat = np.rint(lon_lat * 10**DECIMALS).astype(np.int64).T
-    return lon * 10**9 + lat
+    numbers: IntArray = lon * 10**9 + lat
+    return numbers if curb is None else numbers + curb * _OF_ONE_SIDE
 
 
 def _key(scope: str, places: IntArray) -> str:

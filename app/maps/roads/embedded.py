@@ -8,7 +8,9 @@ from typing import TypeVar
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.building import Build
 from app.maps.roads.child import MAX_ROUTE, Child
-from app.maps.roads.engine import Block, RoadRoute, RoadsUnavailableError, RoadTable
+from app.maps.roads.engine import (
+    USUAL, Block, Driving, RoadRoute, RoadsUnavailableError, RoadTable,
+)
 from app.maps.roads.osrm import Osrm
 from app.maps.roads.osrm_tables import quickest
 from app.maps.roads.server import RoadServer
@@ -59,14 +61,15 @@ class EmbeddedRoads:
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         """Return the drives between places."""
-        return self._twice(lambda osrm: osrm.table(lon_lat, until, should_stop, wanted), until,
-                           should_stop)
+        return self._twice(lambda osrm: osrm.table(lon_lat, until, should_stop, wanted, driving),
+                           until, should_stop)
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along points."""
-        return self._twice(lambda osrm: osrm.route(lon_lat, until), until)
+        return self._twice(lambda osrm: osrm.route(lon_lat, until, driving), until)
 
     def close(self) -> None:
         """End the child, and let go of connections. In place."""

@@ -1,7 +1,7 @@
 """What every source of roads hands out, and how one fails."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -10,7 +10,8 @@ from app.maps.remote.asking import ShouldStop
 from app.maps.remote.errors import (
     SourceAnswerError, SourceError, SourceKind, SourceStoppedError, SourceUnavailableError,
 )
-from model.problem import FloatArray, IntArray
+from app.schemas.fields import Avoided
+from model.problem import BoolArray, FloatArray, IntArray
 
 
 class RoadsError(SourceError):
@@ -27,6 +28,11 @@ class RoadsAnswerError(RoadsError, SourceAnswerError):
 
 class NoWayError(RoadsAnswerError):
     """No road leads from one of a route's points to its next."""
+
+
+class UnknownDrivingError(RoadsAnswerError):
+    """The source can't drive as it is asked to: to avoid that, or to a place's side of the street.
+    """
 
 
 class RoadsStoppedError(RoadsError, SourceStoppedError):
@@ -52,6 +58,42 @@ class Block:
 
     origins: IntArray
     destinations: IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Driving:
+    """How one drives on the roads of a profile.
+
+    Parameters
+    ----------
+    avoid
+        What is never driven on.
+    curb
+        (place,) of the places asked about, which are reached with the place on the side of the
+        street where one stops, and left in the same direction. None: no place.
+    """
+
+    avoid: tuple[Avoided, ...] = ()
+    curb: BoolArray | None = None
+
+    def among(self, places: IntArray | slice) -> "Driving":
+        """Return the same for some of the places asked about."""
+        return self if self.curb is None else replace(self, curb=self.curb[places])
+
+    def require_usual(self, source: str) -> None:
+        """Refuse all but the usual way to drive, for a source that knows no other.
+
+        Raises
+        ------
+        UnknownDrivingError
+            If it is another.
+        """
+        if self.avoid or self.curb is not None:
+            raise UnknownDrivingError(f"{source} is asked neither to avoid anything nor for sides "
+                                      "of streets.")
+
+
+USUAL = Driving()
 
 
 def whole(count: int) -> tuple[Block, ...]:
@@ -84,7 +126,8 @@ class RoadEngine(Protocol):
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         """Return the drives between (place, 2) longitudes and latitudes, whole or not at all.
 
         Parameters
@@ -93,6 +136,8 @@ class RoadEngine(Protocol):
             When to have ended at the latest, on `time.perf_counter`.
         wanted
             The legs to ask for, each place in one of them; all others are nan. None: all.
+        driving
+            How one drives, and to which side of each place.
 
         Raises
         ------
@@ -101,7 +146,7 @@ class RoadEngine(Protocol):
         """
         ...
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along (point, 2) longitudes and latitudes; raises as `table` does."""
         ...
 

@@ -9,7 +9,8 @@ from typing import Any
 from app.maps.remote.asking import Asking, Question, ShouldStop
 from app.maps.roads.answers import Part, Schema, TableAnswer, blocks, joined, read, stated_refusal
 from app.maps.roads.engine import (
-    ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
+    ROADS, USUAL, Block, Driving, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable,
+    whole,
 )
 from app.maps.roads.lines import decoded, joined_route, route_of, stretches
 from app.maps.roads.server import RoadServer
@@ -72,8 +73,10 @@ class OpenRouteService:
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         """Return the drives between places."""
+        driving.require_usual("openrouteservice")
         parts = blocks(whole(len(lon_lat)) if wanted is None else wanted,
                        self._server.max_places)
         questions = [self._question(lon_lat, block) for block in parts]
@@ -89,8 +92,9 @@ class OpenRouteService:
         most = rows * columns * BYTES_PER_LEG + len(places) * BYTES_PER_PLACE + BYTES_BESIDES
         return Question(f"/v2/matrix/{self._profile}", partial(_part, block, places), most, body)
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along points."""
+        driving.require_usual("openrouteservice")
         questions = []
         for stretch in stretches(len(lon_lat), self._server.max_points):
             points = lon_lat[stretch].tolist()

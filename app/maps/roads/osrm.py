@@ -12,11 +12,13 @@ import polyline
 from app.maps.remote.asking import Asking, Question, ShouldStop
 from app.maps.roads.answers import Part, Schema, blocks, joined, moved, read, stated_refusal
 from app.maps.roads.engine import (
-    ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
+    ROADS, USUAL, Block, Driving, NoWayError, RoadRoute, RoadsAnswerError, RoadsError,
+    RoadTable, UnknownDrivingError, whole,
 )
 from app.maps.roads.lines import DECIMALS, decoded, joined_route, route_of, stretches
 from app.maps.roads.osrm_tables import BYTES_BESIDES, Asked, TableForm, in_json
 from app.maps.roads.server import RoadServer
+from app.schemas.fields import Avoided
 from model.problem import BoolArray, FloatArray
 
 COMPANY = 5
@@ -24,6 +26,12 @@ COMPANY = 5
 
 BYTES_PER_ROUTE = 64 << 20
 """More than any route takes."""
+
+CLASSES: dict[Avoided, str] = {"tolls": "toll", "motorways": "motorway", "ferries": "ferry"}
+"""What OSRM calls what is avoided."""
+
+UNBUILT = "Exclude flag combination"
+"""How OSRM begins to say that its roads weren't prepared for it to avoid all that together."""
 
 Answer = TypeVar("Answer")
 
@@ -88,10 +96,12 @@ class Osrm:
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         """Return the drives between places."""
         return self._anyhow(lambda: self._table(
-            lon_lat, until, should_stop, whole(len(lon_lat)) if wanted is None else wanted))
+            lon_lat, until, should_stop, whole(len(lon_lat)) if wanted is None else wanted,
+            driving))
 
     def _anyhow(self, ask: Callable[[], Answer]) -> Answer:
         """Return an answer, of a server that looks for roads near places only, too."""
@@ -104,41 +114,44 @@ class Osrm:
             return ask()
 
     def _table(self, lon_lat: FloatArray, until: float, should_stop: ShouldStop,
-               wanted: Sequence[Block]) -> RoadTable:
-        asked = self._cut(lon_lat, wanted)
+               wanted: Sequence[Block], driving: Driving) -> RoadTable:
+        asked = self._cut(lon_lat, wanted, driving)
         answers = dict(zip(asked, self._form(self._asking, asked, until, should_stop),
                            strict=True))
         unsure = moved(len(lon_lat), _by_block(answers))
         if unsure.any():
             doubted = [one for one in asked if unsure[one.block.origins].any()
                        or unsure[one.block.destinations].any()]
-            again = [self._asked(lon_lat, one.block, _company(one.block, unsure))
+            again = [self._asked(lon_lat, one.block, driving, _company(one.block, unsure))
                      for one in doubted]
             answers.update(zip(doubted, self._form(self._asking, again, until, should_stop),
                                strict=True))
         return joined(lon_lat, _by_block(answers))
 
-    def _cut(self, lon_lat: FloatArray, wanted: Sequence[Block]) -> list[Asked]:
+    def _cut(self, lon_lat: FloatArray, wanted: Sequence[Block],
+             driving: Driving) -> list[Asked]:
         """Return how to ask for blocks that the server takes."""
         most = self._server.max_places
         while True:
             parts = blocks(wanted, most)
-            asked = [self._asked(lon_lat, block) for block in parts]
+            asked = [self._asked(lon_lat, block, driving) for block in parts]
             longest = max((len(one.whole) for one in asked), default=0)
             if longest <= self._server.max_url or most == 1:
                 return asked
             largest = max(max(len(part.origins), len(part.destinations)) for part in parts)
             most = -(-largest // 2)
 
-    def _asked(self, lon_lat: FloatArray, block: Block, company: Sequence[int] = ()) -> Asked:
+    def _asked(self, lon_lat: FloatArray, block: Block, driving: Driving,
+               company: Sequence[int] = ()) -> Asked:
         named = np.unique([*block.origins, *block.destinations, *company])
         origins, destinations = (np.searchsorted(named, places)
                                  for places in (block.origins, block.destinations))
         # OSRM makes no table of one place.
-        places = lon_lat[named if len(named) > 1 else named.repeat(2)]
+        named = named if len(named) > 1 else named.repeat(2)
+        places = lon_lat[named]
         return Asked(block, self._path("table", places),
-                     f"&generate_hints=false{self._radii(len(places))}", places, origins,
-                     destinations)
+                     f"&generate_hints=false{self._radii(len(places))}"
+                     f"{_stated(driving.among(named))}", places, origins, destinations)
 
     def _radii(self, count: int) -> str:
         """Return that each place is to be put on the nearest road however far that is."""
@@ -148,23 +161,31 @@ class Osrm:
         line = polyline.encode(places.tolist(), DECIMALS, geojson=True)
         return f"/{service}/v1/{self._profile}/polyline6({quote(line, safe='')})"
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along points, turning at each where the table's drives begin anew."""
-        return self._anyhow(lambda: self._route(lon_lat, until))
+        return self._anyhow(lambda: self._route(lon_lat, until, driving))
 
-    def _route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def _route(self, lon_lat: FloatArray, until: float, driving: Driving) -> RoadRoute:
         questions = []
         for stretch in stretches(len(lon_lat), self._server.max_points):
             points = lon_lat[stretch]
             path = (f"{self._path('route', points)}?overview=full&geometries=polyline6"
                     "&annotations=distance&continue_straight=false&generate_hints=false"
-                    f"{self._radii(len(points))}")
+                    f"{self._radii(len(points))}{_stated(driving.among(stretch))}")
             questions.append(Question(path, partial(_route, len(points)), BYTES_PER_ROUTE))
         return joined_route(self._asking.ask(questions, until))
 
     def close(self) -> None:
         """Let go of connections."""
         self._asking.close()
+
+
+def _stated(driving: Driving) -> str:
+    """Return how one drives, as OSRM is told."""
+    excluded = ",".join(CLASSES[avoided] for avoided in driving.avoid)
+    sides = (";".join("curb" if curb else "" for curb in driving.curb)
+             if driving.curb is not None and driving.curb.any() else "")
+    return (f"&exclude={excluded}" if excluded else "") + (f"&approaches={sides}" if sides else "")
 
 
 def _company(block: Block, unsure: BoolArray) -> list[int]:
@@ -205,4 +226,8 @@ def _refusal(status: int, body: bytes) -> RoadsError:
         return NoWayError("No road leads from one of these points to its next.")
     if refusal.code == "NoSegment":
         return _NoSegmentError("The server of roads knows no road near one of these points.")
+    if refusal.message.startswith(UNBUILT):
+        return UnknownDrivingError(
+            "they weren't prepared for that (of what there is, OSRM has room for all but motorways "
+            "with ferries and without tolls).")
     return RoadsAnswerError(f"The server of roads refused with {refusal.code!r:.80}.")

@@ -12,7 +12,7 @@ from app.maps.addresses.addresses import NO_ADDRESSES, Addresses
 from app.maps.airspace.zone import Zone
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.caching import DECIMALS, TableCache, part_of
-from app.maps.roads.engine import Block, RoadEngine, RoadRoute, RoadTable
+from app.maps.roads.engine import USUAL, Block, Driving, RoadEngine, RoadRoute, RoadTable
 from app.maps.roads.nearness import FULL_UP_TO, Nearness
 from model.problem import FloatArray
 
@@ -81,7 +81,7 @@ class Roads:
             engine.close()
 
     def table(self, profile: str, lon_lat: FloatArray, until: float,
-              should_stop: ShouldStop = lambda: False) -> RoadTable:
+              should_stop: ShouldStop = lambda: False, driving: Driving = USUAL) -> RoadTable:
         """Return the drives between (place, 2) longitudes and latitudes, not to be changed.
 
         Parameters
@@ -90,6 +90,8 @@ class Roads:
             One that has roads.
         until
             When to have ended at the latest, on `time.perf_counter`.
+        driving
+            How one drives, and to which side of each place.
 
         Raises
         ------
@@ -98,60 +100,66 @@ class Roads:
         """
         engine = self._engines[profile]
         places = np.round(lon_lat, DECIMALS)
-        scope = self._scope(profile, engine)
-        known = self._cache.get(scope, places)
+        scope = self._scope(profile, engine, driving)
+        known = self._cache.get(scope, places, driving.curb)
         if known is None:
-            known = (self._extended(engine, scope, places, until, should_stop)
-                     or engine.table(places, until, should_stop))
-            self._cache.put(scope, places, known)
+            known = (self._extended(engine, scope, places, until, should_stop, driving)
+                     or engine.table(places, until, should_stop, driving=driving))
+            self._cache.put(scope, places, known, driving.curb)
         return known
 
     def near_legs(self, profile: str, lon_lat: FloatArray, parts: Nearness, until: float,
-                  should_stop: ShouldStop = lambda: False) -> RoadTable:
+                  should_stop: ShouldStop = lambda: False,
+                  driving: Driving = USUAL) -> RoadTable:
         """Return the legs that are wanted of so many places, others nan; raises as `table` does."""
         engine = self._engines[profile]
         places = np.round(lon_lat, DECIMALS)
         # Of other places, others are near: such a table is of use for these alone.
-        scope = f"{self._scope(profile, engine)} near {sha256(places.tobytes()).hexdigest()}"
-        known = self._cache.get(scope, places)
+        near = sha256(places.tobytes()).hexdigest()
+        scope = f"{self._scope(profile, engine, driving)} near {near}"
+        known = self._cache.get(scope, places, driving.curb)
         if known is None:
-            known = engine.table(places, until, should_stop, parts.wanted())
-            self._cache.put(scope, places, known)
+            known = engine.table(places, until, should_stop, parts.wanted(), driving)
+            self._cache.put(scope, places, known, driving.curb)
         return known
 
     def some_legs(self, profile: str, lon_lat: FloatArray, wanted: Sequence[Block], until: float,
-                  should_stop: ShouldStop = lambda: False) -> RoadTable:
+                  should_stop: ShouldStop = lambda: False,
+                  driving: Driving = USUAL) -> RoadTable:
         """Return some legs, others nan; raises as `table` does."""
-        return self._engines[profile].table(np.round(lon_lat, DECIMALS), until, should_stop, wanted)
+        return self._engines[profile].table(np.round(lon_lat, DECIMALS), until, should_stop, wanted,
+                                            driving)
 
-    def _scope(self, profile: str, engine: RoadEngine) -> str:
+    def _scope(self, profile: str, engine: RoadEngine, driving: Driving) -> str:
         """Return what decides an engine's answers beside the places."""
         build = engine.build() or f"at {time.time() // UNKNOWN_BUILD_SECONDS:.0f}"
-        return " ".join((engine.name, profile, self._origins.get(profile, ""), build))
+        avoiding = ("without", *driving.avoid) if driving.avoid else ()
+        return " ".join((engine.name, profile, self._origins.get(profile, ""), build, *avoiding))
 
     def _extended(self, engine: RoadEngine, scope: str, places: FloatArray, until: float,
-                  should_stop: ShouldStop) -> RoadTable | None:
+                  should_stop: ShouldStop, driving: Driving) -> RoadTable | None:
         """Return a table of which a part is known: only the rest is asked for.
 
         None if too little is known, or where a place lies on the road hangs on the others.
         """
-        found = self._cache.overlap(scope, places)
+        found = self._cache.overlap(scope, places, driving.curb)
         if found is None:
             return None
         table, rows = found
         new, old = np.flatnonzero(rows < 0), np.flatnonzero(rows >= 0)
         known = part_of(table, rows[old])
         more = engine.table(places, until, should_stop,
-                            (Block(new, np.arange(len(places))), Block(old, new)))
+                            (Block(new, np.arange(len(places))), Block(old, new)), driving)
         if not np.array_equal(more.snapped[old], known.snapped, equal_nan=True):
             return None
         both = np.ix_(old, old)
         more.durations_s[both], more.distances_m[both] = known.durations_s, known.distances_m
         return more
 
-    def route(self, profile: str, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, profile: str, lon_lat: FloatArray, until: float,
+              driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along (point, 2) longitudes and latitudes; raises as `table` does."""
-        return self._engines[profile].route(np.round(lon_lat, DECIMALS), until)
+        return self._engines[profile].route(np.round(lon_lat, DECIMALS), until, driving)
 
 
 NO_ROADS = Roads({})

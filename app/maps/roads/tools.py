@@ -12,6 +12,9 @@ from app.maps.roads.setting import Vehicle
 
 OWN_PROFILES = Path(__file__).resolve().parent / "profiles"
 
+SHARED = ("avoidable", "goods")
+"""Scripts there that those of vehicles are made of."""
+
 _THEIR_PROFILES = ("share/profiles", "share/osrm/profiles", "profiles")
 """Where OSRM's profiles lie beside the folder of its executables."""
 
@@ -51,8 +54,7 @@ class Tools:
 
     def profile(self, vehicle: Vehicle) -> Path:
         """Return what says where a vehicle may go, and how fast."""
-        own = OWN_PROFILES / f"{vehicle}.lua"
-        return own if own.exists() else self.profiles / f"{vehicle}.lua"
+        return OWN_PROFILES / f"tandem_{vehicle}.lua"
 
 
 def find_tools() -> Tools:

@@ -21,7 +21,8 @@ from app.maps.roads.answers import (
     stated_refusal,
 )
 from app.maps.roads.engine import (
-    ROADS, Block, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable, whole,
+    ROADS, USUAL, Block, Driving, NoWayError, RoadRoute, RoadsAnswerError, RoadsError, RoadTable,
+    whole,
 )
 from app.maps.roads.lines import decoded, joined_route, route_of, stretches
 from app.maps.roads.server import RoadServer
@@ -120,8 +121,10 @@ class Valhalla:
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         """Return the drives between places."""
+        driving.require_usual("Valhalla")
         snapped, spread_m = self._located(lon_lat, until, should_stop)
         near = np.flatnonzero(np.isfinite(spread_m))
         places, spots = lon_lat[near], snapped[near]
@@ -153,8 +156,9 @@ class Valhalla:
         return Question(f"/sources_to_targets{self._stated}", partial(_part, block, spots), most,
                         body, partial(_unconnected, block, spots))
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         """Return the drive along points."""
+        driving.require_usual("Valhalla")
         questions = []
         for stretch in stretches(len(lon_lat), self._server.max_points):
             points = lon_lat[stretch]

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.maps.remote.asking import ShouldStop
-from app.maps.roads.engine import Block, RoadsAnswerError, RoadTable
+from app.maps.roads.engine import Block, Driving, RoadsAnswerError, RoadTable
 from model.problem import BoolArray, FloatArray, IntArray, Problem, Travel
 from model.solution import Solution
 from model.travel.matrices import matrix_legs
@@ -18,8 +18,8 @@ DEAR_MS, DEAR_MM = 10**9, 10**9
 """What an unknown leg is given where it isn't to be driven: eleven days and a thousand kilometres.
 """
 
-Ask = Callable[[FloatArray, Sequence[Block], float, ShouldStop], RoadTable]
-"""From places, the legs wanted, an instant and what tells to stop, to a table."""
+Ask = Callable[[FloatArray, Sequence[Block], float, ShouldStop, Driving], RoadTable]
+"""From places, the legs wanted, an instant, what tells to stop and how one drives, to a table."""
 
 
 @dataclass(frozen=True)
@@ -36,6 +36,7 @@ class FarLegs:
 
     ask: Ask
     lon_lat: FloatArray
+    driving: Driving
     snapped: FloatArray
     walks_s: FloatArray
     guessed: BoolArray
@@ -57,7 +58,8 @@ class FarLegs:
         hub = int(numbers[0])
         wanted = [Block(np.unique(np.append(part[:, 0], hub)), np.unique(part[:, 1]))
                   for part in np.array_split(pairs, -(-len(pairs) // LEGS_AT_ONCE))]
-        table = self.ask(self.lon_lat[places], wanted, until, should_stop)
+        table = self.ask(self.lon_lat[places], wanted, until, should_stop,
+                         self.driving.among(places))
         if not np.array_equal(table.snapped, self.snapped[places], equal_nan=True):
             raise RoadsAnswerError("The server of roads puts places elsewhere than before.")
         start, end = pairs.T

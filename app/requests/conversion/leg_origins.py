@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
+from app.schemas.fields import Avoided
+
 By = Literal["matrix", "roads", "great_circle", "straight", "flight"]
 
 AS_THE_CROW_FLIES = ("Driving is as the crow flies: the service has no roads for this profile "
@@ -21,3 +23,4 @@ class LegOrigin:
     detour: float | None = None
     farthest_from_road_m: float | None = None
     note: str | None = None
+    avoid: tuple[Avoided, ...] = ()

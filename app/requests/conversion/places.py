@@ -9,8 +9,9 @@ import numpy as np
 
 from app.requests.conversion.units import by_name
 from app.schemas.customer import CustomerInput
+from app.schemas.fields import Avoided
 from app.schemas.launch_site import LaunchSiteInput
-from app.schemas.request import DepotInput, PlanRequest
+from app.schemas.request import DepotInput, PlanRequest, RoadsInput
 from app.schemas.vehicle import PlaceInput, VehicleTypeInput
 from model.problem import BoolArray, Depot
 
@@ -109,6 +110,23 @@ class PlacedRequest:
         depots += [site for site, *_ in self._sites]
         return tuple(depots if self.nowhere is None else [*depots, NOWHERE])
 
+    @cached_property
+    def curb(self) -> BoolArray | None:
+        """(place,) which ones roads lead to on one side of the street; None: to none of them."""
+        roads = self.request.roads
+        usual = roads.approach if isinstance(roads, RoadsInput) else "any"
+        curb: BoolArray = np.array([
+            isinstance(place, CustomerInput) and (place.approach or usual) == "curb"
+            for place in self.places])
+        return curb if curb.any() else None
+
+    @property
+    def curb_path(self) -> Path:
+        """Where the request first says that a place has a side of the street."""
+        stated = [path for path, place in zip(self.paths, self.places, strict=True)
+                  if isinstance(place, CustomerInput) and place.approach == "curb"]
+        return (*stated[0][:-1], "approach") if stated else ("roads", "approach")
+
     @property
     def names(self) -> list[tuple[str, str]]:
         """The kind and the id of each place, in their order."""
@@ -151,6 +169,11 @@ class PlacedRequest:
         again = [revisits(self.request.fleet[kind]) for kind in kinds]
         table[again, first + stated:first + len(self._sites)] = True
         return table
+
+
+def avoided(kind: VehicleTypeInput) -> tuple[Avoided, ...]:
+    """Return what vehicles of a type avoid on roads, each once and in one order."""
+    return tuple(sorted(set(kind.avoid)))
 
 
 def revisits(kind: VehicleTypeInput) -> bool:

@@ -7,13 +7,17 @@ from typing import Protocol
 
 import numpy as np
 
-from app.maps.roads.engine import RoadsError, RoadsStoppedError, RoadsUnavailableError, RoadTable
+from app.maps.roads.engine import (
+    Driving, RoadsError, RoadsStoppedError, RoadsUnavailableError, RoadTable,
+    UnknownDrivingError,
+)
 from app.maps.roads.nearness import Nearness, estimated, nearness
 from app.maps.roads.roads import Roads
 from app.requests.conversion.far_legs import Ask, FarLegs
-from app.requests.conversion.places import PlacedRequest
+from app.requests.conversion.places import Path, PlacedRequest, avoided
 from app.requests.conversion.preparing import Preparing, StoppedError
 from app.schemas.errors import InputError, InvalidRequestError, NoRoadsError, json_path
+from app.schemas.fields import Avoided
 from app.schemas.request import RoadsInput
 from model.problem import BoolArray, FloatArray
 
@@ -57,9 +61,9 @@ class RoadLegs:
     far: FarLegs | None = None  # those that are estimated until a plan drives them
 
 
-def road_legs(roads: Roads, profile: str, placed: PlacedRequest, ground: Straight,
-              preparing: Preparing) -> RoadLegs:
-    """Return a request's legs by the roads of a profile.
+def road_legs(roads: Roads, profile: str, avoid: tuple[Avoided, ...], placed: PlacedRequest,
+              ground: Straight, preparing: Preparing) -> RoadLegs:
+    """Return a request's legs by the roads of a profile, without some.
 
     Of many places only legs to near ones are asked for, and the others are estimated; a plan that
     goes on from another has all of them.
@@ -69,17 +73,18 @@ def road_legs(roads: Roads, profile: str, placed: PlacedRequest, ground: Straigh
     NoRoadsError
         If there is no answer.
     InvalidRequestError
-        If places are off the roads and the request states no fallback, or time is over before
-        there are legs.
+        If places are off the roads and the request states no fallback, the roads can't be driven
+        as it asks, or time is over before there are legs.
     StoppedError
         If the work is to end.
     """
     with preparing.waiting() as latest:
-        return _legs_by(roads, profile, placed, ground, preparing, latest)
+        return _legs_by(roads, profile, Driving(avoid, placed.curb), placed, ground, preparing,
+                        latest)
 
 
-def _legs_by(roads: Roads, profile: str, placed: PlacedRequest, ground: Straight,
-             preparing: Preparing, latest: float) -> RoadLegs:
+def _legs_by(roads: Roads, profile: str, driving: Driving, placed: PlacedRequest,
+             ground: Straight, preparing: Preparing, latest: float) -> RoadLegs:
     """Return the legs that roads tell until an instant; arguments and errors of `road_legs`."""
     request = placed.request
     stated = request.roads if isinstance(request.roads, RoadsInput) else RoadsInput()
@@ -89,8 +94,11 @@ def _legs_by(roads: Roads, profile: str, placed: PlacedRequest, ground: Straight
         parts = nearness(lon_lat, range(len(lon_lat) - len(request.customers)))
     until = _until(latest, stated)
     try:
-        table = (roads.table(profile, lon_lat, until, preparing.should_stop) if parts is None
-                 else roads.near_legs(profile, lon_lat, parts, until, preparing.should_stop))
+        table = (roads.table(profile, lon_lat, until, preparing.should_stop, driving)
+                 if parts is None else
+                 roads.near_legs(profile, lon_lat, parts, until, preparing.should_stop, driving))
+    except UnknownDrivingError as error:
+        raise _unknown_driving(profile, driving, placed, error) from error
     except RoadsStoppedError as error:
         raise StoppedError("The work was stopped before there was a plan: try again.") from error
     except RoadsError as error:
@@ -103,10 +111,30 @@ def _legs_by(roads: Roads, profile: str, placed: PlacedRequest, ground: Straight
         nothing = np.where(np.eye(size, dtype=bool), 0.0, np.nan)
         return RoadLegs(nothing, nothing, engine, None, size * (size - 1),
                         f"All legs are estimated: {error}")
-    legs = _Legs(placed, profile, engine, stated, table, None if parts is None else parts.asked())
+    legs = _Legs(placed, profile, driving, engine, stated, table,
+                 None if parts is None else parts.asked())
     if parts is None:
         return legs.legs()
     return legs.with_far_ones(parts, ground.distances_m, partial(roads.some_legs, profile), lon_lat)
+
+
+def _unknown_driving(profile: str, driving: Driving, placed: PlacedRequest,
+                     error: UnknownDrivingError) -> InvalidRequestError:
+    """Return what can't be had of roads, where the request first asks for it."""
+    request = placed.request
+    path: Path
+    if driving.avoid:
+        path = ("fleet", next(index for index, kind in enumerate(request.fleet)
+                              if (kind.profile, avoided(kind)) == (profile, driving.avoid)),
+                "avoid")
+        what = f"avoid {' and '.join(driving.avoid)}"
+    else:
+        path = placed.curb_path
+        what = "lead to one side of the street"
+    return InvalidRequestError([InputError(
+        code="ROADS_WITHOUT_THAT", path=json_path(path),
+        message=f"The roads of {profile!r} can't {what}: {error} Leave it out, or have whoever "
+        "runs the service prepare the roads of an extract again (tandem roads build).")])
 
 
 def _is_late(error: RoadsError) -> bool:
@@ -134,10 +162,11 @@ def _until(latest: float, stated: RoadsInput) -> float:
 class _Legs:
     """A table with all places of a request, some of which may be off the roads."""
 
-    def __init__(self, placed: PlacedRequest, profile: str, engine: str, stated: RoadsInput,
-                 table: RoadTable, asked: BoolArray | None) -> None:
+    def __init__(self, placed: PlacedRequest, profile: str, driving: Driving, engine: str,
+                 stated: RoadsInput, table: RoadTable, asked: BoolArray | None) -> None:
         self._placed = placed
         self._profile = profile
+        self._driving = driving
         self._engine = engine
         self._stated = stated
         self._table = table
@@ -177,7 +206,7 @@ class _Legs:
         for numbers in (durations, distances):
             numbers[off, :] = numbers[:, off] = np.nan
             np.fill_diagonal(numbers, 0.0)
-        far = FarLegs(ask, lon_lat, table.snapped, self._walks_s(off), unknown,
+        far = FarLegs(ask, lon_lat, self._driving, table.snapped, self._walks_s(off), unknown,
                       (table.durations_s[:, 0], table.distances_m[:, 0]),
                       (table.durations_s[0], table.distances_m[0]))
         return replace(legs, durations_s=durations, distances_m=distances, far=far,
@@ -221,8 +250,10 @@ class _Legs:
         elif not self._is_near[0]:
             found = "The first depot is off the roads, so no way leads here"
         else:
+            without = (f" without {' and '.join(self._driving.avoid)}" if self._driving.avoid
+                       else "")
             found = (f"The nearest road for {self._profile!r}, {away:.0f} m away, has no way to "
-                     "or from the first depot")
+                     f"or from the first depot{without}")
         return InputError(
             code="PLACE_OFF_ROADS", path=json_path(self._placed.paths[node]),
             message=f"{found}: correct the location, have drones serve it (served_by), check that "

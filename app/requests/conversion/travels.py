@@ -12,14 +12,14 @@ from app.requests.conversion.energy import climb_duration
 from app.requests.conversion.far_legs import Estimates, FarTravel
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.leg_origins import AS_ASKED, AS_THE_CROW_FLIES, LegOrigin
-from app.requests.conversion.places import PlacedRequest
+from app.requests.conversion.places import PlacedRequest, avoided
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.road_legs import RoadLegs, road_legs
 from app.requests.conversion.units import thousandths
 from app.requests.conversion.winds import Winds
 from app.requests.conversion.work import COMPUTED, legs_seconds
 from app.schemas.drones import DEFAULT_DRONE_SPEED_KMH, DronesInput, Flyer
-from app.schemas.fields import MAX_AMOUNT
+from app.schemas.fields import MAX_AMOUNT, Avoided
 from app.schemas.request import MatrixInput, RoadsInput
 from app.schemas.rows import Row
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
@@ -51,6 +51,7 @@ class _Key(NamedTuple):
     altitude: float = 0.0  # which matters where there are zones
     winds: tuple[Breeze, ...] = ()  # the worst of which counts; (): the steady one
     tabled: bool = False  # never computed where legs are looked up
+    avoid: tuple[Avoided, ...] = ()  # on roads
 
 
 STRAIGHT = _Key("drive", "", DEFAULT_DRONE_SPEED_KMH)
@@ -100,7 +101,7 @@ class Travels:
         self._ground = ground or Ground(placed, preparing, roads.zones)
         self._roads = roads
         self.winds = Winds(placed.request)
-        self._road_legs: dict[str, RoadLegs] = {}
+        self._road_legs: dict[tuple[str, tuple[Avoided, ...]], RoadLegs] = {}
         self._places = placed.places
         self._nowhere = placed.nowhere
         self._index: dict[_Key, int] = {}
@@ -119,7 +120,8 @@ class Travels:
         driven = len(self._stated(self._keys() - flown))
         flown = self._stated(flown)
         if on_roads and self._ground.is_geographic and request.roads != "none":
-            driven = max(driven, len({kind.profile for kind in request.fleet if not kind.flies}))
+            driven = max(driven, len({(kind.profile, avoided(kind)) for kind in request.fleet
+                                      if not kind.flies}))
         return driven + len(flown) + (len(flown) if sets_up else 0)
 
     def expect_legs(self) -> None:
@@ -169,14 +171,15 @@ class Travels:
     def origins(self) -> tuple[LegOrigin, ...]:
         """Return what the legs of each profile are made of, trucks' first."""
         fleet = self._request.fleet
-        driven = {kind.profile: self._origin(kind.profile) for kind in fleet if not kind.flies}
+        driven = [(kind.profile, avoided(kind) if self._is_on_roads(kind) else ())
+                  for kind in fleet if not kind.flies]
+        origins = [self._origin(*how) for how in dict.fromkeys(driven)]
         flown = {flyer.profile: LegOrigin(
                      flyer.profile, "flight" if self._matrix(flyer.profile) is None else "matrix")
                  for kind in fleet for flyer in kind.flyers}
-        return (*driven.values(), *(origin for origin in flown.values()
-                                    if origin not in driven.values()))
+        return (*origins, *(origin for origin in flown.values() if origin not in origins))
 
-    def _origin(self, profile: str) -> LegOrigin:
+    def _origin(self, profile: str, avoid: tuple[Avoided, ...]) -> LegOrigin:
         stated = self._request.roads
         if self._matrix(profile) is not None:
             return LegOrigin(profile, "matrix")
@@ -185,16 +188,16 @@ class Travels:
         if not self._has_roads(profile):
             return LegOrigin(profile, "great_circle",
                              note=AS_ASKED if stated == "none" else AS_THE_CROW_FLIES)
-        legs = self._legs_on_roads(profile)
+        legs = self._legs_on_roads(profile, avoid)
         detour = stated.detour if isinstance(stated, RoadsInput) and legs.estimated else None
         return LegOrigin(profile, "roads", legs.engine, legs.estimated, detour, legs.farthest_m,
-                         legs.note)
+                         legs.note, avoid)
 
     def estimates(self) -> Estimates | None:
         """Return what is estimated of the legs on roads until a plan drives them."""
         travels = {}
         for key, index in self._index.items():
-            far = self._road_legs[key.profile].far if key.means == "road" else None
+            far = self._road_legs[key.profile, key.avoid].far if key.means == "road" else None
             if far is not None:
                 travels[index] = FarTravel(far, key.speed, self._travels[index])
         return Estimates(travels, self._nowhere) if travels else None
@@ -242,11 +245,11 @@ class Travels:
             return self._flying(vehicle_type, vehicle_type), None
         matrix = self._matrix(vehicle_type.profile)
         usual = vehicle_type.speed_kmh or DEFAULT_TRUCK_SPEED_KMH
-        on_roads = matrix is None and self._has_roads(vehicle_type.profile)
+        on_roads = self._is_on_roads(vehicle_type)
         scale = usual if matrix is None and not on_roads else 1.0
 
         def key_at(speed: float) -> _Key:
-            return (self._on_roads(vehicle_type.profile, speed, usual) if on_roads
+            return (self._on_roads(vehicle_type, speed, usual) if on_roads
                     else self._driving_at(vehicle_type.profile, speed))
 
         if not vehicle_type.speed_profile:
@@ -280,10 +283,15 @@ class Travels:
         return (self._ground.is_geographic and self._request.roads != "none"
                 and profile in self._roads.profiles)
 
-    def _on_roads(self, profile: str, speed: float, usual_kmh: float) -> _Key:
+    def _is_on_roads(self, kind: VehicleTypeInput) -> bool:
+        """Tell whether trucks of a type drive on roads."""
+        return self._matrix(kind.profile) is None and self._has_roads(kind.profile)
+
+    def _on_roads(self, kind: VehicleTypeInput, speed: float, usual_kmh: float) -> _Key:
         stated = self._request.roads
         falls_back = isinstance(stated, RoadsInput) and stated.fallback is not None
-        return _Key("road", profile, speed, estimated_kmh=usual_kmh if falls_back else 0.0)
+        return _Key("road", kind.profile, speed, avoid=avoided(kind),
+                    estimated_kmh=usual_kmh if falls_back else 0.0)
 
     def _matrix(self, profile: str) -> MatrixInput | None:
         return (self._request.matrices or {}).get(profile)
@@ -325,7 +333,7 @@ class Travels:
         return flight_travel(*legs, self._preparing.pause)
 
     def _build_on_roads(self, key: _Key) -> Travel:
-        legs = self._legs_on_roads(key.profile)
+        legs = self._legs_on_roads(key.profile, key.avoid)
         durations, distances = legs.durations_s, legs.distances_m
         unknown = np.isnan(durations)
         if unknown.any():
@@ -338,11 +346,12 @@ class Travels:
             distances = np.where(unknown, metres, distances)
         return matrix_travel(durations / key.speed, distances, self._preparing.pause)
 
-    def _legs_on_roads(self, profile: str) -> RoadLegs:
-        if profile not in self._road_legs:
-            self._road_legs[profile] = road_legs(self._roads, profile, self._placed, self._ground,
-                                                 self._preparing)
-        return self._road_legs[profile]
+    def _legs_on_roads(self, profile: str, avoid: tuple[Avoided, ...]) -> RoadLegs:
+        how = profile, avoid
+        if how not in self._road_legs:
+            self._road_legs[how] = road_legs(self._roads, profile, avoid, self._placed,
+                                             self._ground, self._preparing)
+        return self._road_legs[how]
 
     def _at_places(self, table: Sequence[Row]) -> FloatArray:
         """Return a client's matrix with one row and column per node.

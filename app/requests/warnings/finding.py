@@ -6,6 +6,7 @@ from app.requests.ends import stated_path
 from app.requests.warnings.fleets import fleet_warnings
 from app.requests.warnings.matrices import matrix_warnings
 from app.requests.warnings.places import crow_warnings, place_warnings
+from app.requests.warnings.roads import road_warnings
 from app.requests.warnings.rulebook import law_warnings, rule_warnings
 from app.requests.warnings.survey import Survey
 from app.requests.warnings.times import time_warnings
@@ -25,6 +26,6 @@ def warnings_of(request: PlanRequest,
     """
     survey = Survey(request, frozenset(road_profiles))
     found = (*place_warnings(survey), *time_warnings(survey), *fleet_warnings(survey),
-             *matrix_warnings(survey), *crow_warnings(survey), *wind_warnings(survey),
-             *rule_warnings(survey), *law_warnings(survey))
+             *matrix_warnings(survey), *crow_warnings(survey), *road_warnings(survey),
+             *wind_warnings(survey), *rule_warnings(survey), *law_warnings(survey))
     return tuple([each._replace(path=stated_path(request, each.path)) for each in found])

@@ -5,7 +5,7 @@ from itertools import pairwise
 import polyline
 import pytest
 
-from app.maps.roads.engine import NoWayError, RoadRoute, RoadsUnavailableError
+from app.maps.roads.engine import USUAL, Driving, NoWayError, RoadRoute, RoadsUnavailableError
 from app.maps.roads.roads import Roads
 from app.plans.road_lines import RoadLines
 from model.problem import FloatArray
@@ -22,7 +22,7 @@ class BendingRoads(StatedRoads):
         super().__init__(table_of([[0]]))
         self.is_up = True
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         self.asked.append(lon_lat)
         if not self.is_up:
             raise RoadsUnavailableError("down")

@@ -1,6 +1,7 @@
--- A vehicle for goods: OSRM's car, but of its own size and speed, and ways that state access for its
--- kind hold for it; ways too low, narrow or weak for it are closed. Where OSRM lies is in LUA_PATH.
+-- A vehicle for goods: OSRM's car, but of its own size and speed, and ways that state access or toll
+-- for its kind hold for it; ways too low, narrow or weak for it are closed.
 local car = require('car')
+local avoidable = require('avoidable')
 
 return function(size, access)
   local function setup()
@@ -14,10 +15,10 @@ return function(size, access)
     return profile
   end
 
-  return {
+  return avoidable({
     setup = setup,
     process_way = car.process_way,
     process_node = car.process_node,
     process_turn = car.process_turn
-  }
+  }, 'toll:' .. access)
 end

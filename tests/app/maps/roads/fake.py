@@ -5,7 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from app.maps.remote.asking import ShouldStop
-from app.maps.roads.engine import Block, RoadRoute, RoadsError, RoadsUnavailableError, RoadTable
+from app.maps.roads.engine import (
+    USUAL, Block, Driving, RoadRoute, RoadTable, RoadsError, RoadsUnavailableError,
+)
 from model.problem import FloatArray
 
 
@@ -18,19 +20,22 @@ class StatedRoads:
         self.answer = table
         self.map = build
         self.asked: list[FloatArray] = []
+        self.driving: list[Driving] = []
 
     def build(self) -> str:
         return self.map
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         self.asked.append(lon_lat)
+        self.driving.append(driving)
         if isinstance(self.answer, RoadsError):
             raise self.answer
         return self.answer
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         raise RoadsUnavailableError("Nobody asks this one for lines.")
 
     def close(self) -> None:

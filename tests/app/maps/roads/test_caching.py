@@ -6,7 +6,9 @@ import pytest
 
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.caching import TableCache, part_of
-from app.maps.roads.engine import Block, RoadRoute, RoadsUnavailableError, RoadTable, whole
+from app.maps.roads.engine import (
+    USUAL, Block, Driving, RoadRoute, RoadTable, RoadsUnavailableError, whole,
+)
 from app.maps.roads.roads import Roads
 from model.problem import FloatArray
 from tests.app.maps.roads.fake import StatedRoads, table_of
@@ -163,7 +165,8 @@ class Known:
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         rows = np.array([np.flatnonzero((self.places == place).all(axis=1))[0]
                          for place in lon_lat])
         table = part_of(self.whole, rows)
@@ -174,7 +177,7 @@ class Known:
         return RoadTable(np.where(asked, table.durations_s, np.nan),
                          np.where(asked, table.distances_m, np.nan), table.snapped, table.snap_m)
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         raise RoadsUnavailableError("Nobody asks this one for lines.")
 
     def close(self) -> None:

@@ -11,7 +11,9 @@ from pydantic_core import to_json
 
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads import nearness
-from app.maps.roads.engine import Block, RoadRoute, RoadsUnavailableError, RoadTable, whole
+from app.maps.roads.engine import (
+    USUAL, Block, Driving, RoadRoute, RoadTable, RoadsUnavailableError, whole,
+)
 from app.maps.roads.roads import Roads
 from app.plans import far_plans
 from app.plans.service import plan_options
@@ -44,7 +46,8 @@ class Plain:
 
     def table(self, lon_lat: FloatArray, until: float,
               should_stop: ShouldStop = lambda: False,
-              wanted: Sequence[Block] | None = None) -> RoadTable:
+              wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
         self.answers += 1
         if self.answers > self.fails_after:
             raise RoadsUnavailableError("They are down.")
@@ -58,7 +61,7 @@ class Plain:
         np.fill_diagonal(seconds, 0.0)
         return RoadTable(seconds, 12 * seconds, lon_lat, np.zeros(count))
 
-    def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+    def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
         raise RoadsUnavailableError("Nobody asks this one for lines.")
 
     def close(self) -> None:

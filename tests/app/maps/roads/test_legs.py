@@ -10,7 +10,7 @@ import pytest
 
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.engine import (
-    Block, RoadsAnswerError, RoadsStoppedError, RoadsUnavailableError, RoadTable,
+    USUAL, Block, Driving, RoadTable, RoadsAnswerError, RoadsStoppedError, RoadsUnavailableError,
 )
 from app.maps.roads.roads import Roads
 from app.plans.task import Task, task_of
@@ -120,6 +120,21 @@ def test_drones_fly_straight() -> None:
     assert flights[0, 1] == pytest.approx(DEGREE_M / 1000 / 10 * 1000, rel=1e-3)
     assert [(legs.profile, legs.by) for legs in task.legs] == [("truck", "roads"),
                                                               ("drone", "flight")]
+
+
+def test_all_that_counts_as_customers_has_a_side_of_the_street() -> None:
+    stated = request(roads={"approach": "curb"}, shipments=[{
+        "id": "s", "amount": [1], "pickup": {"location": [25.0, 60.0], "approach": "any"},
+        "delivery": {"location": [25.0, 60.0]}}])
+    stated["customers"][0] |= {"approach": "any", "alternatives": [
+        {"id": "a", "location": [25.0, 60.0]},
+        {"id": "b", "location": [25.0, 60.0], "approach": "curb"}]}
+    engine = StatedRoads(table_of(np.zeros((7, 7)).tolist()))
+    planned(stated, engine)
+    curb = engine.driving[0].curb
+    assert curb is not None
+    # Depot, both customers, the first one's other places, and both ends.
+    assert curb.tolist() == [False, False, True, False, True, False, True]
 
 
 @pytest.mark.parametrize(("changes", "by", "words"), [
@@ -239,7 +254,8 @@ def test_who_has_too_little_time_for_roads_is_told_what_to_do() -> None:
     class Slow(StatedRoads):
         def table(self, lon_lat: FloatArray, until: float,
                   should_stop: ShouldStop = lambda: False,
-                  wanted: Sequence[Block] | None = None) -> RoadTable:
+                  wanted: Sequence[Block] | None = None,
+              driving: Driving = USUAL) -> RoadTable:
             while time.perf_counter() < until:
                 pass
             raise late()

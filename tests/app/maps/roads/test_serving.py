@@ -98,8 +98,8 @@ def test_a_plan_on_roads_is_that_of_matrices_by_a_server(helsinki: httpx.Client,
     request = helsinki_request()
     on_roads = replied(helsinki, request)
     assert on_roads["legs"] == [{
-        "profile": "car", "by": "roads", "engine": "osrm", "estimated": 0, "detour": None,
-        "farthest_from_road_m": pytest.approx(250, abs=200), "note": None}]
+        "profile": "car", "by": "roads", "avoid": [], "engine": "osrm", "estimated": 0,
+        "detour": None, "farthest_from_road_m": pytest.approx(250, abs=200), "note": None}]
     with served(tools.folder.parent, prepared_build.data) as url:
         by_matrices = with_matrices(request, url, 5 / 3.6)
     by_client = replied(helsinki, by_matrices)

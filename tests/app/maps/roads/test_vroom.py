@@ -11,7 +11,7 @@ from app.formats.vroom.errors import ROUTING, VroomError
 from app.formats.vroom.places import StatedPlaces, find_places
 from app.formats.vroom.reading import read_request
 from app.formats.vroom.roads import add_lines
-from app.maps.roads.engine import RoadRoute, RoadsUnavailableError
+from app.maps.roads.engine import USUAL, Driving, RoadRoute, RoadsUnavailableError
 from app.maps.roads.roads import Roads
 from model.problem import FloatArray
 from tests.app.maps.roads.fake import StatedRoads, table_of
@@ -58,7 +58,7 @@ def test_roads_that_do_not_answer_are_a_routing_error() -> None:
 
 def test_lines_of_routes_are_the_drives_on_roads() -> None:
     class Winding(StatedRoads):
-        def route(self, lon_lat: FloatArray, until: float) -> RoadRoute:
+        def route(self, lon_lat: FloatArray, until: float, driving: Driving = USUAL) -> RoadRoute:
             around = [(lat, lon + 0.001) for lon, lat in lon_lat.tolist()]
             return RoadRoute(polyline.encode(around, 6), (), np.zeros(0), np.zeros(0))
 

@@ -211,6 +211,24 @@ def test_what_flies_is_not_told_that_it_flies_as_crows_do() -> None:
         "$.fleet[1].profile"]
 
 
+@pytest.mark.parametrize(("change", "code", "path"), [
+    (lambda request: request["fleet"][0].update(avoid=["tolls"]), "AVOID_WITHOUT_ROADS",
+     "$.fleet[0].avoid"),
+    (lambda request: request["customers"][3].update(approach="curb"), "APPROACH_WITHOUT_ROADS",
+     "$.customers[3].approach"),
+    (lambda request: request.update(roads={"approach": "curb"}), "APPROACH_WITHOUT_ROADS",
+     "$.roads.approach"),
+])
+def test_roads_alone_know_what_to_avoid_and_sides_of_streets(
+        change: Callable[[Request], Any], code: str, path: str) -> None:
+    request = changed(lambda request: (request.pop("roads"), change(request)))
+    assert seen(request, road_profiles={"truck"}) == ()
+    by_crow = {warning.code: warning for warning in seen(request)}
+    assert set(by_crow) == {"AS_THE_CROW_FLIES", code}
+    assert by_crow[code].path == path
+    assert "Roads alone know it" in by_crow[code].message
+
+
 def requests_of(path: Path) -> Iterator[bytes]:
     """Yield the request that a file of an example holds."""
     content = json.loads(path.read_text("utf-8"))
