@@ -108,7 +108,7 @@ class AlternativeInput(Input):
         None, description="Several windows instead of `time_window`, as a customer's.")
     cost: Money = Field(0.0, description="Cost of being served there, among those of `stops`.")
     approach: Approach | None = Field(
-        None, description="How roads lead there. Null: as the customer says.")
+        None, description="How roads lead there. Null: as its customer.")
 
 
 class CustomerInput(Input):

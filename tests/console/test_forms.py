@@ -67,6 +67,24 @@ def test_drones_begin_with_what_a_drone_is_assumed_to_do(console: Page) -> None:
     expect(assumed).to_have_count(0)
 
 
+def test_what_vehicles_avoid_and_sides_of_streets_are_chosen(console: Page) -> None:
+    open_customers(console)
+    open_tab(console, "fleet")
+    for name in ("motorways", "tolls"):
+        console.locator(f"#field-fleet-0-avoid-{name}").check()
+    assert state(console, "state.request.fleet.0.avoid") == ["tolls", "motorways"]
+    console.locator("#field-fleet-0-avoid-tolls").uncheck()
+    assert state(console, "state.request.fleet.0.avoid") == ["motorways"]
+    console.evaluate("async () => (await loaded(`actions.js`)).select('c:Getränkemarkt "
+                     "Schmidt-Hohenfels 1')")
+    open_tab(console, "customers")
+    side = console.locator("#field-customers-0-approach")
+    expect(side.locator("option")).to_have_text(["as for all", "from either side",
+                                                 "on its own side"])
+    side.select_option("curb")
+    assert state(console, "state.request.customers.0.approach") == "curb"
+
+
 def test_the_focus_goes_through_all_customers(console: Page) -> None:
     open_customers(console)
     open_tab(console, "customers")

@@ -13,6 +13,11 @@ test('trucks on roads are said to be', () => {
   assert.deepEqual(legsInWords(legs), ['truck: by roads (osrm)']);
 });
 
+test('what is avoided on roads is told', () => {
+  const legs = [{ ...LEG, by: 'roads', engine: 'osrm', avoid: ['ferries', 'tolls'] }];
+  assert.deepEqual(legsInWords(legs), ['truck: by roads (osrm) without ferries, tolls']);
+});
+
 test('estimated legs are counted', () => {
   const [line] = legsInWords([
     { ...LEG, by: 'roads', engine: 'osrm', estimated: 12, detour: 1.3, note: 'So it is.' },

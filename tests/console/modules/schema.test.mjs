@@ -2,6 +2,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {
   blank,
+  choiceOf,
   emptyMeans,
   kindOf,
   labelOf,
@@ -45,6 +46,14 @@ const SCHEMAS = {
     },
   },
 };
+
+test('some of few values are boxes to check, and words of a field come first', () => {
+  const items = { enum: ['tolls', 'ferries'], type: 'string' };
+  assert.equal(kindOf({ type: 'array', items }), 'several');
+  assert.equal(choiceOf('any'), 'at any time');
+  assert.equal(choiceOf('any', 'approach'), 'from either side');
+  assert.equal(choiceOf('last', 'approach'), choiceOf('last'));
+});
 
 test('references are followed and null is told apart', () => {
   const { schema, nullable } = resolve(SCHEMAS, SCHEMAS.VehicleTypeInput.properties.longest);

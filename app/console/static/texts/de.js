@@ -469,6 +469,7 @@ export default {
     straight: '{{profile}}: in Luftlinie',
     crow: '{{profile}}: in Luftlinie.',
     roads: '{{profile}}: auf Straßen ({{engine}})',
+    without: 'ohne {{without}}',
     estimated_one: '{{count}} Strecke geschätzt (Umweg {{detour}}).',
     estimated_other: '{{count}} Strecken geschätzt (Umweg {{detour}}).',
   },
@@ -1072,6 +1073,8 @@ export default {
     late_cost_per_hour: 'Kosten zu spät je Stunde',
     latest: 'Spätestens',
     launch: 'Drohnenstarts',
+    approach: 'Straßenseite',
+    avoid: 'Meidet',
     launch_duration: 'Startdauer',
     launch_sites: 'Startplätze',
     lifo: 'Zuletzt ein, zuerst aus',
@@ -1201,6 +1204,8 @@ export default {
     until_time_limit: 'bis zum Ende der Suchzeit',
     all: 'alle',
     as_preset_says: 'wie in der Vorlage',
+    as_roads: 'wie für alle',
+    as_its_customer: 'wie der Kunde',
     no_limit: 'ohne Grenze',
     enough: 'genug',
   },
@@ -1238,6 +1243,11 @@ export default {
     apart: 'getrennt',
     vehicle: 'von einem Fahrzeug',
     trip: 'auf einer Fahrt',
+    approach_any: 'von beiden Seiten',
+    approach_curb: 'auf der eigenen Seite',
+    tolls: 'Maut',
+    motorways: 'Autobahnen',
+    ferries: 'Fähren',
   },
   help: {
     CustomerInput: {
@@ -1267,6 +1277,9 @@ export default {
       vehicle_costs: 'Was es mehr kostet, mit einem Typ oder Fahrzeug zu kommen: van-3.',
       alternatives: 'Orte, die stattdessen dienen können, etwa eine Packstation; einer dient.',
       launch: 'Ob Drohnen dort von einem Fahrzeug starten und wieder landen dürfen.',
+      approach:
+        'Von welcher Seite Straßen hinführen: von beiden, oder mit dem Ort auf ' +
+        'der Seite, auf der man hält, ohne zu wenden.',
       info: 'Was der Fahrer wissen soll, je eine Zeile: Adresse, Telefon, Hinweise.',
     },
     AlternativeInput: {
@@ -1277,6 +1290,7 @@ export default {
       time_window: 'Wann die Bedienung dort beginnen darf. Leer: jederzeit.',
       time_windows: 'Mehrere Zeitfenster; wer zwischen zweien kommt, wartet auf das nächste.',
       cost: 'Was es kostet, dass dieser Ort dient.',
+      approach: 'Von welcher Seite Straßen hinführen. Leer: wie beim Kunden.',
     },
     TimeWindowInput: {
       earliest: 'Die Bedienung beginnt nicht früher; wer eher kommt, wartet.',
@@ -1350,6 +1364,7 @@ export default {
         'Übliche Geschwindigkeit, 40 km/h, wenn leer; Straßen und Wegetabellen bringen ' +
         'ihre eigene mit.',
       profile: 'Für welche Art Fahrzeug Wege gemessen werden, etwa Auto oder Lkw.',
+      avoid: 'Was diese Fahrzeuge auf Straßen nie befahren.',
       speed_profile:
         'Andere Geschwindigkeiten nach Uhrzeit, der Reihe nach; vor der ersten gilt die übliche.',
       shift: 'Wann die Fahrzeuge arbeiten.',
@@ -1561,6 +1576,9 @@ export default {
       id: 'Der Name der Abholung unter denen der Sendung.',
       amount: 'Was dort abgeholt wird, eine Menge je Maß.',
     },
+    RoadsInput: {
+      approach: 'Von welcher Seite Straßen zu Orten führen, die es nicht selbst sagen.',
+    },
     PlanRequest: {
       shipments: 'Pakete, die ein Fahrzeug an einem Ort oder mehreren abholt und zu einem anderen bringt.',
       fairness: 'Was der Plan als Ganzes kostet.',
@@ -1688,6 +1706,7 @@ export default {
       'Ort auf der Karte.',
     ADDRESS_ON_PLANE:
       'Adressen liegen auf dem Globus: Geben Sie an, dass Orte Längen und Breiten sind.',
+    ROADS_WITHOUT_THAT: 'Die Straßen hier können das nicht: Sie müssen neu vorbereitet werden.',
     NO_GEOCODER:
       'Adressen können hier nicht nachgeschlagen werden: Setzen Sie den Ort auf der Karte.',
     UNKNOWN_PROFILE: 'Für diese Art Fahrzeug gibt es keine Straßen.',
@@ -1752,6 +1771,8 @@ export default {
     AREA_ELSEWHERE: 'Diese Flugverbotszone ist weit von jedem Depot entfernt.',
     AS_THE_CROW_FLIES:
       'Strecken sind Luftlinien: Für diese Fahrzeuge sind keine Straßen eingerichtet.',
+    AVOID_WITHOUT_ROADS: 'Diese Fahrzeuge fahren auf keinen Straßen, meiden also nichts.',
+    APPROACH_WITHOUT_ROADS: 'Kein Fahrzeug fährt auf Straßen: Straßenseiten zählen nicht.',
     WINDOWS_LOOK_LIKE_MINUTES: 'Die Zeitfenster sehen nach Minuten aus: Geben Sie Uhrzeiten an.',
     WINDOWS_LOOK_LIKE_HOURS: 'Die Zeitfenster sehen nach Stunden aus: Geben Sie Uhrzeiten an.',
     WINDOWS_LOOK_LIKE_MILLISECONDS: 'Die Zeitfenster sehen nach Millisekunden aus.',

@@ -455,6 +455,7 @@ export default {
     straight: '{{profile}}: in straight lines',
     crow: '{{profile}}: as the crow flies.',
     roads: '{{profile}}: by roads ({{engine}})',
+    without: 'without {{without}}',
     estimated_one: '{{count}} leg estimated (detour {{detour}}).',
     estimated_other: '{{count}} legs estimated (detour {{detour}}).',
   },
@@ -1058,6 +1059,8 @@ export default {
     late_cost_per_hour: 'Late cost per hour',
     latest: 'Latest',
     launch: 'Launches',
+    approach: 'Side of the street',
+    avoid: 'Never drives on',
     launch_duration: 'Launch duration',
     launch_sites: 'Launch sites',
     lifo: 'Last in, first out',
@@ -1187,6 +1190,8 @@ export default {
     until_time_limit: 'until the time is up',
     all: 'all',
     as_preset_says: 'as the preset says',
+    as_roads: 'as for all',
+    as_its_customer: 'as the customer',
     no_limit: 'no limit',
     enough: 'enough',
   },
@@ -1224,6 +1229,11 @@ export default {
     apart: 'apart',
     vehicle: 'by one vehicle',
     trip: 'on one trip',
+    approach_any: 'from either side',
+    approach_curb: 'on its own side',
+    tolls: 'tolls',
+    motorways: 'motorways',
+    ferries: 'ferries',
   },
   help: {
     CustomerInput: {
@@ -1253,6 +1263,9 @@ export default {
       vehicle_costs: 'What it costs more to be served by a type, or one vehicle: van-3.',
       alternatives: 'Places that may be used instead, such as a locker; one place is.',
       launch: 'Whether drones may take off from a truck there and be recovered.',
+      approach:
+        'From which side roads lead there: from either, or with the place on ' +
+        'the side where one stops, without a U-turn.',
       info: 'What the driver is to know, a line each: address, phone, notes.',
     },
     AlternativeInput: {
@@ -1263,6 +1276,7 @@ export default {
       time_window: 'When service may start there. Empty: at any time.',
       time_windows: 'Several windows; whoever comes between two waits for the next.',
       cost: 'What it costs that this place is used.',
+      approach: 'From which side roads lead there. Empty: as the customer.',
     },
     TimeWindowInput: {
       earliest: 'Service starts no earlier; who comes before waits.',
@@ -1337,6 +1351,7 @@ export default {
       costs: 'What the vehicles cost.',
       speed_kmh: 'Usual speed, 40 km/h if empty; roads and tables of legs bring their own.',
       profile: 'By which kind of vehicle legs are measured, such as car or truck.',
+      avoid: 'What these vehicles keep off on roads.',
       speed_profile:
         'Other speeds by time of day, in order; before the first the usual one holds.',
       shift: 'When the vehicles work.',
@@ -1538,6 +1553,9 @@ export default {
       id: 'The name of the pickup among those of the shipment.',
       amount: 'What is fetched there, an amount for each measure.',
     },
+    RoadsInput: {
+      approach: 'From which side roads lead to places that say nothing of it themselves.',
+    },
     PlanRequest: {
       shipments: 'Parcels that one vehicle fetches at one place, or several, and brings to another.',
       fairness: 'What the plan costs as a whole.',
@@ -1661,6 +1679,7 @@ export default {
     ADDRESS_NOT_FOUND: 'This address was not found: correct it, or place it on the map.',
     ADDRESS_ON_PLANE:
       'Addresses are on the globe: state that places are longitudes and latitudes.',
+    ROADS_WITHOUT_THAT: 'The roads here cannot do that: they have to be prepared again.',
     NO_GEOCODER: 'Addresses cannot be looked up here: place it on the map.',
     UNKNOWN_PROFILE: 'There are no roads for this kind of vehicle.',
     OFF_THE_ROADS: 'This place is far from every road.',
@@ -1716,6 +1735,8 @@ export default {
     ADDRESS_FAR: 'This address is far from all others: check it, and name the town.',
     AREA_ELSEWHERE: 'This no-fly area is far from every depot.',
     AS_THE_CROW_FLIES: 'Distances are as the crow flies: no roads are set up for these vehicles.',
+    AVOID_WITHOUT_ROADS: 'These vehicles drive on no roads, so they avoid nothing.',
+    APPROACH_WITHOUT_ROADS: 'No vehicle drives on roads, so sides of streets count for nothing.',
     WINDOWS_LOOK_LIKE_MINUTES: 'The windows look like minutes: state times of day.',
     WINDOWS_LOOK_LIKE_HOURS: 'The windows look like hours: state times of day.',
     WINDOWS_LOOK_LIKE_MILLISECONDS: 'The windows look like milliseconds.',

@@ -28,13 +28,13 @@ function textOf(value, name) {
   if (Array.isArray(value)) {
     const names = value.map((entry) => entry?.id ?? entry);
     return names.some((entry) => typeof entry === 'object') ? String(names.length)
-      : names.join(', ');
+      : (name === 'avoid' ? names.map((entry) => choiceOf(entry)) : names).join(', ');
   }
   if (typeof value === 'object') {
     return Object.entries(value)
       .map(([key, inner]) => `${withinSentence(labelOf(key))} ${shown(inner, key)}`).join(', ');
   }
-  return typeof value === 'string' && name !== 'id' ? choiceOf(value) : String(value);
+  return typeof value === 'string' && name !== 'id' ? choiceOf(value, name) : String(value);
 }
 
 function shown(value, name) {

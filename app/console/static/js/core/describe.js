@@ -4,6 +4,7 @@ import { amounts, clock, duration, km, length, money, number, percent } from './
 import { lengthOf, planeOf } from './geometry.js';
 import { partsOf } from './plan.js';
 import { saidOf } from './said.js';
+import { choiceOf } from './schema.js';
 import { titleOfVehicle } from './vehicle-labels.js';
 import { isVisit, leftOutOf, visitsOf } from './visits.js';
 import { windowsInWords, windowsOf } from './windows.js';
@@ -63,6 +64,9 @@ function customerFacts(customer) {
       t('about.aboard'),
       t('about.atMost', { time: duration(customer.max_time_aboard) }),
     ]);
+  }
+  if (customer.approach) {
+    facts.push([t('field.approach'), choiceOf(customer.approach, 'approach')]);
   }
   if (customer.setup_duration) facts.push([t('about.setup'), duration(customer.setup_duration)]);
   if (customer.goods?.length) facts.push([t('about.goods'), customer.goods.join(', ')]);

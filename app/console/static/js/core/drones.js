@@ -33,6 +33,7 @@ const OF_TRUCKS = [
   'max_airborne',
   'truck_waits',
   'revisits',
+  'avoid',
 ];
 const OF_FLYING = [
   'altitude',

@@ -52,6 +52,7 @@ export function kindOf(schema) {
   if (item.$ref || item.type === 'object') return 'objects';
   if (schema.prefixItems || item.type === 'number') return 'numbers';
   if (item.anyOf?.some(({ title }) => title === 'Duration')) return 'durations';
+  if (item.enum) return 'several';
   return item.type === 'string' ? 'texts' : 'other';
 }
 
@@ -127,10 +128,11 @@ export function apiHelpOf(schema) {
   return (schema.description ?? '').replaceAll('`', '');
 }
 
-/** Return one of the values to choose from in words, itself if it is a name. */
-export function choiceOf(value) {
+/** Return a value to choose from in words, those of its field first; itself if it is a name. */
+export function choiceOf(value, name = '') {
   const key = value.replaceAll(/\W/g, '_');
-  return t(`choice.${key}`, { defaultValue: value });
+  const usual = t(`choice.${key}`, { defaultValue: value });
+  return t(`choice.${name}_${key}`, { defaultValue: usual });
 }
 
 /** Return an object with what a schema demands and nothing else. */

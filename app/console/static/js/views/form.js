@@ -46,7 +46,7 @@ function isOfTables(name, request, keys) {
 }
 
 /** Kinds of fields whose entries have no field of their own. */
-const ENTRIES = new Set(['texts', 'numbers', 'durations', 'words']);
+const ENTRIES = new Set(['texts', 'several', 'numbers', 'durations', 'words']);
 
 /** One field, of whatever kind its schema says; `owner` is the title of the schema that has it. */
 export function Field({
@@ -78,6 +78,7 @@ export function Field({
   }
   if (kind === 'object') return html`<${ObjectField} ...${shared} nullable=${found.nullable} />`;
   if (kind === 'words') return html`<${WordsField} ...${shared} />`;
+  if (kind === 'several') return html`<${SeveralField} ...${shared} />`;
   if (kind === 'objects') return html`<${ListField} ...${shared} nullable=${found.nullable} />`;
   return html`<${PlainField} ...${shared} kind=${time ?? kind} nullable=${found.nullable}
     required=${required} />`;
@@ -140,7 +141,7 @@ function PlainField({
   const isWrong = Boolean(problem) || invalid;
   return html`<div class=${`field kind-${kind} ${invalid || problem ? 'invalid' : ''}`}>
     <label for=${id}>${labelOf(name)}</label>
-    <${Input} id=${id} kind=${kind} schema=${schema} value=${value} set=${set} nullable=${nullable}
+    <${Input} id=${id} name=${name} kind=${kind} schema=${schema} value=${value} set=${set} nullable=${nullable}
       required=${required} choices=${choices[name]} onProblem=${setProblem}
       describedBy=${`${id}-help${isWrong ? ` ${id}-error` : ''}`}
         invalid=${isWrong} />
@@ -178,7 +179,7 @@ export function Cell({ schema, keys, request, onChange, label, required = false 
 /** Stands for a value that is no choice but an object. */
 const OWN_PLACE = 'own place';
 
-function ChoiceInput({ id, schema, value, set, choices, describedBy, nullable }) {
+function ChoiceInput({ id, name, schema, value, set, choices, describedBy, nullable }) {
   const values = choices ?? schema.enum;
   const own = typeof value === 'object' && value !== null;
   const shown = own ? OWN_PLACE : (value ?? schema.default ?? '');
@@ -187,7 +188,7 @@ function ChoiceInput({ id, schema, value, set, choices, describedBy, nullable })
     ${own && html`<option value=${OWN_PLACE}>${t('form.ownPlace')}</option>`}
     ${nullable && html`<option value="">${emptyMeans(schema, true) || t('form.none')}</option>`}
     ${values.map((entry) => html`<option key=${entry} 
-      value=${entry}>${choices ? entry : choiceOf(entry)}</option>`)}
+      value=${entry}>${choices ? entry : choiceOf(entry, name)}</option>`)}
   </select>`;
 }
 
@@ -328,6 +329,25 @@ function WordsField({ name, keys, request, onChange, errors, schema, help }) {
     ${!words && html`<p class="error">${t('form.lines', { example: lines.example() })}</p>`}
     ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
   </div>`;
+}
+
+/** Some of few values, each with a box to check. */
+function SeveralField({ name, keys, request, onChange, errors, schema, help }) {
+  const values = getIn(request, keys) ?? [];
+  const check = (entry, isChecked) => {
+    const next = schema.items.enum.filter((each) => each === entry ? isChecked
+      : values.includes(each));
+    onChange(next.length ? setIn(request, keys, next) : removeIn(request, keys));
+  };
+  return html`<fieldset class="group" aria-describedby=${`${idOf(keys)}-help`}>
+    <legend>${labelOf(name)}</legend>
+    <div class="buttons">${schema.items.enum.map((entry) => html`<label key=${entry}>
+      <input type="checkbox" id=${idOf([...keys, entry])} checked=${values.includes(entry)}
+        onChange=${(event) => check(entry, event.target.checked)} />
+      ${choiceOf(entry, name)}</label>`)}</div>
+    ${help}
+    ${errors.map((error) => html`<div class="error"><${Said} ...${error} /></div>`)}
+  </fieldset>`;
 }
 
 /** What entries that are added are called, with a number. */

@@ -70,6 +70,10 @@ export function Places({ request }) {
           onChange=${edit} />`,
         )
       }
+      ${request.coordinate_system === 'geographic' && request.roads !== 'none' &&
+        html`<${Field} name="approach" owner="RoadsInput" keys=${['roads', 'approach']}
+          schema=${schemas.RoadsInput.properties.approach} request=${request}
+          onChange=${edit} />`}
       ${request.depots.map(
         (_, position) => html`<fieldset class="group" key=${position}>
         <legend>${t('where.depot', { id: String(position + 1) })}</legend>
