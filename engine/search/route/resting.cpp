@@ -119,8 +119,10 @@ bool drive_by_rules(const ProblemData& data, Route& route, View<Stop, 1> stops,
     const Int latest = last_begin(data, route, stops, sorties);
     route.driving = driving;
     // With drones, who may come in another order then, a route may have to begin before; so with
-    // orders, by which all waits that comes behind others.
-    const Int begin = route.sorties > 0 || lags_count(data) ? soonest : latest;
+    // orders, by which all waits that comes behind others. Trips that are held back begin when they
+    // are held, not as late as they may.
+    const bool is_held = stops[0].hold != none || data.evaluation[route.type].held_back;
+    const Int begin = route.sorties > 0 || lags_count(data) || is_held ? soonest : latest;
     if (needs_no_rest(type, driving, route.end - begin)) return true;
     const bool may_wait = stops[0].hold == none && latest > soonest;
     if (may_wait && needs_no_rest(type, driving, route.end - latest) &&

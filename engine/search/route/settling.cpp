@@ -28,7 +28,7 @@ constexpr Int halvings_with_breaks = 20;
 // Attempts likewise, to the millisecond, where customers may then be served too soon behind others.
 constexpr Int halvings_with_lags = 40;
 
-// How often a trip with breaks is held back again since it has lost some.
+// How often a trip with breaks or rests is held back again since it has lost some.
 constexpr Int settled_again = 3;
 
 // Tell whether a drone is launched or recovered at a stop or in the air meanwhile.
@@ -175,7 +175,8 @@ void clear_holds(const Route& route, View<Stop, 1> stops, View<const Trip, 1> tr
 bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<const Trip, 1> trips,
             View<Sortie, 1> sorties) {
     const bool resting = rests_in_time(data.type[route.type]);
-    Int index = 0, again = resting ? settled_again : 0;
+    const bool may_lose = resting || has_driving_rules(data.type[route.type]);
+    Int index = 0, again = may_lose ? settled_again : 0;
     const Int most = lags_count(data) ? halvings_with_lags
                      : resting        ? halvings_with_breaks
                                       : halvings;
