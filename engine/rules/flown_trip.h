@@ -22,6 +22,9 @@ inline bool bounds_trips(const VehicleType& type) {
            (endurance_of(type) < unlimited || is_limited(type) || storms_sometime(type));
 }
 
+// Whether its trips have to begin and end near those whom they serve.
+inline bool bounds_reach(const VehicleType& type) { return flies(type) && limits_range(type); }
+
 // Whether its battery is charged between trips; else each begins with a full one.
 inline bool charges_between_trips(const VehicleType& type) {
     return flies(type) && charges_aboard(type);

@@ -94,7 +94,7 @@ def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -
     instance = _empty(problems, max(map(len, kinds)), max(map(len, durations)),
                       max(map(len, ways)), legs)
     for row, problem in enumerate(problems):
-        _pack_row(instance, row, problem, kinds[row], durations[row], ways[row])
+        _pack_row(instance, row, problem, kinds[row], durations[row], ways[row], legs)
         if legs:
             write_legs(problem, ways[row], instance.setup[row], instance.duration[row],
                        instance.distance[row], pause)
@@ -152,7 +152,7 @@ def _num_changes(problems: Sequence[Problem]) -> int:
 
 
 def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Kind],
-              durations: dict[Variant, IntArray], ways: Sequence[Way]) -> None:
+              durations: dict[Variant, IntArray], ways: Sequence[Way], for_policies: bool) -> None:
     """Write one problem. In place."""
     instance.size[row] = (problem.num_depots, problem.num_customers, len(problem.vehicle_types),
                           problem.num_dimensions)
@@ -181,7 +181,7 @@ def _pack_row(instance: Instance, row: int, problem: Problem, kinds: Sequence[Ki
     if problem.forbids_launches:
         instance.no_launch[row, :problem.num_nodes] = [
             not problem.may_launch_at(node) for node in range(problem.num_nodes)]
-    _pack_compatibility(instance, row, problem, kinds)
+    _pack_compatibility(instance, row, problem, kinds, for_policies)
     if problem.shipments:
         _pack_pairs(instance, row, problem, kinds)
     write_choices(problem, instance.pair[row])
@@ -249,8 +249,11 @@ def _customer_row(customer: Customer) -> tuple[Any, ...]:
 
 
 def _pack_compatibility(instance: Instance, row: int, problem: Problem,
-                        kinds: Sequence[Kind]) -> None:
-    """Write which types may serve which customers, by truck and by drone. In place."""
+                        kinds: Sequence[Kind], anywhere: bool) -> None:
+    """Write which types may serve which customers, by truck and by drone. In place.
+
+    `anywhere`: by who flies, wherever its trips begin and end, as policies take for granted.
+    """
     customers = slice(problem.num_depots, problem.num_nodes)
     most = most_asked_for(problem)
     by_truck = np.array([c.served_by != "drone" for c in problem.customers], np.bool_)
@@ -268,7 +271,7 @@ def _pack_compatibility(instance: Instance, row: int, problem: Problem,
         if problem.may_serve is not None:
             fits &= problem.may_serve[part_of]
         if kind.max_range is not None:
-            fits &= in_range(problem, kind, kind.max_range)
+            fits &= in_range(problem, kind, kind.max_range, anywhere)
         if problem.incompatible_goods:
             fits &= ~clash_by_themselves(problem)
         if index == part_of:

@@ -19,9 +19,15 @@ def vehicle_costs(problems: Sequence[Problem], types: int, nodes: int) -> FloatA
     return costs
 
 
-def in_range(problem: Problem, kind: VehicleType, limit: int) -> BoolArray:
-    """Mark the customers not too far from any place where trips of who flies begin or end."""
-    ends = {kind.begins_at, kind.ends_at, *(kind.reload_places if kind.max_trips > 1 else ())}
-    far = problem.travel[kind.straight].distance[np.array(sorted(ends)), problem.num_depots:]
-    near: BoolArray = np.max(far, axis=0) <= limit
+def in_range(problem: Problem, kind: VehicleType, limit: int, anywhere: bool) -> BoolArray:
+    """Mark the customers not too far from where a trip of who flies begins, and where it ends.
+
+    From all such places, if `anywhere`; else from one where it may begin and one where it may end.
+    """
+    between = kind.reload_places if kind.max_trips > 1 else ()
+    distance = problem.travel[kind.straight].distance
+    begin, end = (distance[np.array(sorted({place, *between})), problem.num_depots:] <= limit
+                  for place in (kind.begins_at, kind.ends_at))
+    is_enough = np.all if anywhere else np.any
+    near: BoolArray = is_enough(begin, axis=0) & is_enough(end, axis=0)
     return near

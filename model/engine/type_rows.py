@@ -127,9 +127,10 @@ def _itself(kind: VehicleType, ways: Sequence[Way]) -> Fields:
     if not kind.flies:
         return {"drones": 0, "endurance": 0, "max_range": 0}
     travel = index_of(ways, way_of(kind, True))
-    return {"drones": 0, "drone_travel": travel, "home_travel": travel, "straight_travel": travel,
-            "waiting_counts": True, "relaunch_duration": kind.launch_duration,
-            "max_range": UNLIMITED}
+    straight = travel if kind.max_range is None else index_of(ways, Way(kind.straight, False))
+    return {"drones": 0, "drone_travel": travel, "home_travel": travel,
+            "straight_travel": straight, "waiting_counts": True,
+            "relaunch_duration": kind.launch_duration, "max_range": limit(kind.max_range)}
 
 
 def _battery(energy: Energy | None) -> Fields:

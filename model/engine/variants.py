@@ -91,6 +91,8 @@ def ways_of(problem: Problem) -> list[Way]:
     ways: dict[Way, None] = {}
     for kind in problem.vehicle_types:
         ways[way_of(kind, True)] = None
+        if kind.max_range is not None:
+            ways[Way(kind.straight, False)] = None
         for drones in kind.drone_types:
             ways |= {Way(drones.travel, True): None, Way(drones.travel, False): None}
             if drones.max_range is not None:

@@ -400,7 +400,7 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Int depot = data.type[k].depot;
     const bool whole = is_paired(data.pair, node);
     if (data.evaluation[k].priced || has_driving_rules(data.type[k]) ||
-        (is_apart(data, k) && kind >= new_trip) || whole) {
+        (is_apart(data, k) && (kind >= new_trip || bounds_reach(data.type[k]))) || whole) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
         apply(depot, sequence_in(fleet, to), move, node, data.pair);
         if (!refresh_cost(data, fleet, to, bar + fleet.cost[slot])) return infeasible;
@@ -462,6 +462,7 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
                          travel_between(data, type, here.node, behind.node);
         if (!may_travel(type, route.travel + more)) return infeasible;
     }
+    if (!reaches(data, k, stops, fleet.trip(slot, here.trip), node)) return infeasible;
     if (bounds_trips(type)) {
         const Trip& trip = fleet.trip(slot, here.trip);
         const Added added{p, node, out.duration, on.duration};

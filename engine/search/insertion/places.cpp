@@ -158,7 +158,7 @@ void try_trips_of(const Insertion& insertion, Int slot) {
     const Int k = now.route[slot].type;
     if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
         !goods_may_follow(data, now, slot, node) ||
-        !may_take_off(data, searcher, k, data.type[k].depot)) {
+        !may_take_off_again(data, now, k)) {
         return;
     }
     if (is_paired(data.pair, node)) {
@@ -223,7 +223,7 @@ double cost_alone(const ProblemData& data, const Searcher& searcher, Int k, Int 
 void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, Best& best) {
     for (Int k = 0; k < data.num_types; ++k) {
         if (!is_left(data, searcher.now, k) ||
-            !may_take_off(data, searcher, k, data.type[k].begins_at)) {
+            !may_take_off(data, searcher.now, k, data.type[k].begins_at)) {
             continue;
         }
         const Surcharge surcharge(

@@ -14,7 +14,6 @@
 #include "search/route/edit.h"
 #include "search/route/fairness.h"
 #include "search/route/goods.h"
-#include "search/route/hubs.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
@@ -109,7 +108,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
     apply(data.type[route.type].depot, sequence_in(now, slot), move, node, data.pair);
-    const bool allowed = refresh(data, now, slot) && hubs_suffice(data, searcher);
+    const bool allowed = refresh(data, now, slot);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);
         put_back(data, now, slot, spare);

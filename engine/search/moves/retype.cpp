@@ -3,7 +3,6 @@
 #include "randomness.h"
 #include "rules/drone_types.h"
 #include "rules/launch_place.h"
-#include "search/route/hubs.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/route/stop_loads.h"
@@ -78,7 +77,7 @@ void give_type(const ProblemData& data, Searcher& searcher, Int slot, Int k, boo
     const Int spare = now.route.size() - 2;
     set_aside(data, now, slot, spare);
     now.route[slot].type = k;
-    if (refresh(data, now, slot) && hubs_suffice(data, searcher) &&
+    if (refresh(data, now, slot) &&
         !(cheaper && now.cost[slot] >= cost - least_saving)) {
         --now.used[former];
         ++now.used[k];

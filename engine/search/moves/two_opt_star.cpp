@@ -7,7 +7,6 @@
 #include "rules/load.h"
 #include "rules/shift.h"
 #include "search/route/edit.h"
-#include "search/route/hubs.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 
@@ -286,7 +285,7 @@ bool two_opt_star(const ProblemData& data, Searcher& searcher, double limit) {
     const Cut b = find_tail(data, searcher, a, limit);
     if (b.slot < 0) return false;
     if (now.route[b.slot].length > 0 && !may_swap(data, now, a, b)) return false;
-    return swap_tails(data, searcher, a, b) && hubs_suffice(data, searcher);
+    return swap_tails(data, searcher, a, b);
 }
 
 }  // namespace tandem

@@ -13,8 +13,6 @@ namespace {
 
 using Plugging = tandem_plugging;
 
-constexpr Int scratch_slots = 2;
-
 // Where vehicles are unplugged as others are plugged in, they come first.
 constexpr auto comes_before = [](const Plugging& one, const Plugging& other) {
     if (one.depot != other.depot) return one.depot < other.depot;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "search/route/drone_data.h"
 #include "search/route/lags.h"
 #include "search/route/routes.h"
 
@@ -44,6 +45,13 @@ FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops,
         }
     }
     return trip;
+}
+
+bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip,
+             Int customer) {
+    const VehicleType& type = data.type[k];
+    return !bounds_reach(type) || (in_range(data, type, stops[trip.first].node, customer) &&
+                                   in_range(data, type, stops[trip.last].node, customer));
 }
 
 bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first, Int last,

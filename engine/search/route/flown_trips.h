@@ -22,6 +22,10 @@ constexpr Added nobody_added = {nowhere, nowhere, 0, 0};
 FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first,
                       Int last, const Added& added, bool waits);
 
+// Tell whether a customer is near enough to where a trip begins and ends.
+bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip,
+             Int customer);
+
 // Tell whether a trip from stop `first` to `last` lasts, with somebody added, if nobody waits.
 bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first, Int last,
                   const Added& added);

@@ -1,5 +1,7 @@
 #include "search/route/hubs.h"
 
+#include <algorithm>
+
 #include "rules/hub.h"
 #include "search/route/rarer.h"
 
@@ -7,37 +9,47 @@ namespace tandem {
 namespace {
 
 // Return how many batteries of a depot the routes take.
-Int batteries_taken(const ProblemData& data, const Searcher& searcher, Int depot) {
-    const Fleet& now = searcher.now;
+Int batteries_taken(const ProblemData& data, const Fleet& fleet, Int depot) {
     Int taken = 0;
-    for (const Int slot : searcher.active) {
-        const Route& route = now.route[slot];
+    for (Int slot = 0; slot < fleet.route.size() - scratch_slots; ++slot) {
+        const Route& route = fleet.route[slot];
         if (route.length == 0 || !takes_batteries(data.type[route.type])) continue;
-        for (const Trip& trip : now.trip[slot].first(route.trips)) {
-            if (now.stop(slot, trip.first).node == depot) ++taken;
-        }
+        const View<const Stop, 1> stops = fleet.stop[slot].first(route.length);
+        taken += std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) {
+            return stop.kind == start_stop && stop.node == depot;
+        });
     }
     return taken;
 }
 
 }  // namespace
 
-bool may_take_off(const ProblemData& data, const Searcher& searcher, Int k, Int depot) {
+bool may_take_off(const ProblemData& data, const Fleet& fleet, Int k, Int depot) {
     if (!hubs_count(data)) return true;
     const VehicleType& type = data.type[k];
     const Hub& begun = data.hub[depot];
     return !takes_batteries(type) || begun.batteries >= unlimited ||
-           has_battery_for(type, begun, batteries_taken(data, searcher, depot));
+           has_battery_for(type, begun, batteries_taken(data, fleet, depot));
 }
 
-bool hubs_suffice(const ProblemData& data, const Searcher& searcher) {
-    for (Int depot = 0; depot < data.hub.size(); ++depot) {
-        const Hub& hub = data.hub[depot];
-        if (hub.batteries < unlimited && batteries_taken(data, searcher, depot) > hub.batteries) {
-            return false;
-        }
+bool may_take_off_again(const ProblemData& data, const Fleet& fleet, Int k) {
+    for (Int node = 0; node < data.num_depots; ++node) {
+        if (data.reload(k, node) && may_take_off(data, fleet, k, node)) return true;
     }
-    return true;
+    return false;
+}
+
+bool has_batteries(const ProblemData& data, const Fleet& fleet, Int slot) {
+    const Route& route = fleet.route[slot];
+    if (!hubs_count(data) || slot >= fleet.route.size() - scratch_slots ||
+        !takes_batteries(data.type[route.type])) {
+        return true;
+    }
+    const View<const Trip, 1> trips = fleet.trip[slot].first(route.trips);
+    return std::all_of(trips.begin(), trips.end(), [&](const Trip& trip) {
+        const Int depot = fleet.stop(slot, trip.first).node, stock = data.hub[depot].batteries;
+        return stock >= unlimited || batteries_taken(data, fleet, depot) <= stock;
+    });
 }
 
 }  // namespace tandem

@@ -1,5 +1,6 @@
 // What routes of vehicles that fly take of their depots' batteries, all of them together. Where any
-// depot has only so many, they are counted anew each time.
+// depot has only so many, they are counted anew each time, whenever a route is timed: so no plan
+// takes more, wherever its trips are moved.
 #pragma once
 
 #include "search/route/layout.h"
@@ -7,9 +8,13 @@
 namespace tandem {
 
 // Tell whether there is a battery for one trip more that a vehicle of type `k` begins at a depot.
-bool may_take_off(const ProblemData& data, const Searcher& searcher, Int k, Int depot);
+bool may_take_off(const ProblemData& data, const Fleet& fleet, Int k, Int depot);
 
-// Tell whether the routes take no more than there is.
-bool hubs_suffice(const ProblemData& data, const Searcher& searcher);
+// Tell whether there is one for a trip more wherever it reloads.
+bool may_take_off_again(const ProblemData& data, const Fleet& fleet, Int k);
+
+// Tell whether there are batteries for the trips of a route beside others'. In a scratch slot it
+// isn't known whose it is.
+bool has_batteries(const ProblemData& data, const Fleet& fleet, Int slot);
 
 }  // namespace tandem

@@ -161,6 +161,9 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             Deadline(from.deadline)};
 }
 
+// Slots behind those of the routes, in which changes are tried.
+constexpr Int scratch_slots = 2;
+
 struct Fleet {
     View<Route, 1> route;         // (slot,)
     View<double, 1> cost;         // (slot,)

@@ -7,6 +7,7 @@
 #include "rules/breaks.h"
 #include "rules/clock.h"
 #include "rules/driving.h"
+#include "rules/flown_trip.h"
 #include "rules/hours.h"
 #include "rules/hub.h"
 #include "rules/load.h"
@@ -20,6 +21,7 @@
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
 #include "search/route/goods.h"
+#include "search/route/hubs.h"
 #include "search/route/kept_pairs.h"
 #include "search/route/lags.h"
 #include "search/route/least_cost.h"
@@ -113,6 +115,13 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
     return true;
 }
 
+// Tell whether trips of a type may end at one depot and not at another, however far they are.
+bool depots_differ(const ProblemData& data, Int k) {
+    const VehicleType& type = data.type[k];
+    return keeps_hours(type) || (hubs_count(data) && takes_batteries(type)) ||
+           bounds_reach(type);
+}
+
 // Let a trip end at stop `p`, and the next begin, where that costs least of all places, which may
 // be `closed` where they do now. In place; false if all are.
 bool choose_open(const ProblemData& data, const Fleet& fleet, Int slot, Int p, bool closed) {
@@ -133,8 +142,8 @@ bool choose_open(const ProblemData& data, const Fleet& fleet, Int slot, Int p, b
     return refresh_as_is(data, fleet, slot);
 }
 
-// Let the trips of a route end, one of them elsewhere, while depots are open. In place; false if
-// they can't.
+// Let the trips of a route end, one of them elsewhere, at depots that are open, near enough and
+// have batteries. In place; false if they can't.
 bool find_open(const ProblemData& data, const Fleet& fleet, Int slot) {
     for (Int p = 1; p < fleet.route[slot].length - 1; ++p) {
         if (fleet.stop(slot, p).kind != end_stop) continue;
@@ -149,7 +158,7 @@ void choose_reloads(const ProblemData& data, const Fleet& fleet, Int slot) {
     const View<Stop, 1> stops = fleet.stop[slot];
     for (Int p = 1; p < route.length - 1; ++p) {
         if (stops[p].kind != end_stop) continue;
-        if (keeps_hours(data.type[route.type])) {
+        if (depots_differ(data, route.type)) {
             choose_open(data, fleet, slot, p, false);
             continue;
         }
@@ -172,6 +181,7 @@ bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     if (!load_trips(data, route, stops, trips, sorties)) return false;
+    if (!has_batteries(data, fleet, slot)) return false;
     if (orders_cross(data)) note_spans(data, fleet, slot);
     if (some_paired(data.pair) && !keeps_pairs(data, route, stops, trips, sorties)) return false;
     if (goods_count(data) && !take_goods(data.goods, route, stops, trips, sorties)) return false;
@@ -202,7 +212,7 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
 bool refresh(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     if (!refresh_as_is(data, fleet, slot) &&
-        !(is_apart(data, route.type) && keeps_hours(data.type[route.type]) &&
+        !(is_apart(data, route.type) && depots_differ(data, route.type) &&
           find_open(data, fleet, slot))) {
         return false;
     }

@@ -4,6 +4,7 @@
 
 #include "rules/drone_types.h"
 #include "rules/flight.h"
+#include "rules/flown_trip.h"
 #include "rules/launch_place.h"
 #include "rules/leg.h"
 #include "rules/shift.h"
@@ -11,6 +12,7 @@
 #include "search/route/block.h"
 #include "search/route/breaks.h"
 #include "search/route/ends.h"
+#include "search/route/flown_trips.h"
 #include "search/route/lags.h"
 #include "search/route/rarer.h"
 #include "search/route/resting.h"
@@ -53,6 +55,15 @@ double vehicle_cost_on(const ProblemData& data, const Route& route, View<const S
         for (Int visit = 0; visit < sortie.count; ++visit) cost += price[sortie.nodes[visit]];
     }
     return cost;
+}
+
+// Tell whether all customers of a trip are near enough to where it begins and ends.
+bool reaches_all(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip) {
+    if (!bounds_reach(data.type[k])) return true;
+    for (Int p = trip.first + 1; p < trip.last; ++p) {
+        if (!reaches(data, k, stops, trip, stops[p].node)) return false;
+    }
+    return true;
 }
 
 // Return how long the truck is on its legs, whose times are known.
@@ -117,6 +128,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
             trip.last = p;
             stops[trip.first].release = trip.release;
             if (trip.distance > longest_trip(type) || !may_make(type, trip) ||
+                !reaches_all(data, k, stops, trip) ||
                 !allows_sorties(type, s - flown) ||
                 !have_batteries(data.type, k, sorties, flown, s)) {
                 return false;
