@@ -69,7 +69,8 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        loaded = planner or warmed(load_planner(settings.weights_dir, settings.policies))
+        loaded = planner or warmed(load_planner(
+            settings.weights_dir, settings.policies, observer.metrics.count_refused_plan))
         with _running(app, settings, loaded, observer), shutdown.listening(settings.drain_seconds):
             yield
         observer.stop()

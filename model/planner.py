@@ -1,6 +1,6 @@
 """The planner: decode, improve, check.
 
-`Progress` is passed on to those who plan, who need no other part for them.
+`Progress` and `PlanCheckError` are passed on to those who plan, who need no other part for them.
 """
 
 import math
@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal, NamedTuple
 
-from model.judge.chargers import with_charging
+from model.accepting import Accepted, Judge
+from model.accepting import PlanCheckError as PlanCheckError
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
 from model.engine.alarm import Alarm
@@ -42,6 +43,9 @@ MIXED_SHARE, MIXED_UP_TO = 0.4, 200
 """The same with drones or several types of vehicles, for so many customers at most: what the search
 begins with there is dearer than the policy's plan."""
 
+COMPLETING = 0.25
+"""Seconds that it may take to put those back whom routes served that were refused."""
+
 GIVE_UP_SHARE = 0.5
 """Share of the time limit after which the policy is given up where a search follows."""
 
@@ -54,10 +58,6 @@ class Listener(NamedTuple):
 
 
 ALONE = Listener()
-
-
-class PlanCheckError(Exception):
-    """A finished plan failed the independent check: an error of the planner, never an answer."""
 
 
 @dataclass(frozen=True)
@@ -97,13 +97,19 @@ class PlanResult:
     threads: int
     deterministic: bool  # no clock and no listener had a say in it
     elapsed: Elapsed
+    refused: int = 0  # plans on the way that the check refused: errors of the planner
 
 
 class Planner:
-    """Plans problems by named policies. Safe to call from several threads."""
+    """Plans problems by named policies. Safe to call from several threads.
 
-    def __init__(self, policies: Mapping[str, Policy]) -> None:
+    `on_refused` is called for each plan found that the independent check refuses.
+    """
+
+    def __init__(self, policies: Mapping[str, Policy],
+                 on_refused: Callable[[], None] = lambda: None) -> None:
         self._policies = dict(policies)
+        self._on_refused = on_refused
 
     @property
     def policies(self) -> tuple[str, ...]:
@@ -127,16 +133,19 @@ class Planner:
         start
             A plan without violations to improve, in place of the policy's.
 
+        What the independent check refuses of what was found, or of `start`, is logged and counted,
+        and the best plan stands for it that is accepted.
+
         Raises
         ------
         ValueError
             If the policy is not loaded.
         PlanCheckError
-            If the plan, or `start`, fails the independent check.
+            If every plan fails the independent check.
         """
-        if options.policy not in self._policies:
-            raise ValueError(f"policy: {options.policy!r} is not one of {', '.join(self.policies)}")
-        began, judge, options = time.perf_counter(), Memory(problem), _shared(problem, options)
+        self._require(options.policy)
+        began, options = time.perf_counter(), _shared(problem, options)
+        judge = Judge(Memory(problem), _completing(options.seed), self._on_refused)
         deadline = None
         if options.time_limit > 0:
             deadline = (began if received_at is None else received_at) + options.time_limit
@@ -146,7 +155,7 @@ class Planner:
         try:
             instance = pack([problem], by_policy, _pause(listener, deadline, start))
         except EndedError:
-            return _unimproved(problem, start, options, began)
+            return _unimproved(judge, start, options, began)
         decoded = began
         whole = True  # no clock cut the policy short
         if by_policy:
@@ -155,25 +164,29 @@ class Planner:
             decoded = time.perf_counter()
             whole = decoded < give_up
             by_policy = start is not None
-        first = None if start is None else _judged(judge, start)
+        first = None if start is None else judge.accepted(start)
         how: Start = "policy" if by_policy else "insertion" if first is None else "given"
         if first is not None:
             _tell(listener, first)
             if not searches:
-                return _result(first, how, first.cost, options, None, whole,
+                return _result(first, how, first.cost, options, None, whole, judge.refused,
                                Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
         elif not searches:
             # No policy planned, so that the plan is what a search would begin with.
             options = replace(options, search_iterations=0)
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()
-        last = _judged(judge, improved.solution)
+        last = judge.accepted(improved.solution)
         if first is not None and first.cost <= last.cost:
             last = first
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
         # By the search's sum, which rounds otherwise than the checker's.
         first_cost = max(improved.first_cost, last.cost) if first is None else first.cost
-        return _result(last, how, first_cost, options, improved, whole, elapsed)
+        return _result(last, how, first_cost, options, improved, whole, judge.refused, elapsed)
+
+    def _require(self, policy: str) -> None:
+        if policy not in self._policies:
+            raise ValueError(f"policy: {policy!r} is not one of {', '.join(self.policies)}")
 
     def _decode(self, problem: Problem, instance: Instance, options: PlanOptions,
                 give_up: float, listener: Listener, searches: bool) -> Solution | None:
@@ -236,48 +249,27 @@ def decoding_seconds(num_customers: int, num_samples: int | None) -> float:
     return greedy if num_samples is None else greedy * (1 + num_samples / 6)
 
 
-@dataclass(frozen=True)
-class _Judged:
-    """A plan that keeps all rules."""
-
-    solution: Solution
-    evaluation: Evaluation
-
-    @property
-    def cost(self) -> float:
-        return self.evaluation.cost.total
-
-
-def _judged(judge: Memory, solution: Solution) -> _Judged:
-    solution = with_charging(judge.problem, solution)
-    evaluation = judge.check(solution)
-    if evaluation.violations:
-        raise PlanCheckError("; ".join(f"{violation.path}: {violation.message}"
-                                       for violation in evaluation.violations))
-    return _Judged(solution, evaluation)
-
-
 def _pause(listener: Listener, deadline: float | None, start: Solution | None) -> Pause:
     """Return what ends the work before a search; if no route is given, a late one beats none."""
     latest = math.inf if deadline is None or start is None or not start.routes else deadline
     return pausing(listener.should_stop, latest, GRACE)
 
 
-def _unimproved(problem: Problem, start: Solution | None, options: PlanOptions,
+def _unimproved(judge: Judge, start: Solution | None, options: PlanOptions,
                 began: float) -> PlanResult:
     """Return the plan given, or one that serves nobody, where nothing else was done."""
     packed = time.perf_counter()
-    last = _judged(Memory(problem), nobody_served(problem) if start is None else start)
+    last = judge.accepted(nobody_served(judge.problem) if start is None else start)
     elapsed = Elapsed(packed - began, 0.0, time.perf_counter() - packed)
     return _result(last, "insertion" if start is None else "given", last.cost, options, None,
-                   False, elapsed)
+                   False, judge.refused, elapsed)
 
 
-def _tell(listener: Listener, first: _Judged) -> None:
+def _tell(listener: Listener, first: Accepted) -> None:
     listener.on_progress(Progress(first.cost, 0, lambda: first.solution))
 
 
-def _improve(problem: Problem, instance: Instance, first: _Judged | None, options: PlanOptions,
+def _improve(problem: Problem, instance: Instance, first: Accepted | None, options: PlanOptions,
              deadline: float | None, listener: Listener) -> Improved:
     """Search from a plan, or from none; also for groups who may be served only together."""
     begun = None if first is None else first.solution
@@ -324,14 +316,24 @@ def complete_plan(problem: Problem, begun: Solution, seed: int,
                    should_stop=should_stop).solution
 
 
-def _result(last: _Judged, start: Start, first_cost: float, options: PlanOptions,
-            improved: Improved | None, whole: bool, elapsed: Elapsed) -> PlanResult:
+def _completing(seed: int) -> Callable[[Solution, Problem], Solution]:
+    """Return what completes plans of which something was refused, within some time."""
+    def complete(begun: Solution, problem: Problem) -> Solution:
+        late = time.perf_counter() + COMPLETING
+        return complete_plan(problem, begun, seed, lambda: time.perf_counter() > late)
+
+    return complete
+
+
+def _result(last: Accepted, start: Start, first_cost: float, options: PlanOptions,
+            improved: Improved | None, whole: bool, refused: int,
+            elapsed: Elapsed) -> PlanResult:
     return PlanResult(
         last.solution, last.evaluation, start, decoded_cost=first_cost, final_cost=last.cost,
         search_iterations=0 if improved is None else improved.turns, threads=options.threads,
         deterministic=whole and (improved is None
                                  or (improved.whole and _made_all_turns(options, improved))),
-        elapsed=elapsed)
+        elapsed=elapsed, refused=refused)
 
 
 def _made_all_turns(options: PlanOptions, improved: Improved) -> bool:
@@ -341,12 +343,13 @@ def _made_all_turns(options: PlanOptions, improved: Improved) -> bool:
     return improved.turns == options.search_iterations // options.threads * options.threads
 
 
-def load_planner(weights: Path, names: Sequence[str]) -> Planner:
-    """Load policies from their folders under `weights`.
+def load_planner(weights: Path, names: Sequence[str],
+                 on_refused: Callable[[], None] = lambda: None) -> Planner:
+    """Load policies from their folders under `weights`; `on_refused` is `Planner`'s.
 
     Raises
     ------
     ValueError
         If a policy is missing or can't be read.
     """
-    return Planner({name: load_policy(weights / name) for name in names})
+    return Planner({name: load_policy(weights / name) for name in names}, on_refused)

@@ -2,6 +2,7 @@
 
 import asyncio
 import gc
+import logging
 import os
 import secrets
 import socket
@@ -36,6 +37,22 @@ PAUSE, LONGEST_PAUSE = 0.01, 0.1
 service a hundred times a second takes the processor from what is waited for."""
 
 Result = TypeVar("Result")
+
+WHERE_PLANS_ARE_REFUSED = "model.accepting", "model.dialects.vroom.planning"
+"""Loggers that are told when the judge refuses a plan."""
+
+
+class _Refusals(logging.Handler):
+    """Keeps what is told of plans that were refused."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.told: list[str] = []
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep a message. In place."""
+        self.told.append(record.getMessage())
+
 
 MOST_WORKERS = 8
 """Processes that run tests at most, since each takes a gigabyte."""
@@ -113,6 +130,19 @@ def pytest_pyfunc_call(pyfuncitem: pytest.Function) -> bool | None:
         else:
             break
     return True
+
+
+@pytest.fixture(autouse=True)
+def _no_plan_is_refused(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Fail where the judge refused a plan, though another stood for it in the answer."""
+    refused = _Refusals()
+    for name in WHERE_PLANS_ARE_REFUSED:
+        logging.getLogger(name).addHandler(refused)
+    yield
+    for name in WHERE_PLANS_ARE_REFUSED:
+        logging.getLogger(name).removeHandler(refused)
+    if request.node.get_closest_marker("plans_are_refused") is None:
+        assert refused.told == []
 
 
 @pytest.fixture(scope="session", autouse=True)

@@ -7,12 +7,14 @@ from dataclasses import dataclass, replace
 from app.maps.roads.engine import RoadsError
 from app.requests.conversion.far_legs import Estimates
 from app.schemas.errors import NoRoadsError
-from model.judge.check import check, judge_route
+from model.accepting import sound_routes
+from model.judge.check import check
+from model.judge.memory import Memory
 from model.judge.past import Past
 from model.judge.retiming import read_route, time_route
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult, complete_plan
 from model.problem import Problem
-from model.solution import Route, Solution
+from model.solution import Solution
 
 FIRST_SHARE = 0.75
 """Of the time limit, or of the iterations, that is searched with estimates."""
@@ -77,7 +79,7 @@ class FarPlans:
         retimed = _retimed(self.problem, plan)
         if check(self.problem, retimed).is_feasible:
             return retimed
-        begun = _without_broken(self.problem, retimed)
+        begun = sound_routes(Memory(self.problem), retimed)
         completed = complete_plan(self.problem, begun, options.seed, lambda: False)
         if self._learn(completed, options, listener):
             completed = _retimed(self.problem, completed)
@@ -106,7 +108,8 @@ class FarPlans:
         return replace(first, solution=last, evaluation=evaluation, final_cost=cost,
                        decoded_cost=max(first.decoded_cost, cost), elapsed=elapsed,
                        search_iterations=first.search_iterations + more,
-                       deterministic=first.deterministic and rest.deterministic)
+                       deterministic=first.deterministic and rest.deterministic,
+                       refused=first.refused + (0 if second is None else second.refused))
 
 
 def _share(options: PlanOptions, share: float) -> PlanOptions:
@@ -121,19 +124,3 @@ def _retimed(problem: Problem, plan: Solution) -> Solution:
     return replace(plan, routes=tuple(
         [time_route(problem, read_route(problem, route), f"routes[{number}]", Past()).route
          for number, route in enumerate(plan.routes)]))
-
-
-def _without_broken(problem: Problem, plan: Solution) -> Solution:
-    """Return a plan without the routes that break rules; their customers are left out."""
-    kept = tuple([route for number, route in enumerate(plan.routes) if not
-                  judge_route(problem, route, f"routes[{number}]", Past()).violations])
-    begun = _with_left_out(problem, kept)
-    return begun if check(problem, begun).is_feasible else _with_left_out(problem, ())
-
-
-def _with_left_out(problem: Problem, routes: tuple[Route, ...]) -> Solution:
-    trips = [trip for route in routes for trip in route.trips]
-    served = {stop.node for trip in trips for stop in trip.stops}
-    served |= {visit.node for trip in trips for sortie in trip.sorties for visit in sortie.visits}
-    return Solution(routes, tuple([node for node in range(problem.num_depots, problem.num_nodes)
-                                   if node not in served]))

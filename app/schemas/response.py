@@ -270,6 +270,9 @@ class SolverReply(_Reply):
         description="True if the same request gets the same plan again, with as many threads: all "
         "iterations asked for were made, or none was. False if the clock ended the search."
     )
+    plans_refused: int = Field(
+        description="Plans on the way that broke a rule, for which this one stands: please report."
+    )
     elapsed: ElapsedReply = Field(description="Seconds by phase.")
 
 

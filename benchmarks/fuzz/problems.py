@@ -154,6 +154,8 @@ class Study:
         self.statuses[f"{path} {reply.status_code}"] += 1
         if reply.status_code == 200:
             content: Data = json.loads(reply.text, parse_constant=_not_json)
+            if content.get("solver", {}).get("plans_refused"):
+                raise Fault(f"{path}: the judge refused a plan, for which another stands")
             return content
         if reply.status_code != 422 or not reply.json()["errors"]:
             raise Fault(f"{path} is answered with {reply.status_code}: {reply.text[:500]}")
@@ -341,9 +343,8 @@ def _lists(value: Any) -> Iterator[list[Any]]:
 
 def _mistime(rng: random.Random, part: Data) -> None:
     """Change a time or an index. In place."""
-    names = [name for name, value in part.items()
-             if isinstance(value, int | float) and not isinstance(value, bool)]
-    if names:
+    if names := [name for name, value in part.items()
+                 if isinstance(value, int | float) and not isinstance(value, bool)]:
         name = rng.choice(names)
         part[name] = (rng.choice((0, 1, 2, 5)) if name.endswith("_stop")
                       else max(0, part[name] + rng.choice((-3600, -1, 0.0005, 60, 1e8))))
@@ -390,9 +391,8 @@ def main(
 
     study, faults = tried(Study, range(seed, seed + problems), Study.try_problem, keep)
     typer.echo(f"{problems} problems, {faults} faults; {study.checked} plans checked, "
-               f"{study.replanned} of them replanned, "
-               f"{study.left_out} of them with customers left out; longest reply "
-               f"{study.longest:.2f} s; {dict(sorted(study.statuses.items()))}")
+               f"{study.replanned} of them replanned, {study.left_out} of them with customers "
+               f"left out; longest {study.longest:.2f} s; {dict(sorted(study.statuses.items()))}")
     raise typer.Exit(1 if faults else 0)
 
 

@@ -155,8 +155,9 @@ def ready(client: httpx.Client) -> httpx.Client:
 
 
 @contextmanager
-def serving(planner: Planner, settings: Settings | None = None) -> Iterator[httpx.Client]:
-    """Serve on loopback."""
+def serving(planner: Planner | None,
+            settings: Settings | None = None) -> Iterator[httpx.Client]:
+    """Serve on loopback; without a planner by that of the settings."""
     app = create_app(settings or Settings(max_body_bytes=2**20), planner)
     # With its protocol stated, asyncio sends small packets at once.
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)

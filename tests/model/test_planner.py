@@ -11,10 +11,11 @@ from model.judge import memory
 from model.judge.check import JudgedRoute, check, judge_route
 from model.judge.past import Past
 from model.judge.rules import Violation
-from model.planner import Listener, Planner, PlanCheckError, PlanOptions, PlanResult, load_planner
+from model.planner import Listener, Planner, PlanOptions, PlanResult, load_planner
 from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Route
+from model.together.pulling import nobody_served
 from training.instances import VARIANTS, generate
 from training.variants import InstanceConfig
 
@@ -200,8 +201,10 @@ def test_policy_begins_where_that_is_worth_its_time(
     assert result.final_cost <= result.decoded_cost
 
 
-def test_a_plan_that_fails_the_check_never_leaves(planner: Planner,
-                                                  monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.mark.plans_are_refused
+def test_a_plan_that_fails_the_check_never_leaves(
+        planner: Planner, monkeypatch: pytest.MonkeyPatch,
+        caplog: pytest.LogCaptureFixture) -> None:
     def strict(problem: Problem, route: Route, path: str, past: Past) -> JudgedRoute:
         judged = judge_route(problem, route, path, past)
         return replace(judged, violations=[Violation("CAPACITY", "too much", path)])
@@ -209,8 +212,10 @@ def test_a_plan_that_fails_the_check_never_leaves(planner: Planner,
     monkeypatch.setattr(memory, "judge_route", strict)
     problem = mixed_problem(np.random.default_rng(1), 1)
     for time_limit in (0.0, 0.05):
-        with pytest.raises(PlanCheckError, match=r"routes\[0\]: too much"):
-            planner.plan(problem, PlanOptions(POLICIES[0], time_limit=time_limit))
+        result = planner.plan(problem, PlanOptions(POLICIES[0], time_limit=time_limit))
+        assert result.solution == nobody_served(problem)
+        assert result.refused > 0
+        assert "routes[0]: too much" in caplog.text
 
 
 def test_unknown_policy_is_refused(planner: Planner) -> None:

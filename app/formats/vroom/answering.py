@@ -51,8 +51,10 @@ SECONDS_PER_JOB = 2e-4
 def answer(planner: Planner, body: ReceivedBody, settings: Settings,
            should_stop: Callable[[], bool],
            on_plan: Callable[[Mapping[str, Any]], None] = lambda _: None,
-           roads: Roads = NO_ROADS) -> bytes:
+           roads: Roads = NO_ROADS, on_refused: Callable[[], None] = lambda: None) -> bytes:
     """Return the reply to a VROOM request as JSON; `on_plan` is told it.
+
+    `on_refused` is called for each plan found on the way that breaks a rule of VROOM's.
 
     The search ends as soon as `should_stop` says so, with the best plan so far.
 
@@ -69,7 +71,7 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
     preparing = preparing_of(request.options, began, settings, should_stop)
     try:
         places = find_places(request, settings.vroom_speeds, settings.max_legs, preparing, roads)
-        reply = _answer(planner, request, places, body, settings, preparing)
+        reply = _answer(planner, request, places, body, settings, preparing, on_refused)
         if request.options.g and places.on_roads:
             add_lines(reply, {vehicle.id: vehicle.profile for vehicle in request.vehicles
                               if vehicle.profile in places.on_roads}, roads,
@@ -96,7 +98,8 @@ def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,
 
 
 def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: ReceivedBody,
-            settings: Settings, preparing: Preparing) -> Mapping[str, Any]:
+            settings: Settings, preparing: Preparing,
+            on_refused: Callable[[], None]) -> Mapping[str, Any]:
     request = translate(stated)
     if stated.options.c:
         return timed(stated, request, places, body)
@@ -115,6 +118,8 @@ def _answer(planner: Planner, stated: VroomRequest, places: StatedPlaces, body: 
     loaded = time.perf_counter()
     seconds = search_seconds(stated.options, settings) - SECONDS_PER_JOB * len(request.jobs)
     found = planning.find(body.received_at + preparing.waited + seconds, start)
+    for _ in range(planning.refused):
+        on_refused()
     routes = name_vehicles(request, places, planning.kinds, found.routes)
     solved = time.perf_counter()
     reasons = reasons_of(request, places, planning.kinds, {route.vehicle for route in routes},

@@ -54,7 +54,8 @@ async def vroom(request: Request, principal: Plan, planning: Planning, body: Bod
             request,
             lambda should_stop: answer(service.planner, body, settings, should_stop,
                                        request.app.state.metrics.count_vroom_plan,
-                                       service.roads))
+                                       service.roads,
+                                       request.app.state.metrics.count_refused_plan))
     except VroomError as error:
         return error.response()
     except PlanCheckError as error:

@@ -61,6 +61,7 @@ class RegionTask:
             "solver": {"start": result.start, "decoded_cost": result.decoded_cost,
                        "final_cost": result.final_cost,
                        "search_iterations": result.search_iterations,
+                       "plans_refused": result.refused,
                        "elapsed": {"search": result.elapsed.search}},
         }
 

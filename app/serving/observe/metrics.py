@@ -95,6 +95,10 @@ class Metrics:
             "tandem_unassigned_customers", "Customers that plans left out.",
             registry=self.registry)
 
+        self._plans_refused = Counter(
+            "tandem_plans_refused", "Plans found that broke a rule; others stood for them.",
+            registry=self.registry)
+
     def _add_jobs(self) -> None:
         self._submitted = Counter(
             "tandem_jobs_submitted", "Jobs accepted.", ("kind",), registry=self.registry)
@@ -128,6 +132,10 @@ class Metrics:
                 self._load_rate.observe(trip["load_rate"])
         self._iterations.inc(solver["search_iterations"])
         self._unassigned.inc(len(reply["unassigned"]))
+
+    def count_refused_plan(self) -> None:
+        """Count a plan that broke a rule, so that another stood for it."""
+        self._plans_refused.inc()
 
     def count_vroom_plan(self, reply: Mapping[str, Any]) -> None:
         """Count a plan of `POST /vroom`, told as its reply, which has times in milliseconds."""

@@ -5,6 +5,7 @@ Where not all can be served, a stage of its own chooses whom, by what leaving ea
 The planner knows not all of VROOM's rules, so that some plans are judged before they count.
 """
 
+import logging
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
@@ -24,6 +25,8 @@ from model.judge.check import check
 from model.planner import PlanCheckError, PlanOptions, PlanResult, Progress
 from model.problem import Problem
 from model.solution import Solution
+
+logger = logging.getLogger(__name__)
 
 LEAST_SECONDS = 0.01
 """Shortest time limit of a stage."""
@@ -81,6 +84,7 @@ class Planning:
         self._costs: dict[tuple[int, tuple[int, ...]], int | None] = {}
         self._preparing = preparing
         self._has_tried = False
+        self.refused = 0  # plans on the way that broke a rule: errors of the planner
 
     def find(self, deadline: float, start: Routes) -> Found:
         """Return the best plan found until `deadline`, on `time.perf_counter`.
@@ -125,7 +129,7 @@ class Planning:
         until = max(deadline, time.perf_counter() + FEW_SECONDS)
         routes = best_routes(self._request, self._places, self.kinds, jobs, self._vehicles(jobs),
                              lambda: self._left(until) <= 0)
-        return None if routes is None else self._judged(routes)
+        return None if routes is None else self._accepted(routes, until)
 
     def _vehicles(self, jobs: Sequence[int]) -> list[int]:
         """Return the kinds of all vehicles, none more often than there are jobs."""
@@ -180,7 +184,7 @@ class Planning:
         given = self._given(replace(model, problem=problem), best.routes)
         options = replace(self._options, time_limit=max(LEAST_SECONDS, self._left(searched)))
         routes = model.routes(self._plan(problem, options, given, meet).solution)
-        found = self._mended(routes, until) if model.is_loose else self._judged(routes)
+        found = self._mended(routes, until) if model.is_loose else self._accepted(routes, until)
         return max(best, found, key=attrgetter("value"))
 
     def _given(self, model: Model, start: Routes) -> Solution:
@@ -214,6 +218,13 @@ class Planning:
                      (sum(self._priorities[job] for job in served), len(served),
                       -sum(cost for cost in costs if cost is not None)))
 
+    def _accepted(self, routes: Routes, until: float) -> Found:
+        """Return routes that keep all rules, as all should; counts where they don't. In place."""
+        if len(self._sound(routes).served) < _num_served(routes):
+            self.refused += 1
+            logger.error("plan refused: a route breaks a rule of VROOM's")
+        return self._mended(routes, until)
+
     def _sound(self, routes: Routes) -> Found:
         """Return those routes that keep all rules, with their value."""
         sound = {kind: [jobs for jobs in its_routes
@@ -224,7 +235,7 @@ class Planning:
     def _mended(self, routes: Routes, until: float) -> Found:
         """Return routes without rules that are broken, with their value."""
         sound = self._sound(routes)
-        if len(sound.served) == sum(len(jobs) for each in routes.values() for jobs in each):
+        if len(sound.served) == _num_served(routes):
             return sound
         units = sorted(units_of(self._request.jobs),
                        key=lambda unit: -self._priorities[unit[0]])
@@ -240,6 +251,10 @@ class Planning:
             self._costs[key] = (None if any(faults)
                                 else drive(self._request, self._places, vehicle, jobs).cost)
         return self._costs[key]
+
+
+def _num_served(routes: Routes) -> int:
+    return sum(len(jobs) for its_routes in routes.values() for jobs in its_routes)
 
 
 def _price_of(problem: Problem) -> float:
