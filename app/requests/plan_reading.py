@@ -205,22 +205,20 @@ class _PlanReader:
         return Trip(stops, flown, tuple(self._breaks(path, trip, kind)))
 
     def _breaks(self, path: Path, trip: TripInput, kind: KnownType) -> Iterator[TakenBreak]:
-        """Yield the breaks of a trip; their places follow from times."""
+        """Yield the breaks of a trip; their places follow from the times of those that are left."""
         known = None
         if kind.kind is not None:
             known = {each.id: number for number, each in enumerate(kind.kind.breaks)}
-        before = -1
-        for index, stop in enumerate(trip.stops):
+            known |= {} if kind.kind.driving is None else {REST_ID: REST}
+        left = [(index, stop) for index, stop in enumerate(trip.stops)
+                if stop.kind != "break" or not self._is_cancelled(known, stop.id)]
+        stops, before = [stop for _, stop in left], -1
+        for place, (index, stop) in enumerate(left):
             if stop.kind != "break":
                 before += 1
                 continue
-            number = REST
-            if kind.kind is None or kind.kind.driving is None or stop.id != REST_ID:
-                if self._is_cancelled(known, stop.id):
-                    continue
-                number = self._find((*path, "stops", index, "id"), "break", known, stop.id,
-                                    stop.id, 0)
-            yield TakenBreak(number, before, _break_place(trip.stops, index),
+            number = self._find((*path, "stops", index, "id"), "break", known, stop.id, stop.id, 0)
+            yield TakenBreak(number, before, _break_place(stops, place),
                              thousandths(stop.arrival), thousandths(stop.service_start),
                              thousandths(stop.departure))
 

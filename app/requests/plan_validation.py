@@ -102,7 +102,7 @@ class _Checker:
             is_last = number == len(route.trips) - 1
             is_open = (is_last and kind is not None and kind.end == "open"
                        and (len(trip.stops) < 2 or trip.stops[-1].kind in ON_THE_WAY))
-            begun = _begun(trip, kind, self._now)
+            begun = happened = _begun(trip, kind, self._now)
             served = {stop.id for stop in trip.stops} | {
                 visit.id for sortie in trip.sorties for visit in sortie.customers}
             is_whole = not self._names.shipment_ends.isdisjoint(served) or (
@@ -125,9 +125,9 @@ class _Checker:
                                          self._names.ends(kind, is_last))
                 yield from self._begun_errors(here, trip, kind, begun)
                 yield from self._gone_errors(here, trip, kind, begun)
-            is_done = (begun.left == len(trip.stops)
+            is_done = (happened.left == len(trip.stops)
                        or route.vehicle in self._replan.unavailable)
-            yield from _order_errors(here, trip, begun, last_end, is_done)
+            yield from _order_errors(here, trip, happened, last_end, is_done)
             last_end = thousandths(trip.stops[-1].departure)
             # What follows a trip that is not over has not begun.
             free += begun.left < len(trip.stops)

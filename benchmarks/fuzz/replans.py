@@ -2,23 +2,24 @@
 
 Each day is planned, or changed by hand where that breaks no rule, then something happens, and the
 plan is gone on from; the reply is gone on from in turn. Of other days any one thing is taken away
-or changed, which is planned or refused, by `--gone`. Of each reply this is judged from the JSON
-alone: `POST /check` finds no broken rule and the same cost; what has begun is unchanged; whatever
-is aboard a vehicle that drives stays with it or is left out with a reason; parcels of broken
-vehicles are told of, and leave no depot before they are back; and it costs no more than the plan
-given, where that may still be driven as it is. Nothing that happens is refused.
+or changed, which is planned or refused, or nothing has happened: see `--kind`. Of each reply this
+is judged from the JSON alone: `POST /check` finds no broken rule and the same cost; what has begun
+is unchanged; whatever is aboard a vehicle that drives stays with it or is left out with a reason;
+parcels of broken vehicles are told of, and leave no depot before they are back; and it costs no
+more than the plan given, where that may still be driven as it is. Nothing that happens is refused.
 """
 
 import json
 import math
 import random
-from collections.abc import Collection
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, replace
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import typer
 
 from benchmarks.fuzz.changing_days import Change, by_hand, morning, what_happens
+from benchmarks.fuzz.late_vehicles import legs_of, with_a_late_vehicle
 from benchmarks.fuzz.mixed_problems import mixed_request
 from benchmarks.fuzz.problems import Fault, Study, hold_to_the_past, replan_terms, tried
 from benchmarks.fuzz.things_gone import with_a_thing_gone
@@ -28,6 +29,9 @@ Data = dict[str, Any]
 
 CHANGED_BY_HAND, GOES_ON = 0.6, 0.6
 """Shares of plans that are changed by hand, and of those that go on once more."""
+
+THINGS = 5
+"""How often something is taken away from a day."""
 
 
 @dataclass
@@ -61,7 +65,7 @@ class Days(Study):
             since = max(change.now, 0.001)
 
     def try_gone(self, seed: int) -> None:
-        """Have a day planned, then planned on with one thing of it gone. In place.
+        """Have a day planned, then planned on with one thing of it gone, some times. In place.
 
         Raises
         ------
@@ -73,12 +77,61 @@ class Days(Study):
         plan = self.planned(request)
         if plan is None:
             return
-        terms = replan_terms(rng, plan)
-        if terms["pin_all"]:
-            terms["keep_order"] = rng.random() < 0.5
-        later = with_a_thing_gone(rng, request) | {"replan": terms}
-        replanned = self.planned(later)
-        self.replanned += replanned is not None
+        for _ in range(THINGS):
+            terms = replan_terms(rng, plan)
+            if terms["pin_all"]:
+                terms["keep_order"] = rng.random() < 0.5
+            later = with_a_thing_gone(rng, request) | {"replan": terms}
+            replanned = self.planned(later)
+            self.replanned += replanned is not None
+
+    def try_unchanged(self, seed: int) -> None:
+        """Have a day planned on on which nothing has changed: at no more cost. In place.
+
+        Raises
+        ------
+        Fault
+            If a reply should not be.
+        """
+        rng = random.Random(seed)
+        request = rng.choice((mixed_request, wild_request, morning))(rng)
+        plan = self.planned(request)
+        if plan is None:
+            return
+        terms = replan_terms(rng, plan) | {"unavailable": [], "parcels_back": None}
+        replanned = self.planned(request | {"replan": terms})
+        if replanned is None:
+            raise Fault("nothing has changed, and it is refused")
+        self.replanned += 1
+        before, after = plan["cost"]["total"], replanned["cost"]["total"]
+        if after > before and not math.isclose(after, before, rel_tol=1e-9, abs_tol=1e-6):
+            raise Fault(f"costs {after}, and {before} as the plan given, though nothing changed")
+
+    def try_late(self, seed: int) -> None:
+        """Have a day planned on on which a vehicle is late for the stop it drives to. In place.
+
+        Raises
+        ------
+        Fault
+            If it is elsewhere sooner than it can be.
+        """
+        rng = random.Random(seed)
+        request = rng.choice((mixed_request, morning))(rng)
+        plan = self.planned(request)
+        found = None if plan is None else with_a_late_vehicle(rng, plan)
+        if found is None:
+            return
+        late, now = found
+        replanned = self.planned(request | {"replan": {"plan": late, "freeze_before": now}})
+        if replanned is None:
+            raise Fault("a late vehicle is refused")
+        self.replanned += 1
+        if plan is None or any("speed_profile" in kind for kind in request["fleet"]):
+            return
+        before, after = legs_of(plan), legs_of(replanned)
+        for places in before.keys() & after.keys():
+            if after[places] < before[places] - 0.002:
+                raise Fault(f"{places} take {after[places]} s, and {before[places]} as planned")
 
     def goes_on(self, change: Change, plan: Data) -> Data:
         """Return the plan that goes on from another, found sound. In place."""
@@ -164,14 +217,20 @@ def _served(trip: Data) -> Collection[str]:
             *(visit["id"] for sortie in trip["sorties"] for visit in sortie["customers"])]
 
 
+DayKind = Literal["changing", "gone", "late", "unchanged"]
+
+KINDS: Mapping[DayKind, Callable[[Days, int], None]] = {
+    "changing": Days.try_day, "gone": Days.try_gone, "late": Days.try_late,
+    "unchanged": Days.try_unchanged}
+
+
 def main(
     days: Annotated[int, typer.Option(help="Days to try.")] = 2000,
     seed: Annotated[int, typer.Option(help="Seed of the first; later ones count on.")] = 0,
-    gone: Annotated[bool, typer.Option(help="Take something away from each.")] = False,
+    kind: Annotated[DayKind, typer.Option(help="What becomes of each.")] = "changing",
 ) -> None:
     """Fuzz days that go on."""
-    attempt = Days.try_gone if gone else Days.try_day
-    study, faults = tried(Days, range(seed, seed + days), attempt)
+    study, faults = tried(Days, range(seed, seed + days), KINDS[kind])
     typer.echo(f"{days} days, {faults} faults; {study.replanned} plans gone on from, "
                f"{study.compared} compared with the plan given, {study.left_aboard} parcels left "
                f"aboard; {json.dumps(dict(sorted(study.statuses.items())))}")

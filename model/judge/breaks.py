@@ -8,10 +8,10 @@ window opens. Times in ms.
 from collections.abc import Iterable, Iterator, Sequence
 from typing import NamedTuple
 
-from model.judge.clock import work_between, work_end
+from model.judge.clock import leg_end, work_between, work_end
 from model.judge.loads import trip_loads
 from model.problem import FULL_SPEED, REST, Break, Problem, VehicleType
-from model.solution import BreakPlace, Route, TakenBreak, Trip
+from model.solution import BreakPlace, Route, Stop, TakenBreak, Trip
 
 ON_A_LEG: tuple[BreakPlace, ...] = "departure", "way", "arrival"
 """In which order breaks lie between two stops."""
@@ -72,6 +72,23 @@ def drive(kind: VehicleType, begin: int, departure: int, duration: int,
         time = start + length
         taken.append(TakenBreak(decision.number, decision.stop, decision.place, stood, start, time))
     return work_end(time, work, profile), taken
+
+
+def drive_on(kind: VehicleType, begin: int, stops: Sequence[Stop], duration: int,
+             known: Iterable[TakenBreak],
+             decisions: Iterable[BreakDecision]) -> tuple[int, list[TakenBreak]]:
+    """Return when the leg from the last of some stops ends, with its breaks that are yet to come.
+
+    Those that are known have taken their time; where nobody drives on, they are the end.
+    """
+    here = len(stops) - 1
+    taken = [each for each in known if each.stop == here]
+    if not taken:
+        return drive(kind, begin, stops[here].departure, duration,
+                     [each for each in decisions if each.stop == here])
+    paused = sum([each.end - each.arrival for each in taken])
+    end = leg_end(stops[here].departure + paused, duration, kind.speed_profile)
+    return max(end, taken[-1].end), []
 
 
 def broken_breaks(problem: Problem, kind: VehicleType,

@@ -136,8 +136,8 @@ def _known_trips(problem: Problem, route: Route, now: int,
     for trip in route.trips:
         kind = problem.vehicle_types[route.vehicle_type]
         is_cut = is_unavailable and not kind.flies
-        until = now if is_cut else _bound_until(problem, kind, trip, now)
-        known = _known_trip(problem, kind, trip, until)
+        until = now if is_cut else bound_until(problem, kind, trip, now)
+        known = known_trip(problem, kind, trip, until)
         if known is None:
             return
         if is_unavailable and known.rest != "nothing":
@@ -147,7 +147,7 @@ def _known_trips(problem: Problem, route: Route, now: int,
         yield known
 
 
-def _bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> int:
+def bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> int:
     """Return up to when a trip is made as planned once it has begun: some to their end.
 
     Whoever has taken off flies its trip to the end, ends of shipments are served in pairs, and
@@ -164,7 +164,7 @@ def _bound_until(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> i
     return max([now, *(stop.departure for stop in trip.stops)])
 
 
-def _known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> KnownTrip | None:
+def known_trip(problem: Problem, kind: VehicleType, trip: Trip, now: int) -> KnownTrip | None:
     """Return what has happened on a trip; None if it has not begun."""
     left = 0
     while left < len(trip.stops) and trip.stops[left].departure <= now:
@@ -241,12 +241,12 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
 
 def _taken_by(kind: VehicleType, breaks: Sequence[TakenBreak], last: int,
               now: int) -> tuple[TakenBreak, ...]:
-    """Return the breaks on the legs to a stop, and those that are over behind it.
+    """Return the breaks on the legs to a stop, and those that have begun behind it.
 
     Of one at the end of a leg that leads elsewhere now all is known but that it was on the way.
     """
     found = [taken for taken in breaks if taken.stop < last]
-    for taken in [taken for taken in breaks if taken.stop == last and taken.end < now]:
+    for taken in [taken for taken in breaks if taken.stop == last and taken.start <= now]:
         if taken.place == "arrival":
             if taken.number != REST and not kind.breaks[taken.number].anywhere:
                 break

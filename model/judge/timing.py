@@ -9,7 +9,7 @@ from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive
+from model.judge.breaks import BreakDecision, begin_of, decisions_of, drive, drive_on
 from model.judge.clock import leg_end, service_start, with_setups
 from model.judge.energy import Rest, first_rest
 from model.judge.flown_trips import charged_start, excess_of
@@ -327,42 +327,42 @@ def _schedule_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDe
     return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type), tuple(breaks))
 
 
-def resume_trip(problem: Problem, vehicle_type: VehicleType, decision: TripDecision,
+def resume_trip(problem: Problem, kind: VehicleType, decision: TripDecision,
                 known: KnownTrip, now: int, before: Sequence[Trip] = ()) -> Trip:
     """Return a trip that is under way with its times; `before` are those of the route before it.
 
     What is known stays, its sorties being the first of the decision; all else follows as soon as
     possible from `now` on.
     """
-    duration = problem.travel[vehicle_type.travel].duration
-    drones = vehicle_type.drones
-    flights, stops = dict[int, _Flight](), list[Stop]()
+    drones = kind.drones
+    flights, stops, breaks = dict[int, _Flight](), list[Stop](), list(known.breaks)
     for index, node in enumerate(decision.nodes):
         fact = known.stops[index] if index < len(known.stops) else None
         if fact is not None:
             arrival = fact.arrival
         else:
-            leg = duration.item(stops[-1].node, node)
-            arrival = leg_end(stops[-1].departure, leg, vehicle_type.speed_profile)
-            # Where a route ends with its last service, that may be over, and nobody drives on.
-            rested = max([each.end for each in known.breaks if each.stop == index - 1], default=0)
-            arrival = max(arrival, rested if problem.is_nowhere(node) else now)
+            leg = problem.travel[kind.travel].duration.item(stops[-1].node, node)
+            begin = begin_of(kind, before[0] if before else Trip(tuple(stops)))
+            arrival, taken = drive_on(kind, begin, stops, leg, known.breaks, decision.breaks)
+            breaks += taken
+            arrival = max(arrival, 0 if problem.is_nowhere(node) else now)
         setup = problem.setup_between(stops[-1].node, node) if stops else 0
         ready = arrival + setup
-        start, departure = resumed_service(problem, vehicle_type, node, max(
+        start, departure = resumed_service(problem, kind, node, max(
             ready, awaited(problem, node, before, stops, flights, decision.awaited)), fact, now)
         if node < problem.num_depots:
             ready = start
+            departure += kind.recovery_duration if index == len(decision.nodes) - 1 else 0
         if drones is not None and decision.sorties:
-            departure = max(departure, _operate(problem, vehicle_type, decision, index, ready,
+            departure = max(departure, _operate(problem, kind, decision, index, ready,
                                                 departure, flights, known, now))
         departure = departure if problem.is_nowhere(node) else max(departure, now)
         if fact is not None and fact.departure is not None:
             departure = fact.departure
         stops.append(Stop(node, arrival, start, departure, setup, problem.is_launch_site(node)))
     if drones is None or not decision.sorties:
-        return Trip(tuple(stops), (), known.breaks, decision.charges)
-    return Trip(tuple(stops), _timed_sorties(decision, flights, vehicle_type), known.breaks)
+        return Trip(tuple(stops), (), tuple(breaks), decision.charges)
+    return Trip(tuple(stops), _timed_sorties(decision, flights, kind), tuple(breaks))
 
 
 def schedule(problem: Problem, decision: RouteDecision) -> Route:

@@ -4,7 +4,7 @@ What is planned anew begins where a vehicle has all drones aboard, and serves wh
 problem of its own. The plan given may know better: no new plan should be worse than that.
 """
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 from model.judge.check import judge_route
@@ -32,6 +32,27 @@ def carried_through(problem: Problem, planned: Route, own: Kept, past: Past) -> 
     if set(customers_of(problem, decision.trips[-1])) <= own.served:
         return own
     return Kept(own.vehicle, decision, route)
+
+
+def as_it_stands(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept]) -> Solution:
+    """Return the plan given with its times, whatever it breaks now.
+
+    Vehicles that have begun to work come first, in the order of `kept`. What names somebody who is
+    no more is left out as a whole.
+    """
+    planned = {Vehicle(route.vehicle_type, route.vehicle): route for route in plan.routes
+               if route.trips}
+    order = [*kept, *(vehicle for vehicle in planned if vehicle not in kept)]
+    return complete(problem, tuple([
+        planned[vehicle] for vehicle in order
+        if all(node >= 0 for trip in planned[vehicle].trips for node in _nodes(trip))]))
+
+
+def _nodes(trip: Trip) -> Iterator[int]:
+    """Yield all nodes of a trip."""
+    yield from (stop.node for stop in trip.stops)
+    for sortie in trip.sorties:
+        yield from (visit.node for visit in sortie.visits)
 
 
 def driven_on(problem: Problem, plan: Solution, kept: Mapping[Vehicle, Kept],

@@ -170,7 +170,7 @@ def _continued(problem: Problem, decision: RouteDecision, planned: Trip, meeting
         return kept
     ready, service_left = _free_from(problem, route, position, past.now)
     rest = _rest(problem, vehicle, planned, meeting, served, past.grounded_on(vehicle))
-    planned_end = max(kept.end, _planned_end(problem, kept, ready, service_left, rest))
+    planned_end = _planned_end(problem, kept, ready, service_left, rest)
     return replace(kept, way_on=WayOn(position, ready, service_left, aboard, rest, planned_end))
 
 

@@ -16,9 +16,10 @@ from model.planner import (
     complete_plan,
 )
 from model.problem import Problem
-from model.replanning.driven_on import carried_through, driven_on
+from model.replanning.driven_on import as_it_stands, carried_through, driven_on
 from model.replanning.handover import hand_over, served_by, settled, take_back
 from model.replanning.kept import Kept, kept_routes
+from model.replanning.late import as_late
 from model.replanning.order import by_order, in_order, orders_of
 from model.replanning.parted import parted_shipments, with_parted
 from model.replanning.reasons import barred_reason, bound_reasons
@@ -77,8 +78,11 @@ class Replanning:
         parted = [] if terms.now is None else parted_shipments(
             problem, terms.plan, terms.now, terms.unavailable)
         problem = with_parted(problem, parted)
-        terms = replace(terms, plan=with_charging(problem, terms.plan))
-        self._plan = terms.plan
+        plan = with_charging(problem, terms.plan)
+        if terms.now is not None:
+            plan = as_late(problem, plan, terms.now, terms.unavailable)
+        terms = replace(terms, plan=plan)
+        self._plan = plan
         past = _past(problem, terms)
         refuse(gone_from(terms.plan, past))
         self.problem = problem = _released(problem, past)
@@ -138,13 +142,14 @@ class Replanning:
         first, begun, evaluation = self._beginning(
             bridge, hand_over(self.problem, plan, kept, self._left), options,
             listener.should_stop)
-        solution, before = begun, evaluation
+        solution, before = self._cheapest((begun, evaluation),
+                                          as_it_stands(self.problem, plan, kept))
         # It takes a while in large plans, and would do no better where nobody is lost, and no
         # truck waits for all its drones before it is planned on.
         if _has_flights(self.past) or self.problem.all_places(served_by(plan)).intersection(
                 begun.unassigned):
             solution, before = self._cheapest(
-                (begun, evaluation), driven_on(self.problem, plan, kept, self.past))
+                (solution, before), driven_on(self.problem, plan, kept, self.past))
         result = planner.plan(self._in_order(self._left, first), options, received_at,
                               _relayed(listener, evaluation.cost.total, bridge), first)
         found = begun if result.solution is first else by_order(
@@ -215,9 +220,10 @@ class Replanning:
     def _nothing_left(self, plan: Solution, kept: Mapping[Vehicle, Kept],
                       options: PlanOptions) -> PlanResult:
         began = time.perf_counter()
-        solution, evaluation = self._cheapest(
-            (self._settled, self._legal(self._settled)),
-            driven_on(self.problem, plan, kept, self.past))
+        solution, evaluation = self._settled, self._legal(self._settled)
+        for other in (as_it_stands(self.problem, plan, kept),
+                      driven_on(self.problem, plan, kept, self.past)):
+            solution, evaluation = self._cheapest((solution, evaluation), other)
         cost = evaluation.cost.total
         return PlanResult(solution, evaluation, "given", cost, cost, 0, options.threads, True,
                           Elapsed(0.0, 0.0, time.perf_counter() - began))

@@ -1,5 +1,6 @@
 """Vehicles that break down, and drones that are lost, over HTTP."""
 
+import copy
 from typing import Any
 
 import httpx
@@ -259,3 +260,101 @@ def test_van_on_its_way_to_a_launch_drives_on_if_orders_are_cancelled(searching:
     street["customers"].clear()
     plan = replanned(searching, street, tour, 100)
     assert times(plan, "van-1") == [("van", 0, 0), ("hub", 300, 300)]
+
+
+LUNCH = {"id": "lunch", "duration": 600, "start": {"earliest": 400, "latest": 460},
+         "at": "anywhere"}
+
+
+@pytest.mark.parametrize(("now", "home"), [
+    (350, 480),  # before it begins
+    (420, 1080),  # while it lasts
+    (1040, 1080), (1060, 1080)])
+def test_break_on_the_way_home_takes_its_time_though_the_van_breaks_down(
+        searching: httpx.Client, street: Request, now: float, home: float) -> None:
+    van = {"breaks": [LUNCH], "costs": {"per_hour": 3600}}
+    request = street | {"customers": [{"id": "d", "location": [4, 0], "demand": [1]}],
+                        "fleet": [street["fleet"][0] | van]}
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "d", 240, 240),
+                   ("break", "lunch", 400, 1000), ("depot", "hub", 1080, 1080))
+    plan = replanned(searching, request, tour, now, unavailable=["van-1"])
+    assert times(plan, "van-1")[-1] == ("hub", home, home)
+    assert plan["cost"]["time"] == pytest.approx(home)
+
+
+def test_next_trip_begins_when_the_planned_way_home_ends(searching: httpx.Client) -> None:
+    # From a straight home takes 500, by b as planned 200.
+    table = [[0, 100, 300, 100], [500, 0, 100, 500], [100, 300, 0, 500], [100, 500, 500, 0]]
+    request = {"depots": [{"id": "d", "location_index": 0}],
+               "matrices": {"truck": {"durations": table, "distances": table}},
+               "customers": [{"id": name, "location_index": place, "demand": [1]}
+                             for place, name in enumerate("abe", 1)],
+               "fleet": [{"id": "van", "count": 1, "capacity": [2], "max_trips": 2,
+                          "costs": {"per_hour": 36}}],
+               "options": {"time_limit": 60, "search_iterations": 40}}
+    plan = plan_of(("depot", "d", 0, 0), ("customer", "a", 100, 100), ("customer", "b", 200, 200),
+                   ("depot", "d", 300, 300))
+    more = plan_of(("depot", "d", 300, 300), ("customer", "e", 400, 400), ("depot", "d", 500, 500))
+    plan["routes"][0]["trips"] += more["routes"][0]["trips"]
+    assert replanned(searching, request, plan, 50)["cost"]["total"] == pytest.approx(5.5)
+
+
+def late(tour: Request, delay: float) -> Request:
+    """Return a tour whose van comes so much later to the first place, and leaves it so."""
+    plan = copy.deepcopy(tour)
+    first = plan["routes"][0]["trips"][0]["stops"][1]
+    for name in ("arrival", "service_start", "departure"):
+        first[name] += delay
+    return plan
+
+
+TEA = {"id": "tea", "duration": 60, "start": {"earliest": 360, "latest": 600}, "at": "anywhere"}
+SERVED = (("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("customer", "b", 180, 240),
+          ("customer", "c", 300, 360))
+RESTED = plan_of(*SERVED, ("break", "tea", 360, 420), ("depot", "hub", 600, 600))
+
+
+@pytest.mark.parametrize("delay", [20, 200, 2000])
+def test_what_follows_a_late_stop_is_timed_anew_for_drivers_who_rest(
+        searching: httpx.Client, street: Request, delay: float) -> None:
+    street["fleet"][0]["breaks"] = [TEA]
+    plan = replanned(searching, street, late(RESTED, delay), 50)
+    assert times(plan, "van-1")[1:4] == [
+        ("a", 60 + delay, 120 + delay), ("b", 180 + delay, 240 + delay),
+        ("c", 300 + delay, 360 + delay)]
+    assert times(plan, "van-1")[-1][1] == 600 + delay
+    assert [item["code"] for item in plan["replan"]["excused"]] == ["BREAK"] * (delay > 240)
+
+
+def test_a_driver_who_is_late_rests_by_the_driving_rules(searching: httpx.Client,
+                                                         street: Request) -> None:
+    street["fleet"][0]["driving_rules"] = {"max_driving": 200, "break_duration": 60}
+    rested = plan_of(*SERVED, ("break", "rest", 360, 420), ("depot", "hub", 600, 600))
+    plan = replanned(searching, street, late(rested, 300), 50)
+    assert times(plan, "van-1")[3:] == [("c", 600, 660), ("rest", 660, 720), ("hub", 900, 900)]
+
+
+@pytest.mark.parametrize("delay", [20, 2000])
+def test_a_late_van_brings_its_shipments_later(searching: httpx.Client, street: Request,
+                                               delay: float) -> None:
+    request = street | {"customers": street["customers"][:1], "shipments": [
+        {"id": "s", "amount": [1], "pickup": {"location": [2, 0], "service_duration": 60},
+         "delivery": {"location": [3, 0], "service_duration": 60}}]}
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("pickup", "s", 180, 240),
+                   ("delivery", "s", 300, 360), ("depot", "hub", 540, 540))
+    plan = replanned(searching, request, late(tour, delay), 50)
+    assert [arrival for _, arrival, _ in times(plan, "van-1")] == [
+        0, 60 + delay, 180 + delay, 300 + delay, 540 + delay]
+
+
+def test_a_late_van_still_waits_where_it_has_time(searching: httpx.Client,
+                                                  street: Request) -> None:
+    street["fleet"][0]["breaks"] = [TEA]
+    street["customers"][1]["time_window"] = {"earliest": 400, "latest": 500}
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("customer", "b", 180, 460),
+                   ("break", "tea", 460, 520), ("customer", "c", 580, 640),
+                   ("depot", "hub", 820, 820))
+    tour["routes"][0]["trips"][0]["stops"][2]["service_start"] = 400
+    plan = replanned(searching, street, late(tour, 100), 50)
+    assert times(plan, "van-1")[2:] == [("b", 280, 460), ("tea", 460, 520), ("c", 580, 640),
+                                        ("hub", 820, 820)]

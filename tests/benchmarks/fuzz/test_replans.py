@@ -3,6 +3,7 @@
 The study of two thousand is `python -m benchmarks.fuzz.replans`.
 """
 
+import json
 import random
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 from benchmarks.fuzz.changing_days import Change, committed_to, morning, what_happens
 from benchmarks.fuzz.problems import Fault
 from benchmarks.fuzz.replans import Days, aboard
+from benchmarks.fuzz.things_gone import with_a_thing_gone
 
 pytestmark = pytest.mark.slow
 
@@ -31,6 +33,28 @@ def test_days_that_change_are_planned_soundly(client: httpx.Client) -> None:
     assert days.replanned > DAYS
     assert days.compared > DAYS
     assert set(days.statuses) == {"/plan 200", "/check 200"}
+
+
+def test_days_of_which_something_is_gone_are_planned_or_refused(client: httpx.Client) -> None:
+    days = Days(client)
+    for seed in range(DAYS // 4):
+        days.try_gone(seed)
+    assert days.replanned > DAYS // 5
+    assert set(days.statuses) == {"/plan 200", "/plan 422", "/check 200"}
+
+
+def test_days_on_which_nothing_has_changed_cost_no_more(client: httpx.Client) -> None:
+    days = Days(client)
+    for seed in range(DAYS):
+        days.try_unchanged(seed)
+    assert days.replanned > DAYS // 2
+
+
+def test_late_vehicles_are_nowhere_sooner_than_they_can_be(client: httpx.Client) -> None:
+    days = Days(client)
+    for seed in range(DAYS // 2):
+        days.try_late(seed)
+    assert days.replanned > DAYS // 4
 
 
 def stop(name: str, arrival: float, departure: float) -> Data:
@@ -91,6 +115,16 @@ def test_parcels_that_move_are_faults(tour: Data, broken: tuple[str, ...],
             days.hold_aboard(change, tour, reply(tour, *answer))
     told = reply(tour, "t-2", parcels=[{"id": "D", "vehicle": "t-1"}])
     days.hold_aboard(Change(change.request, 48.0, frozenset({"t-1"})), tour, told)
+
+
+def test_one_thing_alone_is_taken_away_or_changed() -> None:
+    request = morning(random.Random(3))
+    before = json.dumps(request)
+    found = [with_a_thing_gone(random.Random(seed), request) for seed in range(100)]
+    assert json.dumps(request) == before
+    assert all(later != request for later in found)
+    assert len({json.dumps(later) for later in found}) > 30
+    assert all(later["options"] == request["options"] for later in found)
 
 
 def test_days_are_drawn_from_the_generator_alone(tour: Data) -> None:
