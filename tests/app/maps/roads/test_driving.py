@@ -155,6 +155,22 @@ def test_each_vehicle_type_has_its_own_roads(client: httpx.Client) -> None:
     assert again["summary"]["distance"] == reply["summary"]["distance"]
 
 
+def test_fits_and_reasons_drive_on_the_same_roads(client: httpx.Client) -> None:
+    body = request(customer(1, FAR), avoid=["motorways"])
+    plan = replied(client, body)
+    joins = customer(2, NORTH, approach="curb")
+    question = {"problem": body, "plan": plan, "new_customer": joins, "count": 2}
+    back, there = replied(client, question, "/fit")["places"]
+    # On the way back the northern side is that where one stops, and on the way there it isn't:
+    # then one is led around the block, back to the depot's end, and eastward again.
+    assert back["cost"]["total"] == pytest.approx(0, abs=0.05)
+    assert there["cost"]["total"] > 2
+    both = body | {"customers": [*body["customers"], joins]}
+    without = plan | {"unassigned": [{"id": "2", "reasons": []}]}
+    assert replied(client, {"problem": both, "plan": without, "customer": "2"},
+                   "/explain")["complete"]
+
+
 def test_who_can_only_be_reached_by_what_is_avoided_is_named(client: httpx.Client) -> None:
     island = request(customer(1, FAR), customer(2, (2900, 4000)))
     assert driven(replied(client, island))[1] > 4000

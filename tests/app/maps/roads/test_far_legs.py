@@ -39,6 +39,7 @@ class Plain:
 
     def __init__(self) -> None:
         self.legs, self.answers = 0, 0
+        self.driving: list[Driving] = []
         self.fails_after = 1_000
 
     def build(self) -> str:
@@ -51,7 +52,9 @@ class Plain:
         self.answers += 1
         if self.answers > self.fails_after:
             raise RoadsUnavailableError("They are down.")
+        self.driving.append(driving)
         count = len(lon_lat)
+        assert driving.curb is None or len(driving.curb) == count
         seconds = np.full((count, count), np.nan)
         for block in whole(count) if wanted is None else wanted:
             self.legs += len(block.origins) * len(block.destinations)
@@ -122,6 +125,19 @@ def test_all_legs_of_a_plan_are_true_though_few_were_asked_for() -> None:
     assert engine.legs < 0.7 * PLACES**2
     assert reply["legs"][0]["estimated"] == 0
     assert "estimated in the search" in reply["legs"][0]["note"]
+
+
+def test_far_legs_are_driven_as_near_ones_are() -> None:
+    engine = Plain()
+    stated = spread_request(roads={"approach": "curb"})
+    stated["fleet"][0]["avoid"] = ["tolls"]
+    planned(stated, engine)
+    assert len(engine.driving) > 1
+    for driving in engine.driving:
+        assert driving.avoid == ("tolls",)
+        assert driving.curb is not None
+        # The first of all that are asked for is the depot.
+        assert driving.curb.tolist() == [False, *[True] * (len(driving.curb) - 1)]
 
 
 def test_windows_hold_by_true_legs(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,7 +2,7 @@
 
 import json
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -10,12 +10,17 @@ import pytest
 
 from app.maps.remote.asking import ShouldStop
 from app.maps.roads.engine import (
-    USUAL, Block, Driving, RoadTable, RoadsAnswerError, RoadsStoppedError, RoadsUnavailableError,
+    USUAL, Block, Driving, RoadEngine, RoadTable, RoadsAnswerError, RoadsStoppedError,
+    RoadsUnavailableError,
 )
+from app.maps.roads.openrouteservice import OpenRouteService
 from app.maps.roads.roads import Roads
+from app.maps.roads.server import RoadServer
+from app.maps.roads.valhalla import Valhalla
 from app.plans.task import Task, task_of
 from app.requests.bounds import Bounds, leg_errors
 from app.requests.conversion.preparing import Preparing, StoppedError
+from app.requests.ends import stated_path
 from app.requests.reading import read_request
 from app.schemas.errors import InvalidRequestError, NoRoadsError
 from model.problem import UNREACHABLE, FloatArray
@@ -135,6 +140,30 @@ def test_all_that_counts_as_customers_has_a_side_of_the_street() -> None:
     assert curb is not None
     # Depot, both customers, the first one's other places, and both ends.
     assert curb.tolist() == [False, False, True, False, True, False, True]
+
+
+@pytest.mark.parametrize("make", [Valhalla, OpenRouteService])
+@pytest.mark.parametrize(("changes", "path"), [
+    ({"roads": {"approach": "curb"}}, "$.roads.approach"),
+    ({"shipments": [{"id": "s", "amount": [1], "pickup": {"location": [25.0, 60.0]},
+                     "delivery": {"location": [25.0, 60.0], "approach": "curb"}}]},
+     "$.shipments[0].delivery.approach"),
+    ({"fleet": [{"id": "t", "count": 1, "capacity": [10]},
+                {"id": "u", "count": 1, "capacity": [10], "avoid": ["tolls"]}]},
+     "$.fleet[1].avoid"),
+])
+def test_servers_that_know_neither_are_not_asked(
+        make: Callable[[RoadServer], RoadEngine], changes: dict[str, Any], path: str) -> None:
+    engine = make(RoadServer("http://127.0.0.1:9"))
+    roads = Roads({"truck": engine})
+    if "fleet" in changes:
+        changes["fleet"][0]["profile"] = "van"
+    stated = read_request(json.dumps(request(**changes)).encode(), None)
+    with pytest.raises(InvalidRequestError) as raised:
+        task_of(stated, Preparing(), roads=roads)
+    error, = raised.value.errors
+    assert (error.code, stated_path(stated, error.path)) == ("ROADS_WITHOUT_THAT", path)
+    engine.close()
 
 
 @pytest.mark.parametrize(("changes", "by", "words"), [

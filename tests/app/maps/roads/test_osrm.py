@@ -12,9 +12,11 @@ import polyline
 import pytest
 
 from app.maps.roads.engine import (
-    Block, NoWayError, RoadsAnswerError, RoadsUnavailableError, RoadTable,
+    Block, Driving, NoWayError, RoadsAnswerError, RoadsUnavailableError, RoadTable,
+    UnknownDrivingError,
 )
 from app.maps.roads.osrm import Osrm
+from app.maps.roads.osrm_tables import TableForm, in_floats, in_json
 from app.maps.roads.server import RoadServer
 from model.problem import FloatArray
 from tests.app.maps.roads.conftest import Places, served
@@ -119,6 +121,33 @@ def test_route_is_made_of_the_table_s_legs(osrm: Osrm, helsinki_places: Places) 
         np.testing.assert_allclose(leg[-1], table.snapped[following], atol=2e-6)
     joined = [legs[0][0], *(point for leg in legs for point in leg[1:])]
     assert polyline.decode(route.geometry, 6, geojson=True) == joined
+
+
+@pytest.mark.parametrize(("max_places", "form"), [(100, in_json), (9, in_json), (100, in_floats)])
+def test_sides_of_streets_are_the_same_in_tables_and_on_routes(
+        max_places: int, form: TableForm, osrm: Osrm, helsinki_osrm: str,
+        helsinki_places: Places) -> None:
+    places, curb = helsinki_places(40, 5), np.arange(40) % 3 > 0
+    driving = Driving(("motorways",), curb)
+    engine = Osrm(RoadServer(helsinki_osrm, max_places, max_points=7), form=form)
+    table = engine.table(places, soon(), driving=driving)
+    usual = osrm.table(places, soon())
+    np.testing.assert_array_equal(table.snapped, usual.snapped)
+    assert (table.durations_s != usual.durations_s).mean() > 0.2
+    tour = drivable(table, 15)
+    route = engine.route(places[tour], soon(), driving.among(np.array(tour)))
+    engine.close()
+    np.testing.assert_array_equal(route.durations_s, table.durations_s[tour[:-1], tour[1:]])
+    np.testing.assert_array_equal(route.distances_m, table.distances_m[tour[:-1], tour[1:]])
+
+
+def test_what_roads_were_not_prepared_to_avoid_is_refused(osrm: Osrm,
+                                                          helsinki_places: Places) -> None:
+    driving = Driving(("motorways", "tolls"))
+    with pytest.raises(UnknownDrivingError):
+        osrm.table(helsinki_places(3, 5), soon(), driving=driving)
+    with pytest.raises(UnknownDrivingError):
+        osrm.route(helsinki_places(3, 5), soon(), driving)
 
 
 def test_route_without_a_way_is_an_error(osrm: Osrm, helsinki_places: Places) -> None:
