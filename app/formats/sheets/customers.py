@@ -20,7 +20,8 @@ MINUTE, HOUR = 60, 3600
 MOST_WINDOWS = 8
 LONGEST_NAME = 200
 
-SAME = ("time_window", "time_windows", "served_by", "skills", "vehicles", "release_time")
+SAME = ("time_window", "time_windows", "served_by", "approach", "skills", "vehicles",
+        "release_time")
 SAME_CELLS = ("preferred_vehicles", "preference_cost", "vehicle_costs", "together", "apart",
               "together_on_trip", "apart_on_trip", "before", "after", "min_lag", "max_lag",
               "alternative_cost", *(meaning_at("alternative", own) for own in OF_SIDES))
@@ -216,7 +217,8 @@ def disjoint(windows: Iterable[tuple[float, float | None]]) -> list[tuple[float,
 
 def _rules(row: Row) -> Data:
     found: Data = {}
-    for meaning, name in (("served_by", "served_by"), ("skills", "skills"),
+    for meaning, name in (("served_by", "served_by"), ("approach", "approach"),
+                          ("skills", "skills"),
                           ("ready", "release_time"), ("unassigned_cost", "unassigned_cost")):
         if row.get(meaning) not in (None, []):
             found[name] = row.values[meaning]

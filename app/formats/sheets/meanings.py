@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 from typing import Literal
 
 Kind = Literal["text", "number", "amount", "clock", "windows", "duration", "names", "server",
-               "date", "degrees", "point", "kind", "prices"]
+               "side", "date", "degrees", "point", "kind", "prices"]
 
 CLOCK_UNITS = ("clock", "hours", "h.mm", "hhmm", "minutes", "seconds", "days")
 """How bare numbers in a column of clock times are meant; `8:30` is 8:30 in any.
@@ -61,6 +61,7 @@ MEANINGS = {
     "late_cost": Meaning("Cost per hour late", "number"),
     "early_cost": Meaning("Cost per hour early", "number"),
     "served_by": Meaning("Drone allowed", "server"),
+    "approach": Meaning("On its own side of the street", "side"),
     "skills": Meaning("Skills needed", "names"),
     "vehicles": Meaning("Only by vehicles", "names"),
     "forbidden_vehicles": Meaning("Not by vehicles", "names"),

@@ -109,6 +109,16 @@ def _server(raw: Raw, unit: str | None, style: Style) -> str:
     raise MisreadError(f"{shown(raw)!r} is neither yes nor no: write one, or drone, truck, either")
 
 
+def _side(raw: Raw, unit: str | None, style: Style) -> str:
+    """Return how a place is reached: on its own side of the street where the cell says yes."""
+    plain = simple(shown(raw))
+    if plain in ("curb", "any"):
+        return plain
+    if plain in YES or plain in NO:
+        return "curb" if plain in YES else "any"
+    raise MisreadError(f"{shown(raw)!r} is neither yes nor no: write one, or curb, any")
+
+
 def _degrees(raw: Raw, unit: str | None, style: Style) -> float:
     """Return degrees, of decimals or of minutes and seconds; south and west are below 0."""
     if isinstance(raw, float):
@@ -201,8 +211,8 @@ def _kind(raw: Raw, unit: str | None, style: Style) -> str:
 
 READERS: dict[Kind, Reader] = {
     "text": _text, "number": _number, "amount": _amount, "clock": _clock, "windows": _windows,
-    "duration": _duration, "names": _names, "server": _server, "degrees": _degrees, "point": _point,
-    "date": _date, "kind": _kind, "prices": _prices,
+    "duration": _duration, "names": _names, "server": _server, "side": _side, "degrees": _degrees,
+    "point": _point, "date": _date, "kind": _kind, "prices": _prices,
 }
 
 
@@ -249,5 +259,7 @@ def reading_text(value: Any, kind: Kind, unit: str | None) -> str:
         case "server":
             return {"either": "by drone or truck", "truck": "by truck alone",
                     "drone": "by drone alone"}[value]
+        case "side":
+            return {"curb": "on its own side", "any": "from either side"}[value]
         case _:
             return str(value)

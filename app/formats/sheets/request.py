@@ -25,6 +25,7 @@ from app.schemas.errors import InputError, InvalidRequestError
 CELLS = {"id": ("name", "order"), "location": ("latitude", "point", "y"), "demand": ("demand",),
          "time_window": ("latest", "earliest", "window"), "time_windows": ("window",),
          "service_duration": ("service",), "release_time": ("ready",), "skills": ("skills",),
+         "approach": ("approach",),
          "vehicles": ("vehicles", "forbidden_vehicles"), "unassigned_cost": ("unassigned_cost",),
          "vehicle_costs": ("vehicle_costs", "preference_cost", "preferred_vehicles"),
          "amount": ("demand",), "max_time_between": ("max_between",),

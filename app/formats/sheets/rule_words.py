@@ -1,6 +1,18 @@
-"""What columns of preferred vehicles, and of who goes with whom, are headed, as in `words`."""
+"""What columns of sides of streets, preferred vehicles and who goes with whom are headed."""
 
 RULE_WORDS: dict[str, dict[str, str]] = {
+    "approach": {
+        "en": "approach|curb|curb side|kerb side|curbside|kerbside|side of street|"
+              "side of the street|own side of the street|on its own side of the street|no crossing",
+        "de": "strassenseite|richtige strassenseite|auf der eigenen strassenseite|"
+              "eigene strassenseite|anfahrt von rechts",
+        "fr": "cote de la rue|du bon cote",
+        "es": "lado de la calle",
+        "it": "lato della strada",
+        "nl": "kant van de straat|straatzijde",
+        "pl": "strona ulicy",
+        "pt": "lado da rua",
+    },
     "preferred_vehicles": {
         "en": "preferred vehicle|preferred vehicles|preferred driver|regular driver|usual driver|"
               "regular vehicle|usual vehicle|preferred van|preferred truck",

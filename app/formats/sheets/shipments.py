@@ -10,7 +10,7 @@ from app.formats.sheets.rows import Row
 from app.schemas.fields import MAX_INFO_ENTRIES
 from model.problem import MOST_PICKUPS
 
-OF_END = ("location", "service_duration", "time_window", "time_windows", "info")
+OF_END = ("location", "service_duration", "time_window", "time_windows", "approach", "info")
 OF_BOTH = ("vehicles", "unassigned_cost")
 
 Data = dict[str, Any]

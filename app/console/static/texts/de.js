@@ -129,6 +129,7 @@ export default {
       late_cost: 'Kosten je Stunde zu spät',
       early_cost: 'Kosten je Stunde zu früh',
       served_by: 'Drohne erlaubt',
+      approach: 'Auf der eigenen Straßenseite',
       skills: 'Verlangte Fähigkeiten',
       vehicles: 'Nur mit Fahrzeugen',
       forbidden_vehicles: 'Nicht mit Fahrzeugen',

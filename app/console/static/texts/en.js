@@ -116,6 +116,7 @@ export default {
       late_cost: 'Cost per hour late',
       early_cost: 'Cost per hour early',
       served_by: 'Drone allowed',
+      approach: 'On its own side of the street',
       skills: 'Skills needed',
       vehicles: 'Only by vehicles',
       forbidden_vehicles: 'Not by vehicles',

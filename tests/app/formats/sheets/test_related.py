@@ -56,6 +56,15 @@ def test_headings_of_rules_are_known(heading: str, meaning: str) -> None:
     assert reply.columns[-1].meaning == meaning
 
 
+@pytest.mark.parametrize("heading", ["Kerb side", "Eigene Straßenseite", "Approach"])
+def test_places_are_reached_on_their_own_side_of_the_street(heading: str) -> None:
+    request = read(heading, "yes", "no", "", "curb").request
+    assert request is not None
+    assert [customer.get("approach") for customer in request["customers"]] == [
+        "curb", "any", None, "curb"]
+    assert [error.cell for error in read(heading, "yes", "left", "no", "no").errors] == ["F3"]
+
+
 def test_a_vehicle_that_is_not_there_is_told_at_its_cell() -> None:
     reply = read("Fahrzeug;Nicht mit", ";Ben", ";", ";", ";")
     assert [(error.code, error.cell) for error in reply.errors] == [("UNKNOWN_VEHICLE", "G2")]
