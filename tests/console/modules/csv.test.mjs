@@ -5,12 +5,15 @@ import { test } from 'node:test';
 
 import { csvCell } from '../../../app/console/static/js/core/csv.js';
 
-const SIGNS = ['=', '+', '-', '@', '＝', '＋', '－', '＠'];
-const BEFORE = ['', ' ', '"', '\t', '\r', '\n', '\r\n', ';', 'a;', 'a; ', 'a;"', 'a\t', 'a\n', '\u00a0'];
+const EVERY = Array.from({ length: 0x10000 }, (_, code) => String.fromCharCode(code));
+const SIGNS = EVERY.filter((sign) => '=+-@\u2212'.includes(sign.normalize('NFKC')));
+const UNSEEN = EVERY.filter((sign) => /[\s\p{C}\p{Z}\p{DI}]/u.test(sign) && !/\p{Cn}|\p{Co}|\p{Cs}/u.test(sign));
+const BEFORE = ['', '"', '\r\n', ';', 'a;', 'a; ', 'a;"', 'a\t', 'a\n', '\u200b\u202e ', ...UNSEEN,
+  ...UNSEEN.map((sign) => `a;${sign}`)];
 
-/** Return what programs make of a cell that split lines at other signs, and skip blanks. */
+/** Return what programs make of a cell that split lines at other signs, and skip what isn't seen. */
 function parts(cell) {
-  return cell.split(/[;,\t\r\n]/).map((part) => part.replace(/^[\s"]+/, ''));
+  return cell.split(/[;,\t\r\n\u2028]/).map((part) => part.replace(/^[\s"\p{C}\p{Z}\p{DI}]+/u, ''));
 }
 
 test('no cell begins with a sign of formulas, whatever ends a cell', () => {
@@ -19,6 +22,13 @@ test('no cell begins with a sign of formulas, whatever ends a cell', () => {
       const cell = csvCell(`${before}${sign}1+1`);
       assert.ok(!parts(cell).some((part) => SIGNS.includes(part[0])), JSON.stringify(cell));
     }
+  }
+});
+
+test('signs of formulas are those that anybody has heard of', () => {
+  for (const sign of '=+-@＝＋－＠﹢﹣﹦﹫⁺⁻⁼₊₋₌−') assert.ok(SIGNS.includes(sign), sign);
+  for (const sign of ['\u200b', '\u200e', '\u202e', '\u2066', '\u2060', '\ufeff', '\u00ad', '\u3164']) {
+    assert.ok(UNSEEN.includes(sign), sign.codePointAt(0).toString(16));
   }
 });
 
