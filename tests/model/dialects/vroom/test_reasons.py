@@ -16,6 +16,16 @@ Data = dict[str, Any]
     ({}, {"delivery": [3]}, [], "Route over capacity for vehicle 5."),
     ({}, {"time_windows": [[0, 5]]}, [], "Infeasible route for vehicle 5."),
     ({"max_travel_time": 19}, {}, [], "Route over max_travel_time for vehicle 5."),
+    ({"time_window": [100, 500], "breaks": [
+        {"id": 7, "time_windows": [[100, 200]]}, {"id": 8, "time_windows": [[0, 20], [40, 50]]}]},
+     {}, [], "Break 8 of vehicle 5 starts by 50 at the latest, and the vehicle begins at 100."),
+    ({"time_window": [100, 500], "breaks": [
+        {"id": 7, "time_windows": [[480, 600]], "service": 30}]},
+     {}, [], "Break 7 of vehicle 5 isn't over before 510, and the vehicle ends at 500."),
+    ({"time_window": [100, 500], "breaks": [{"id": 7, "service": 390}]}, {}, [],
+     "Breaks leave vehicle 5 no time for it."),
+    ({"time_window": [0, 10], "breaks": [{"id": 7, "time_windows": [[20, 30]]}]}, {}, [],
+     "Infeasible route for vehicle 5."),
     ({}, {}, [0], FULL),
     ({}, {}, [], "Vehicle 5 is free and could serve it: no such plan was found in time.")])
 def test_reasons_are_told_in_words(vehicle: Data, job: Data, used: list[int], reason: str) -> None:
