@@ -1,7 +1,7 @@
 """The API's own description, with examples that run as they stand."""
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from typing import Any, cast
@@ -9,7 +9,7 @@ from typing import Any, cast
 from fastapi import FastAPI, Request
 from fastapi.routing import APIRoute
 from pydantic import BaseModel
-from pydantic.json_schema import models_json_schema
+from pydantic.json_schema import JsonSchemaMode, models_json_schema
 
 from app.schemas.errors import MEDIA_TYPE, ProblemDocument
 
@@ -97,6 +97,10 @@ _taken: set[type[BaseModel]] = set()
 """What endpoints take that read their bodies themselves."""
 
 
+_told: set[type[BaseModel]] = set()
+"""What events tell."""
+
+
 class _JsonBody(Mapping[str, Any]):
     """What `json_body` returns, made anew whenever it is looked at: most processes never do."""
 
@@ -130,9 +134,12 @@ def _schemas() -> dict[str, Any]:
 
     Together they take a second; one by one each would make again what it shares with others.
     """
-    models: set[type[BaseModel]] = {*_taken, ProblemDocument}
+    return _schemas_of({*_taken, ProblemDocument}, "validation")
+
+
+def _schemas_of(models: Iterable[type[BaseModel]], mode: JsonSchemaMode) -> dict[str, Any]:
     _, made = models_json_schema(
-        [(model, "validation") for model in sorted(models, key=lambda each: each.__name__)],
+        [(model, mode) for model in sorted(models, key=lambda each: each.__name__)],
         ref_template=SCHEMA_REF)
     return cast("dict[str, Any]", _without_none(made["$defs"]))
 
@@ -162,11 +169,16 @@ def problems(*statuses: int, **described: str) -> dict[int | str, dict[str, Any]
 
 
 def event_stream(**events: type[BaseModel]) -> dict[str, Any]:
-    """Return the content of a reply of server-sent events: what `data` of each event is."""
+    """Return the content of a reply of server-sent events: what `data` of each event is.
+
+    Its schema is that of an event, as programs read it: OpenAPI 3.1 has no word for a stream.
+    """
+    _told.update(events.values())
     data = {"type": "string", "contentMediaType": "application/json", "contentSchema": {
-        "anyOf": [model.model_json_schema() for model in events.values()]}}
-    return {"text/event-stream": {"itemSchema": {
+        "anyOf": [{"$ref": SCHEMA_REF.format(model=model.__name__)} for model in events.values()]}}
+    return {"text/event-stream": {"schema": {
         "type": "object",
+        "description": "One of the events that follow one another.",
         "properties": {"event": {"enum": list(events)}, "id": {"type": "string"}, "data": data},
         "required": ["event", "id", "data"],
     }}}
@@ -180,7 +192,9 @@ def describe(app: FastAPI) -> Callable[[], dict[str, Any]]:
         if app.openapi_schema is not None:
             return app.openapi_schema
         description = describe_endpoints()
-        description["components"]["schemas"] |= _schemas()
+        schemas = description["components"]["schemas"]
+        description["components"]["schemas"] = (
+            _schemas_of(_told, "serialization") | schemas | _schemas())
         _add_refusals(description)
         return description
 
