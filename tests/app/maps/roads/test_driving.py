@@ -2,6 +2,7 @@
 
 import json
 import shutil
+import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,9 @@ import polyline
 import pytest
 
 from app.maps.roads.building import NOTES, build_roads, find_build
-from app.maps.roads.setting import Extract
+from app.maps.roads.embedded import EmbeddedRoads
+from app.maps.roads.engine import Driving
+from app.maps.roads.setting import Extract, Vehicle
 from app.maps.roads.tools import Tools
 from app.serving.settings import Settings
 from model.travel.matrices import great_circle_distances
@@ -203,6 +206,21 @@ def test_roads_prepared_before_say_that_they_cannot_avoid_that(
     assert [(error["code"], error["path"]) for error in reply.json()["errors"]] == [
         ("ROADS_WITHOUT_THAT", "$.fleet[0].avoid")]
     assert "tandem roads build" in reply.json()["errors"][0]["message"]
+
+
+@pytest.mark.parametrize("vehicle", ["truck", "bicycle"])
+@pytest.mark.parametrize(("origin", "own_side"), [((25.0, 60.0), SOUTH), ((-1.5, 52.5), NORTH)])
+def test_traffic_keeps_left_where_it_does(vehicle: Vehicle, origin: tuple[float, float],
+                                          own_side: tuple[float, float], tools: Tools,
+                                          tmp_path: Path) -> None:
+    write_town(tmp_path / "town.osm.pbf", origin)
+    roads = EmbeddedRoads(build_roads(Extract(tmp_path / "town.osm.pbf", vehicle), tools), tools)
+    places = np.array([place(*at, origin) for at in ((-100, 0), NORTH, SOUTH)])
+    table = roads.table(places, time.perf_counter() + 60,
+                        driving=Driving((), np.array([False, True, True])))
+    roads.close()
+    to_both = [DIRECT, AROUND] if own_side == NORTH else [AROUND, DIRECT]
+    assert table.distances_m[0, 1:].tolist() == about(*to_both)
 
 
 def test_builds_of_former_profiles_still_serve(town: Extract, tools: Tools, tmp_path: Path,

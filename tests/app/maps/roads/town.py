@@ -10,6 +10,7 @@ From (1000, 0) four ways lead to (3000, 0), each slower than the one before: a m
 tolls, a ferry, and a street. A ferry alone leads from there to an island at (3000, 4000).
 """
 
+import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import NamedTuple
@@ -18,7 +19,7 @@ import osmium
 from osmium.osm.mutable import Node, Way
 
 ORIGIN = (25.0, 60.0)
-METRES_PER_DEGREE = (55_600.0, 111_195.0)
+METRES_PER_DEGREE = 111_195.0
 
 Point = tuple[float, float]
 
@@ -48,19 +49,21 @@ STREETS = (
 )
 
 
-def place(east: float, north: float) -> list[float]:
+def place(east: float, north: float, origin: Point = ORIGIN) -> list[float]:
     """Return longitude and latitude of a place."""
-    return [round(origin + metres / scale, 6) for origin, metres, scale
-            in zip(ORIGIN, (east, north), METRES_PER_DEGREE, strict=True)]
+    longitude, latitude = origin
+    shrunk = METRES_PER_DEGREE * math.cos(math.radians(latitude))
+    return [round(longitude + east / shrunk, 6),
+            round(latitude + north / METRES_PER_DEGREE, 6)]
 
 
-def write_town(path: Path) -> None:
-    """Write the town as an extract of OpenStreetMap."""
+def write_town(path: Path, origin: Point = ORIGIN) -> None:
+    """Write the town as an extract of OpenStreetMap, somewhere on the globe."""
     points = list(dict.fromkeys(point for street in STREETS for point in street.points))
     numbers = {point: number for number, point in enumerate(points, start=1)}
     with osmium.SimpleWriter(str(path)) as writer:
         for point, number in numbers.items():
-            writer.add_node(Node(id=number, version=1, location=tuple(place(*point))))
+            writer.add_node(Node(id=number, version=1, location=tuple(place(*point, origin))))
         for number, street in enumerate(STREETS, start=1):
             writer.add_way(Way(id=number, version=1, tags=dict(street.tags),
                                nodes=[numbers[point] for point in street.points]))
