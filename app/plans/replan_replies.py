@@ -1,6 +1,6 @@
 """What a reply says of the plan that was given: what is settled, excused, and where parcels are."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from app.plans.replies import Data, vehicle_name
 from model.judge.rules import Violation
@@ -22,9 +22,16 @@ def on_the_wire(path: str) -> str:
     return path.replace(".visits[", ".customers[")
 
 
-def replan_reply(problem: Problem, replanning: Replanning, solution: Solution) -> Data:
-    """Return what the reply to a plan says of the one that was given."""
+def replan_reply(problem: Problem, replanning: Replanning, solution: Solution,
+                 doubtful: Collection[str] = ()) -> Data:
+    """Return what the reply to a plan says of the one that was given.
+
+    `doubtful` are customers of whom nobody told whether they were served.
+    """
     parcels = _parcels(problem, replanning, solution)
+    settled = {problem.customer_at(problem.first_place(node)).id
+               for kept in replanning.kept for node in kept.served} if doubtful else set()
+    held = [name for name in dict.fromkeys(doubtful) if name in settled]
     return {
         "settled": [{"vehicle": vehicle_name(problem, kept.route),
                      "trip": len(kept.route.trips) - 1,
@@ -32,6 +39,7 @@ def replan_reply(problem: Problem, replanning: Replanning, solution: Solution) -
                     for kept in replanning.kept],
         "excused": [violation_reply(violation, "$", "$") for violation in replanning.excused],
         **({"parcels": parcels} if parcels else {}),
+        **({"doubtful": held} if held else {}),
     }
 
 

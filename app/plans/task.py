@@ -77,6 +77,7 @@ class Task:
     storms: Storms = field(default_factory=Storms)
     rules: list[Data] = field(default_factory=list)  # that drones name
     laws: list[Data] = field(default_factory=list)  # that drivers keep
+    doubtful: Sequence[str] = ()  # customers of whom nobody told whether they were served
 
     def plan(self, planner: Planner, options: PlanOptions, received_at: float | None = None,
              listener: Listener = ALONE, start: Solution | None = None) -> PlanResult:
@@ -161,7 +162,8 @@ class Task:
             reply["addresses"] = self.places.replies()
         self._complete(reply, LEAST_GEOMETRY + MOST_GEOMETRY * options.time_limit)
         if self.replanning is not None:
-            reply["replan"] = replan_reply(self.problem, self.replanning, result.solution)
+            reply["replan"] = replan_reply(self.problem, self.replanning, result.solution,
+                                           self.doubtful)
         self.telling.tell(PlanReply, reply)
         return {**self.telling.stated, **reply}
 
@@ -234,7 +236,8 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
     going_on.expect(replanning_seconds(problem, terms.plan))
     try:
         return Task(problem, Replanning(problem, terms), *beside, places=places, permits=permits,
-                    closures=closures, storms=storms, rules=rules, laws=laws)
+                    closures=closures, storms=storms, rules=rules, laws=laws,
+                    doubtful=replan.doubtful)
     except SettledPartError as error:
         raise InvalidRequestError([
             InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",

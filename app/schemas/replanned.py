@@ -55,3 +55,7 @@ class ReplanReply(_Reply):
         None, description="Parcels aboard vehicles that are unavailable, and from where others "
         "deliver them. Left out if there are none."
     )
+    doubtful: list[str] | None = Field(
+        None, description="Customers, of those stated as `doubtful`, whom the plan has as served "
+        "by now though nobody told. Left out if there are none."
+    )

@@ -222,6 +222,12 @@ class ReplanInput(Input):
         description="When the parcels aboard unavailable vehicles are at the depots again, in "
         "seconds since plan start. Null: at `freeze_before`.",
     )
+    doubtful: Annotated[list[Name], Field(max_length=MAX_CUSTOMERS)] = Field(
+        [],
+        description="Customers of whom nobody told whether they were served, as "
+        "`GET /dispatches/{id}/replan` has them. Planning doesn't look at it; the reply repeats "
+        "those who are held to be served.",
+    )
 
 
 class PlanRequest(Input):

@@ -194,14 +194,14 @@ def changed(rng: random.Random, request: Data, plan: Data) -> Data:
 
 
 def _num_left_out(plan: Data, left: Data) -> int:
-    """Return how many ends a plan leaves out; of what a broken vehicle has fetched the last."""
+    """Return how many ends a plan leaves out; pickups that a broken vehicle has made are none."""
     if left.get("kind") != "shipment":
         return 1
-    is_fetched = any((halt.get("kind"), halt["id"]) == ("pickup", left["id"])
-                     for route in plan["routes"] for trip in route["trips"]
-                     for served in (trip["stops"], *(each["customers"] for each in trip["sorties"]))
-                     for halt in served)
-    return 1 if is_fetched else 1 + len(left.get("parts") or [None])
+    fetched = sum((halt.get("kind"), halt["id"]) == ("pickup", left["id"])
+                  for route in plan["routes"] for trip in route["trips"]
+                  for served in (trip["stops"], *(each["customers"] for each in trip["sorties"]))
+                  for halt in served)
+    return 1 + len(left.get("parts") or [None]) - fetched
 
 
 def replan_terms(rng: random.Random, plan: Data) -> Data:

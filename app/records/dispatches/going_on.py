@@ -3,14 +3,20 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from app.records.dispatches.doubts import Answers, Doubt, answered, doubts_of
 from app.records.dispatches.retiming import Retimed, retime
-from app.records.dispatches.schemas import FailedReply, GoingOnReply, StepKind, StepReply
+from app.records.dispatches.schemas import (
+    DoubtfulReply, FailedReply, GoingOnReply, StepKind, StepReply,
+)
 from app.records.dispatches.standing import Standing, is_broken, of_steps
 from app.records.dispatches.steps import flight_id, stop_ids
 from app.schemas.plan import PlanInput, RouteInput, SortieInput, StopInput, TripInput
 
 GROUNDING = frozenset({"Did not come back", "Drone is broken"})
 """What drivers tell of a drone that flies no more, as their page offers it."""
+
+
+NOBODY_KNOWS = Answers()
 
 
 @dataclass(frozen=True)
@@ -21,7 +27,8 @@ class OnTheRoad:
     standing: Standing
 
 
-def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float) -> GoingOnReply:
+def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float,
+             answers: Answers = NOBODY_KNOWS) -> GoingOnReply:
     """Return how to plan on, by what drivers told.
 
     Parameters
@@ -32,18 +39,24 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float) -> 
         What is known of each, by name. One whose driver told nothing is where the plan has it.
     now
         From when on, in seconds since plan start.
+    answers
+        What is known of orders of which nobody told.
     """
-    routes, failed, told = [], [], []
+    routes, failed, told, doubtful = [], [], [], list[DoubtfulReply]()
     for route in plan.routes:
         known = vehicles[route.vehicle]
-        standing = of_steps(known.standing)
         if known.standing:
             told.append(route.vehicle)
-        if not standing:
+        doubts = doubts_of(route, of_steps(known.standing), now)
+        breaks = is_broken(known.standing)
+        standing = answered(route, of_steps(known.standing), doubts, answers, breaks, now)
+        doubtful += [_reply(doubt, standing) for doubt in doubts]
+        if standing is None:
             routes.append(route)
             continue
         durations = {step.id: step.duration for step in known.steps}
-        driven, failures = _driven(route, retime(route, standing, durations, now), standing)
+        trips = retime(route, standing, durations, now, breaks)
+        driven, failures = _driven(route, trips, standing)
         failed += failures
         if driven.trips:
             routes.append(driven)
@@ -53,7 +66,18 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float) -> 
     replan = {"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now}
     if broken or grounded:
         replan["unavailable"] = [*broken, *grounded]
-    return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed)
+    replan["doubtful"] = [doubt.customer for doubt in doubtful if doubt.is_served]
+    return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed,
+                        doubtful=doubtful)
+
+
+def _reply(doubt: Doubt, standing: Standing | None) -> DoubtfulReply:
+    """Return an order in doubt, and whether it is held to be served."""
+    is_served = standing is None or (
+        standing[doubt.step].outcome == "done" if doubt.step in standing
+        else doubt.is_held and doubt.failing not in standing)
+    return DoubtfulReply(customer=doubt.customer, vehicle=doubt.vehicle, time=doubt.time,
+                         is_served=is_served)
 
 
 def _lost(known: OnTheRoad) -> Iterator[str]:

@@ -28,20 +28,23 @@ class Retimed:
     is_over: bool
 
 
-def retime(route: RouteInput, standing: Standing, durations: Durations,
-           now: float) -> list[Retimed]:
-    """Return the trips of a route as they were and will be driven, seen from `now`."""
-    begun = [_TripTold(index, trip, standing).is_begun for index, trip in enumerate(route.trips)]
+def retime(route: RouteInput, standing: Standing, durations: Durations, now: float,
+           is_broken: bool = False) -> list[Retimed]:
+    """Return the trips of a route as they were and will be driven, seen from `now`.
+
+    A vehicle that has broken down serves nobody of whom it didn't tell.
+    """
+    begun = [TripTold(index, trip, standing).is_begun for index, trip in enumerate(route.trips)]
     trips, late = list[Retimed](), 0.0
     for index, trip in enumerate(route.trips):
-        told = _TripTold(index, trip, standing, is_over=any(begun[index + 1:]))
-        retimed = _Retiming(told, durations, now, late).trip()
+        told = TripTold(index, trip, standing, is_over=any(begun[index + 1:]))
+        retimed = _Retiming(told, durations, now, late, is_broken).trip()
         trips.append(retimed)
         late = max(0.0, retimed.trip.stops[-1].departure - trip.stops[-1].departure)
     return trips
 
 
-class _TripTold:
+class TripTold:
     """What was told of a trip. Its stops are numbered as in the plan."""
 
     def __init__(self, index: int, trip: TripInput, standing: Standing,
@@ -64,6 +67,14 @@ class _TripTold:
         # How many stops of that order the truck has left.
         self.left = (len(self.order) if is_over
                      else last + (last >= 0 and self._is_complete[self.order[last]]))
+
+    def has_left(self, number: int) -> bool:
+        """Tell whether the truck has left a stop by what was told of others."""
+        return self.order.index(number) < self.left
+
+    def is_told(self, number: int) -> bool:
+        """Tell whether anything was told of a stop itself, beside its drones."""
+        return any(step in self._standing for step in stop_ids(self.index, self.planned, number))
 
     def time_at(self, number: int) -> float | None:
         """Return when the last thing told of a stop was over."""
@@ -94,11 +105,13 @@ class _TripTold:
 class _Retiming:
     """Times a trip anew."""
 
-    def __init__(self, told: _TripTold, durations: Durations, now: float, late: float) -> None:
+    def __init__(self, told: TripTold, durations: Durations, now: float, late: float,
+                 is_broken: bool) -> None:
         self._told = told
         self._durations = durations
         self._now = now
         self._late = late
+        self._is_broken = is_broken
 
     def trip(self) -> Retimed:
         """Return the trip as it is driven."""
@@ -121,6 +134,8 @@ class _Retiming:
             # Where a window is waited for, it still is.
             opens = stop.service_start if stop.service_start > stop.ready else 0.0
             service = max(arrival + stop.ready - stop.arrival, opens)
+        if self._is_broken and place >= told.left and not told.is_told(number):
+            service = max(service, self._now + MOMENT)
         departure = service + stop.departure - stop.service_start
         if place < told.left:
             time = told.time_at(number)

@@ -7,6 +7,7 @@ from pydantic import BaseModel
 from sqlalchemy import Engine
 
 from app.plans.checking import read_about_plan
+from app.records.dispatches.doubts import Answers
 from app.records.dispatches.replies import dispatch_reply, summary
 from app.records.dispatches.schemas import (
     DispatchListReply, DispatchOptions, DispatchReply, DispatchRequest, GoingOnReply,
@@ -27,6 +28,9 @@ from app.serving.load.bodies import Body
 router = APIRouter(tags=["drivers"])
 
 MAX_LISTED = 500
+
+MOST_ANSWERS = 1000
+"""Customers of whom it is said whether they were served; an address has no room for more."""
 
 UNAVAILABLE = "The database can't be reached: try again soon."
 UNKNOWN = "There is no such dispatch or link, or it is another's."
@@ -109,10 +113,15 @@ async def go_on(
     now: Annotated[float | None, Query(
         ge=0, le=MAX_INSTANT, description="From when on, in seconds since plan start. Left out: "
         "now.")] = None,
+    served: Annotated[list[str] | None, Query(
+        max_length=MOST_ANSWERS, description="Customers of `doubtful` who were served.")] = None,
+    unserved: Annotated[list[str] | None, Query(
+        max_length=MOST_ANSWERS, description="Customers of `doubtful` who were not.")] = None,
 ) -> Response:
     """Return `replan` for a request of `POST /plan`: what was served, by whom and when."""
+    answers = Answers(frozenset(served or ()), frozenset(unserved or ()))
     return _json(await database.reach(lambda engine: _service(request, engine).going_on(
-        dispatch_id, principal.key_id, now)))
+        dispatch_id, principal.key_id, now, answers)))
 
 
 @router.post("/dispatches/{dispatch_id}/links/{link_id}", summary="Make a new link for a vehicle",

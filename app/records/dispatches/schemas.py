@@ -230,6 +230,17 @@ class FailedReply(_Reply):
     )
 
 
+class DoubtfulReply(_Reply):
+    """An order that the plan has as served by now, and of which nobody told."""
+
+    customer: str = Field(description="Id of the customer.")
+    vehicle: str = Field(description="Id of the vehicle.")
+    time: float = Field(description="When the plan has it as served, in seconds since plan start.")
+    is_served: bool = Field(
+        description="Whether the plan to go on from holds it to be served. Say what was with "
+        "`served` or `unserved`.")
+
+
 class GoingOnReply(_Reply):
     """How to plan on from what drivers told."""
 
@@ -243,3 +254,5 @@ class GoingOnReply(_Reply):
     told: list[str] = Field(description="Vehicles whose drivers told something; others are held "
                             "to be where the plan has them.")
     failed: list[FailedReply] = Field(description="Customers who weren't served.")
+    doubtful: list[DoubtfulReply] = Field(
+        description="Orders that the plan has as served by now, and of which nobody told.")

@@ -8,6 +8,7 @@ from datetime import UTC, datetime, timedelta
 from app.maps.roads.roads import Roads
 from app.plans.flights.answering import flights_by_vehicle
 from app.records.clock import now_ms
+from app.records.dispatches.doubts import Answers
 from app.records.dispatches.errors import (
     DispatchOverError, TooManyDispatchesError, UnknownDispatchError,
 )
@@ -179,7 +180,8 @@ class DispatchService:
                                                  former.vehicle, token.digest))
         return self._followed(row, {token.id: token})
 
-    def going_on(self, dispatch: str, owner: str, now: float | None) -> GoingOnReply:
+    def going_on(self, dispatch: str, owner: str, now: float | None,
+                 answers: Answers) -> GoingOnReply:
         """Return how to plan on at an instant, in seconds since plan start; None: this one.
 
         Raises as `find` does.
@@ -189,7 +191,7 @@ class DispatchService:
             now = max(0.0, (now_ms() - row.plan_start) / 1000)
         vehicles = {followed.link.vehicle: OnTheRoad(followed.steps, followed.standing)
                     for followed in self._followed(row, {}).links}
-        return going_on(self._store.plan(row.id), vehicles, now)
+        return going_on(self._store.plan(row.id), vehicles, now, answers)
 
     def _flown(self, request: PlannedProblem, row: DispatchRow) -> Flown:
         """Return the flights of a plan."""

@@ -1,5 +1,6 @@
 """Planning on from what drivers told."""
 
+from collections.abc import Iterable
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -7,8 +8,9 @@ import httpx
 import pytest
 
 from app.console.routes import STATIC_DIR
+from app.records.dispatches.doubts import Answers
 from app.records.dispatches.going_on import GROUNDING, OnTheRoad, going_on
-from app.records.dispatches.schemas import DispatchRequest, GoingOnReply
+from app.records.dispatches.schemas import DispatchRequest, DoubtfulReply, GoingOnReply
 from app.records.dispatches.standing import Told
 from app.records.dispatches.steps import StepMaker
 from tests.app.records.dispatches.days import (
@@ -21,12 +23,13 @@ pytestmark = pytest.mark.slow
 REQUEST = DispatchRequest.model_validate({"problem": PROBLEM, "plan": PLAN}, strict=False)
 
 
-def gone_on(told: dict[str, dict[str, Told]], now: float) -> GoingOnReply:
-    """Return how to plan on, by what was told of each vehicle."""
+def gone_on(told: dict[str, dict[str, Told]], now: float, served: Iterable[str] = (),
+            unserved: Iterable[str] = ()) -> GoingOnReply:
+    """Return how to plan on, by what was told of each vehicle, and of whom nobody told."""
     maker = StepMaker(REQUEST.problem)
     return going_on(REQUEST.plan, {
         route.vehicle: OnTheRoad(maker.steps(route), told.get(route.vehicle, {}))
-        for route in REQUEST.plan.routes}, now)
+        for route in REQUEST.plan.routes}, now, Answers(frozenset(served), frozenset(unserved)))
 
 
 def route_of(reply: GoingOnReply, vehicle: str) -> Data:
@@ -93,8 +96,87 @@ def test_vehicle_that_broke_down_does_nothing_more() -> None:
     assert times(route_of(reply, "van-1"))[1][2] == 30_200
     alone = gone_on({"van-1": broken}, 30_300)
     assert (alone.broken, alone.told, alone.failed) == (["van-1"], ["van-1"], [])
-    assert times(route_of(alone, "van-1")) == times(PLAN["routes"][1]["trips"][0])
+    assert route_of(alone, "van-1")["stops"][1]["service_start"] > 30_300
     assert gone_on({"van-1": done({DEPART: 30_000})}, 30_300).broken == []
+
+
+def doubts(reply: GoingOnReply) -> dict[str, bool]:
+    """Return of whom nobody told, and whether they are held to be served."""
+    return {doubt.customer: doubt.is_served for doubt in reply.doubtful}
+
+
+def test_whom_the_plan_has_as_served_and_nobody_told_is_in_doubt() -> None:
+    silent = gone_on({}, 30_400)
+    assert doubts(silent) == {"A": True, "D": True, "E": True}
+    assert silent.replan["doubtful"] == ["A", "D", "E"]
+    told = gone_on({"van-1": done({DEPART: 30_000, NEXT_DOOR: 30_300})}, 30_400)
+    assert doubts(told) == {"A": True, "D": False}
+    assert gone_on({"van-1": done({DEPART: 30_000, DOOR: 30_200})}, 30_250).doubtful[0] == (
+        DoubtfulReply(customer="A", vehicle="truck-1", time=30_160, is_served=True))
+
+
+def test_broken_vehicle_has_served_those_alone_of_whom_it_told() -> None:
+    broken = {"vehicle": Told("failed", 30_390, "Broken down")}
+    reply = gone_on({"van-1": broken, "truck-1": done({DEPART: 30_000, FIRST: 30_150}) | broken},
+                    30_400)
+    assert doubts(reply) == {"D": False, "E": False}
+    van, truck = (route_of(reply, name)["stops"] for name in ("van-1", "truck-1"))
+    assert van[0]["departure"] <= 30_400  # its parcels are aboard
+    assert min(stop["service_start"] for stop in van[1:]) > 30_400
+    assert [stop["service_start"] > 30_400 for stop in truck[1:]] == [False, True, True]
+    knows = gone_on({"van-1": broken}, 30_400, served=["D"])
+    assert doubts(knows) == {"A": True, "D": True, "E": False}
+    assert [stop["service_start"] > 30_400 for stop in route_of(knows, "van-1")["stops"]] == [
+        False, False, True, True]
+
+
+def test_silent_vehicle_is_where_somebody_knows_it_to_be() -> None:
+    nothing = gone_on({}, 30_400, unserved=["D", "E"])
+    assert (doubts(nothing), nothing.failed) == ({"A": True, "D": False, "E": False}, [])
+    assert route_of(nothing, "van-1")["stops"][0]["departure"] > 30_400
+    some = gone_on({}, 30_400, unserved=["D"])
+    assert doubts(some) == {"A": True, "D": False, "E": True}
+    assert [(failed.customer, failed.is_open) for failed in some.failed] == [("D", True)]
+    assert [stop["id"] for stop in route_of(some, "van-1")["stops"]] == ["hub", "E", "hub"]
+
+
+def test_vehicle_that_is_back_has_served_those_alone_of_whom_it_told() -> None:
+    back = {"van-1": done({DEPART: 30_000, DOOR: 30_200, RETURN: 30_600})}
+    reply = gone_on(back, 30_700)
+    assert doubts(reply)["E"] is False
+    assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("E", True)]
+    assert [stop["id"] for stop in route_of(reply, "van-1")["stops"]] == ["hub", "D", "hub"]
+    assert gone_on(back, 30_700, served=["E"]).failed == []
+
+
+def test_stops_that_hang_together_by_flights_are_asked_for() -> None:
+    told = {"truck-1": done({DEPART: 30_000, SECOND: 30_460})}
+    reply = gone_on(told, 30_500)
+    assert doubts(reply) == {"A": True, "C": True, "D": True, "E": True}
+    knows = gone_on(told, 30_500, unserved=["A", "C"])
+    assert {(failed.customer, failed.is_open) for failed in knows.failed} == {
+        ("A", True), ("C", True)}
+    assert [stop["id"] for stop in route_of(knows, "truck-1")["stops"]] == ["hub", "B", "hub"]
+
+
+def test_orders_of_a_broken_vehicle_that_told_nothing_are_planned_again(
+        searching: httpx.Client) -> None:
+    start = datetime.now(UTC) - timedelta(seconds=30_500)
+    sent = dispatched(searching, plan_start=start.isoformat())
+    told_at(searching, token_of(sent["links"][1]), event(
+        "1", "vehicle", datetime.now(UTC).isoformat(), "failed", reason="Broken down"))
+    going = searching.get(f"/dispatches/{sent['id']}/replan", params={"unserved": "A"}).json()
+    GoingOnReply.model_validate(going)
+    assert {doubt["customer"]: doubt["is_served"] for doubt in going["doubtful"]} == {
+        "A": False, "B": True, "C": True, "D": False, "E": False}
+    plan = searching.post("/plan", json=PROBLEM | {
+        "replan": going["replan"], "options": {"time_limit": 0.3}}).json()
+    servants = {stop["id"]: route["vehicle"] for route in plan["routes"]
+                for trip in route["trips"] for stop in trip["stops"]}
+    assert "van-1" not in servants.values()
+    assert {"D", "E"} <= servants.keys()
+    assert plan["replan"]["doubtful"] == ["B", "C"]
+    assert {parcel["id"] for parcel in plan["replan"]["parcels"]} == {"D", "E"}
 
 
 def test_drone_that_was_not_launched_leaves_its_customers_open() -> None:

@@ -1,0 +1,93 @@
+"""Orders that a plan has as served by now, and of which nobody told.
+
+A vehicle that told something has done what it told, no more, and one that told nothing is where
+the plan has it: so they are told of, and whoever knows may say what was.
+"""
+
+from collections.abc import Collection, Iterator, Mapping
+from dataclasses import dataclass, field
+
+from app.records.dispatches.retiming import TripTold
+from app.records.dispatches.standing import Standing, Told
+from app.records.dispatches.steps import flight_id, stop_ids
+from app.schemas.plan import RouteInput, TripInput
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """An order of which nobody told."""
+
+    customer: str
+    vehicle: str
+    time: float  # when the plan has it as served, seconds since plan start
+    step: str  # to tell that it was
+    failing: str  # to tell that it wasn't
+    is_held: bool  # to be served, by what else was told
+    is_hung: bool  # on a trip whose stops hang together by flights
+
+
+@dataclass(frozen=True)
+class Answers:
+    """What is known of orders of which nobody told, by customer."""
+
+    served: Collection[str] = field(default_factory=frozenset)
+    unserved: Collection[str] = field(default_factory=frozenset)
+
+
+def doubts_of(route: RouteInput, standing: Standing, now: float) -> list[Doubt]:
+    """Return the orders of a route that it has as served by now, and of which nobody told."""
+    begun = [TripTold(index, trip, standing).is_begun for index, trip in enumerate(route.trips)]
+    return [doubt for index, trip in enumerate(route.trips) for doubt in _on_trip(
+        route.vehicle, TripTold(index, trip, standing, any(begun[index + 1:])), standing, now)]
+
+
+def _on_trip(vehicle: str, told: TripTold, standing: Standing, now: float) -> Iterator[Doubt]:
+    index, trip, hangs = told.index, told.planned, bool(told.planned.sorties)
+    for place, stop in enumerate(trip.stops):
+        if stop.kind == "customer" and stop.departure <= now:
+            (step,) = stop_ids(index, trip, place)
+            if step not in standing:
+                yield Doubt(stop.id, vehicle, stop.departure, step, step, told.has_left(place),
+                            hangs)
+    for sortie in trip.sorties:
+        launch, recover = (flight_id(index, kind, sortie) for kind in ("launch", "recover"))
+        if sortie.recovery_time <= now and recover not in standing and (
+                launch not in standing or standing[launch].outcome == "done"):
+            failing = recover if launch in standing else launch
+            for visit in sortie.customers:
+                yield Doubt(visit.id, vehicle, sortie.recovery_time, recover, failing,
+                            told.has_left(sortie.launch_stop), hangs)
+
+
+def answered(route: RouteInput, standing: Standing, doubts: Collection[Doubt], answers: Answers,
+             is_broken: bool, now: float) -> Mapping[str, Told] | None:
+    """Return how the steps of a route stand with what is known of those in doubt.
+
+    None if the vehicle is where the plan has it.
+    """
+    if not standing and not is_broken:
+        unserved = [doubt for doubt in doubts if doubt.customer in answers.unserved]
+        if not unserved:
+            return None
+        if len(unserved) == len(doubts):
+            return {}
+        return _marked(doubts, [doubt for doubt in doubts if doubt not in unserved], unserved)
+    served = [doubt for doubt in doubts if doubt.customer in answers.served]
+    unserved = [doubt for doubt in doubts if doubt not in served and doubt.is_held and (
+        is_broken or not doubt.is_hung or doubt.customer in answers.unserved)]
+    departed = {} if standing or not is_broken else _departed(route.trips[:1], now)
+    return {**departed, **standing, **_marked(doubts, served, unserved)}
+
+
+def _marked(doubts: Collection[Doubt], served: Collection[Doubt],
+            unserved: Collection[Doubt]) -> dict[str, Told]:
+    """Return steps in doubt as they were planned: done, or failed."""
+    return {**{doubt.step: Told("done", doubt.time) for doubt in doubts if doubt in served},
+            **{doubt.failing: Told("failed", doubt.time) for doubt in doubts if doubt in unserved}}
+
+
+def _departed(trips: Collection[TripInput], now: float) -> dict[str, Told]:
+    """Return that a vehicle that broke down had left as planned: its parcels are aboard."""
+    return {step: Told("done", trip.stops[0].departure) for trip in trips
+            if trip.stops and trip.stops[0].departure <= now
+            for step in stop_ids(0, trip, 0)}
