@@ -109,7 +109,7 @@ def broken_breaks(problem: Problem, kind: VehicleType,
                 yield index, f"break {each.id} doesn't begin in its window"
             if taken.place == "way" and not each.anywhere:
                 yield index, f"break {each.id} isn't at a stop"
-            if each.max_load is not None and _is_heavier(
+            if each.max_load is not None and is_heavier(
                     trip_loads(problem, kind, trip)[taken.stop + 1], each.max_load):
                 yield index, f"too much is aboard during break {each.id}"
     numbers = {taken.number for trip in trips for taken in trip.breaks}
@@ -118,7 +118,8 @@ def broken_breaks(problem: Problem, kind: VehicleType,
             yield None, f"break {each.id} is not taken"
 
 
-def _is_heavier(load: Sequence[int], limit: Sequence[int]) -> bool:
+def is_heavier(load: Sequence[int], limit: Sequence[int]) -> bool:
+    """Tell whether more of something is aboard than is allowed during a break."""
     return any(amount > most for amount, most in zip(load, limit, strict=True))
 
 
