@@ -50,6 +50,11 @@ GIVE_UP_SHARE = 0.5
 """Share of the time limit after which the policy is given up where a search follows."""
 
 
+LEAST_UNHURRIED, UNHURRIED_PER_CUSTOMER = 1.0, 2e-3
+"""Seconds, and those for each customer, that an insertion of all may take which no time limit ends:
+many times what it takes, but where each place of a customer has many trips timed anew."""
+
+
 class Listener(NamedTuple):
     """What a caller may say and hear while a plan is improved."""
 
@@ -173,7 +178,7 @@ class Planner:
                                Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
         elif not searches:
             # No policy planned, so that the plan is what a search would begin with.
-            options = replace(options, search_iterations=0)
+            options, deadline = replace(options, search_iterations=0), deadline or patience(problem)
         improved = _improve(problem, instance, first, options, deadline, listener)
         searched = time.perf_counter()
         last = judge.accepted(improved.solution)
@@ -312,8 +317,14 @@ def complete_plan(problem: Problem, begun: Solution, seed: int,
         instance = pack([problem], False, pausing(should_stop, patience=GRACE))
     except EndedError:
         return begun
-    return improve(problem, instance, begun, SearchConfig(seed, turns=0),
-                   should_stop=should_stop).solution
+    return improve(problem, instance, begun, SearchConfig(seed, turns=0), patience(problem),
+                   should_stop).solution
+
+
+def patience(problem: Problem) -> float:
+    """Return when an insertion of all has to end that begins now, on `time.perf_counter`."""
+    return (time.perf_counter() + LEAST_UNHURRIED
+            + UNHURRIED_PER_CUSTOMER * problem.num_customers)
 
 
 def _completing(seed: int) -> Callable[[Solution, Problem], Solution]:

@@ -17,10 +17,11 @@ inline Int time_to_turn(Windows place, Int arrival, Int soonest) {
 
 // In how much time a leg from one instant until another meets another speed; `far` if never.
 inline Int time_to_turn(const VehicleType& type, View<const Int, 1> times, Int leave, Int arrival) {
+    const Int changes = num_changes(type);
     Int soonest = far;
-    for (const Int change : times.first(num_changes(type))) {
-        if (change > leave) soonest = std::min(soonest, change - leave);
-        if (change > arrival) soonest = std::min(soonest, change - arrival);
+    for (const Int time : {leave, arrival}) {
+        const Int next = changes_until(times, changes, time);
+        if (next < changes) soonest = std::min(soonest, times[next] - time);
     }
     return soonest;
 }
@@ -31,10 +32,14 @@ inline Int time_to_turn(const VehicleType& type, View<const Int, 1> times, Int l
 // that doesn't help: nothing does until a window or a speed turns what follows.
 class Holding {
 public:
+    // For a trip of so many stops: each time, all of them are timed anew.
+    explicit Holding(Int stops)
+        : most_times_(std::clamp(most_timed / stops, fewest_times, most_times)) {}
+
     // Return how much longer a trip is held that lasts too long by `excess`; all between is
     // as it is now for `turn`. `far` if nothing helps.
     Int wait(Int excess, Int turn) {
-        if (++times_ > most_times) return far;
+        if (++times_ > most_times_) return far;
         const bool in_vain = excess_ > 0 && excess >= excess_ && (wait_ < turn_ || turn_ == far);
         wait_ = !in_vain ? excess : turn == far ? far : std::max(excess, turn);
         excess_ = excess;
@@ -43,8 +48,9 @@ public:
     }
 
 private:
-    static constexpr Int most_times = 1000;
+    static constexpr Int most_timed = 8'000, fewest_times = 50, most_times = 1000;
 
+    Int most_times_;
     Int excess_ = 0, wait_ = 0, turn_ = 0, times_ = 0;
 };
 

@@ -161,7 +161,7 @@ bool keep_fresh(OpenVehicle& open) {
     auto& [setting, vehicle, log, drones] = open;
     if (!holds_count(setting)) return true;
     Retimed held = Retimed::kept;
-    Holding holding;
+    Holding holding(log.count.stops - log.trip[log.count.trips - 1].first_stop);
     while (true) {
         const Int excess = most_excess(setting, log);
         const Int wait = excess > 0 ? holding.wait(excess, time_to_turn(setting, log))

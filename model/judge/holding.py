@@ -1,10 +1,15 @@
 """Trips held until nothing that is limited lasts too long, and no storm is met."""
 
-from collections.abc import Callable, Iterator
+from bisect import bisect_right
+from collections.abc import Callable, Iterator, Sequence
 
 from model.judge.flown_trips import wait_for_calm
 from model.problem import UNLIMITED, Problem, VehicleType
 from model.solution import Stop, Trip, Visit
+
+
+MOST_TIMED_STOPS, FEWEST_TIMES = 8_000, 50
+"""How many stops are timed anew, and how often all are in any case, until holding is given up."""
 
 
 def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[[int], Trip],
@@ -25,7 +30,9 @@ def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[
     """
     trip, excess = soonest, max(0, excess_of(soonest))
     wait, best = excess or wait_for_calm(kind, trip), trip
-    while wait:
+    for _ in range(max(FEWEST_TIMES, MOST_TIMED_STOPS // len(trip.stops))):
+        if not wait:
+            return trip, True
         turn = time_to_turn(problem, kind, trip)
         trip, before = begun_at(trip.stops[0].arrival + wait), excess
         wait = excess = max(0, excess_of(trip))
@@ -36,19 +43,20 @@ def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[
                 return best, False
             wait = max(excess, turn - trip.stops[0].arrival)
         wait = wait or wait_for_calm(kind, trip)
-    return trip, True
+    return best, False
 
 
 def time_to_turn(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return when a trip would begin that, by being later, meets another window or speed first."""
     begin = trip.stops[0].arrival
     return min((begin + instant - time for time, instants in _met(problem, kind, trip)
-                for instant in instants if instant > time), default=UNLIMITED)
+                for instant in instants[bisect_right(instants, time):][:1]), default=UNLIMITED)
 
 
-def _met(problem: Problem, kind: VehicleType, trip: Trip) -> Iterator[tuple[int, list[int]]]:
-    """Yield instants of a trip, each with those at which what follows would be another."""
-    changes = [] if kind.speed_profile is None else [*kind.speed_profile.times]
+def _met(problem: Problem, kind: VehicleType,
+         trip: Trip) -> Iterator[tuple[int, Sequence[int]]]:
+    """Yield instants of a trip, each with those, in order, at which what follows is another."""
+    changes = () if kind.speed_profile is None else kind.speed_profile.times
     for stop in trip.stops:
         yield stop.arrival, changes
         yield stop.departure, changes
@@ -57,5 +65,5 @@ def _met(problem: Problem, kind: VehicleType, trip: Trip) -> Iterator[tuple[int,
     for halt in halts:
         if halt.node >= problem.num_depots:
             customer = problem.customer_at(halt.node)
-            yield halt.ready, [customer.earliest, *(customer.span or ()), *(
-                time for closes, opens in customer.gaps for time in (closes + 1, opens))]
+            yield halt.ready, sorted([customer.earliest, *(customer.span or ()), *(
+                time for closes, opens in customer.gaps for time in (closes + 1, opens))])

@@ -39,7 +39,7 @@ Int time_to_turn(const ProblemData& data, const Route& route, View<const Stop, 1
 template <class WaitForCharge>
 bool hold_trip(const ProblemData& data, Route& route, View<Stop, 1> stops, const Trip& trip,
                View<Sortie, 1> sorties, const WaitForCharge& wait_for_charge) {
-    Holding holding;
+    Holding holding(trip.last - trip.first + 1);
     while (true) {
         const Int excess = most_excess(data, route, stops, trip, sorties);
         Int wait = excess > 0
