@@ -4,6 +4,7 @@ from itertools import islice
 
 import numpy as np
 
+from app.requests.airspace_size import size_errors
 from app.requests.draft import Draft, Errors, error_at, point_errors
 from app.requests.conversion.zones import reading_of
 from app.schemas.airspace import AirspaceInput
@@ -15,6 +16,10 @@ from model.travel.matrices import LocalProjection
 def airspace_errors(draft: Draft) -> Errors:
     """Say what is wrong with no-fly areas and zones."""
     if draft.airspace is None:
+        return
+    too_large = [*size_errors(draft.airspace)]
+    if too_large:
+        yield from too_large
         return
     yield from _zone_errors(draft, draft.airspace)
     if not draft.airspace.no_fly:

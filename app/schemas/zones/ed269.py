@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from app.schemas.zones.parts import (
-    MAX_FEATURES, MAX_PARTS, Authorities, Corner, Limits, Number, Periods, Published, Restriction,
+    LISTED, MAX_PARTS, Authorities, Corner, Limits, Number, Periods, Published, Restriction,
     Rings, Words,
 )
 
@@ -43,6 +43,6 @@ class UasZone(Published):
 class Ed269Collection(Published):
     """A file of zones."""
 
-    features: Annotated[list[UasZone], Field(max_length=MAX_FEATURES, fail_fast=True)] = Field(
+    features: Annotated[list[UasZone], LISTED] = Field(
         description="The zones."
     )

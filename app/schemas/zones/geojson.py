@@ -5,7 +5,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BeforeValidator, Discriminator, Field, Tag
 
 from app.schemas.zones.parts import (
-    MAX_FEATURES, MAX_PARTS, Authorities, Corner, Limits, Number, Periods, Published, Restriction,
+    LISTED, MAX_PARTS, Authorities, Corner, Limits, Number, Periods, Published, Restriction,
     Rings, Unit, VerticalReference, Words,
 )
 
@@ -117,7 +117,7 @@ class Ed318Feature(Published):
 class Ed318Collection(Published):
     """A file of zones."""
 
-    features: Annotated[list[Ed318Feature], Field(max_length=MAX_FEATURES, fail_fast=True)] = Field(
+    features: Annotated[list[Ed318Feature], LISTED] = Field(
         description="The zones."
     )
 
@@ -155,7 +155,7 @@ class PlainCollection(Published):
     """Areas."""
 
     type: Literal["FeatureCollection"] = Field(description="Its kind.")
-    features: Annotated[list[PlainFeature], Field(max_length=MAX_FEATURES, fail_fast=True)] = Field(
+    features: Annotated[list[PlainFeature], LISTED] = Field(
         description="The zones."
     )
 
@@ -164,7 +164,7 @@ class GeoJsonObject(Published):
     """A collection, a feature or an area."""
 
     type: str = Field(description="Its kind.")
-    features: Annotated[list[PlainFeature], Field(max_length=MAX_FEATURES)] | None = Field(
+    features: Annotated[list[PlainFeature], LISTED] | None = Field(
         None, description="The areas of a collection."
     )
     properties: PlainProperties | None = Field(None, description="Those of a feature.")

@@ -7,8 +7,11 @@ from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field
 
-MAX_FEATURES = 50_000
-"""Most zones of a file."""
+MAX_FEATURES, MAX_STATED = 50_000, 5000
+"""Most zones of a file that the service loads, and of one in a request."""
+
+LISTED = Field(max_length=MAX_FEATURES, fail_fast=True, json_schema_extra={"maxItems": MAX_STATED})
+"""A list of zones, as requests may state it."""
 
 MAX_PARTS = 1000
 """Most volumes, rings or periods of a zone."""
