@@ -249,11 +249,15 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
             code="TOO_MANY_VEHICLES", path="$.replan.plan.routes",
             message=f"By the plan, {error}: plan for fewer vehicles at a time.")]) from error
     except ValueError as error:
-        # What is left of the day is a problem of its own, which checks itself.
-        raise InvalidRequestError([InputError(
-            code="SETTLED_PART", path="$.replan",
-            message=f"What is left of the day can't be planned ({error}): plan without what has "
-                    "happened, or send fewer rules.")]) from error
+        raise _not_left_to_plan(error) from error
+
+
+def _not_left_to_plan(error: ValueError) -> InvalidRequestError:
+    """Return why what is left of a day, which is a problem of its own, is none."""
+    return InvalidRequestError([InputError(
+        code="SETTLED_PART", path="$.replan",
+        message=f"What is left of the day can't be planned ({error}): plan without what has "
+                "happened, or send fewer rules.")])
 
 
 def warning_replies(warnings: Iterable[RequestWarning]) -> list[Data]:
