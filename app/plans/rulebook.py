@@ -33,4 +33,4 @@ def laws_named(request: PlanRequest) -> list[dict[str, Any]]:
 
 
 PLANNED = ("max_driving", "break_duration", "split", "max_driving_per_day",
-           "max_work_before_break")
+           "max_work_before_break", "other_work_interrupts")

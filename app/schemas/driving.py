@@ -25,6 +25,7 @@ class Law(NamedTuple):
     max_driving_per_day: float | None
     max_work_before_break: float | None
     max_working_duration: float | None
+    other_work_interrupts: bool
     source: str
 
 
@@ -32,16 +33,16 @@ _EU = ("Regulation (EC) No 561/2006: nine hours of driving a day (6(1)), after f
        "hours a break of 45 minutes, or 15 and then 30 within them (7)")
 
 LAWS: dict[LawName, Law] = {
-    "eu-561": Law(4.5 * HOUR, 2700.0, (900.0, 1800.0), 9 * HOUR, None, None, _EU),
+    "eu-561": Law(4.5 * HOUR, 2700.0, (900.0, 1800.0), 9 * HOUR, None, None, False, _EU),
     "eu-561+2002-15": Law(
-        4.5 * HOUR, 2700.0, (900.0, 1800.0), 9 * HOUR, 6 * HOUR, None,
+        4.5 * HOUR, 2700.0, (900.0, 1800.0), 9 * HOUR, 6 * HOUR, None, False,
         f"{_EU}; Directive 2002/15/EC: no more than six hours of work in a row, breaks of 30 "
         "minutes in all where more than six hours are worked, of 45 beyond nine (5); each break is "
         "taken as the regulation's, which is longer"),
     "us-hos": Law(
-        8 * HOUR, 1800.0, None, 11 * HOUR, None, 14 * HOUR,
+        8 * HOUR, 1800.0, None, 11 * HOUR, None, 14 * HOUR, True,
         "49 CFR 395.3(a): eleven hours of driving (3)(i) within fourteen hours on duty (2), after "
-        "eight hours of driving an interruption of 30 minutes (3)(ii)"),
+        "eight hours of driving 30 consecutive minutes not driving, at work or not (3)(ii)"),
 }
 
 
@@ -80,13 +81,18 @@ class DrivingRulesInput(Input):
         "the stops where one is launched and recovered."
     )
 
+    other_work_interrupts: bool = Field(
+        False, description="Whether `break_duration` without a break not at the wheel, at work or "
+        "waiting, interrupts driving as a rest does. It is no rest for `max_work_before_break`."
+    )
+
     @model_validator(mode="after")
     def _fill_in(self) -> Self:
         """Fill in what the rule named has and the request doesn't state."""
         if self.preset is not None:
             law = LAWS[self.preset]
             for name in ("max_driving", "break_duration", "max_driving_per_day",
-                         "max_work_before_break"):
+                         "max_work_before_break", "other_work_interrupts"):
                 if name not in self.model_fields_set:
                     object.__setattr__(self, name, getattr(law, name))
             if "split" not in self.model_fields_set and law.split is not None:

@@ -54,6 +54,8 @@ class LawReply(_Reply):
         description="At work without a rest. Null: no limit.")
     max_working_duration: float | None = Field(
         description="From first departure to last return. Null: no limit.")
+    other_work_interrupts: bool = Field(
+        description="Whether other work as long as a rest interrupts driving, too.")
 
 
 class DrivingLawReply(LawReply):

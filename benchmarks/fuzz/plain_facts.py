@@ -23,7 +23,7 @@ AT_LAST = 1000
 PRESETS = {
     "eu-561": Law(16_200_000, 2_700_000, (900_000, 1_800_000), 32_400_000),
     "eu-561+2002-15": Law(16_200_000, 2_700_000, (900_000, 1_800_000), 32_400_000, 21_600_000),
-    "us-hos": Law(28_800_000, 1_800_000, None, 39_600_000)}
+    "us-hos": Law(28_800_000, 1_800_000, None, 39_600_000, None, True)}
 
 
 def faults_of(request: Data, plan: Data) -> Iterator[str]:
@@ -122,7 +122,8 @@ def _law_of(rules: Data) -> Law:
     split = rules["split"]
     return Law(milliseconds("max_driving") or 10**15, milliseconds("break_duration") or 0,
                None if split is None else (round(1000 * split[0]), round(1000 * split[1])),
-               milliseconds("max_driving_per_day"), milliseconds("max_work_before_break"))
+               milliseconds("max_driving_per_day"), milliseconds("max_work_before_break"),
+               rules.get("other_work_interrupts", False))
 
 
 def _faults_of_hours(request: Data, kind: Data, route: Data) -> Iterator[str]:

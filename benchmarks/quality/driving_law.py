@@ -2,8 +2,9 @@
 
 Regulation (EC) 561/2006, articles 4, 6 and 7: after four and a half hours at the wheel a break of
 45 minutes, or one of 15 and, later, one of 30 within them; nine hours a day. Directive 2002/15/EC,
-article 5: no more than six hours of work in a row. 49 CFR 395.3: eleven hours at the wheel, within
-fourteen hours, and a break of half an hour after eight.
+article 5: no more than six hours of work in a row, of which pauses of less than 15 minutes are a
+part. 49 CFR 395.3: eleven hours at the wheel, within fourteen hours, and after eight half an hour
+in which nobody drives, whatever else is done.
 
 It shares nothing with the judge of plans but what a plan is.
 """
@@ -26,6 +27,7 @@ class Law:
     parts: tuple[int, int] | None = None
     day: int | None = None  # at the wheel in all
     labour: int | None = None  # in a row
+    stands: bool = False  # whether not to drive for as long as a pause is as good as one
 
 
 def record_of(route: Route) -> list[Activity]:
@@ -62,9 +64,13 @@ def broken_laws(record: Sequence[Activity], law: Law, driven: int = 0,
     if law.day is not None and driven + wheel > law.day:
         yield "day"
     # Where all that was driven before is over: behind each rest, or pair of them, in turn.
-    period, labour, first_part = driven, worked, begun
+    period, labour, first_part, stood = driven, worked, begun, 0
     for what, begin, end in record:
         length = end - begin
+        if what == "drive":
+            period, stood = 0 if law.stands and stood >= law.pause else period, 0
+        else:
+            stood += length
         if what != "rest":
             labour += length
             period += length if what == "drive" else 0
@@ -76,3 +82,5 @@ def broken_laws(record: Sequence[Activity], law: Law, driven: int = 0,
             period, labour, first_part = 0, 0, False
         elif law.parts is not None and length >= law.parts[0]:
             first_part = True
+        else:
+            labour += length

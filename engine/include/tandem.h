@@ -195,6 +195,7 @@ typedef struct tandem_vehicle_type {
     int64_t worked_before;
     int64_t half_rested_before; /* whether the first part of a rest was the last */
     int64_t rests_in_flights;   /* whether the driver may rest while drones are out */
+    int64_t work_interrupts;    /* whether other work that long interrupts driving as a rest does */
     int64_t share_before;       /* what a vehicle has done of the work, -1: it isn't used yet */
     int64_t keeps_hours;        /* whether depots' hours limit its trips more than its shift does */
 } tandem_vehicle_type;
@@ -545,6 +546,7 @@ typedef struct tandem_broken_leg {
     int64_t begin;    /* of the route */
     int64_t leave;    /* of the leg */
     int64_t duration; /* at full speed, without setup */
+    int64_t stood;    /* how long the driver was at other work before */
 } tandem_broken_leg;
 
 /* What is counted of a driver since the last rest: how long it has driven, since when it has

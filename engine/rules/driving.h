@@ -1,8 +1,10 @@
 // Rests of those who drive: what is counted of a driver, and how that goes on.
 //
-// Driving is time on legs alone. All else since the last rest is work, waiting too, but the first
-// part of a rest. A rest lies between two stops, as breaks do: where the truck leaves, where it
-// arrives, or on its way, then as late as the rules allow.
+// Driving is time on legs alone. All else since the last rest is work, waiting and short breaks
+// too, but not a part of a rest. Where other work interrupts driving, service and reloading count
+// that last as long as a rest, whenever they are: they stay as long where a route begins later.
+// Whoever waits may rest meanwhile. A rest lies between two stops, as breaks do: where the truck
+// leaves, where it arrives, or on its way, then as late as the rules allow.
 #pragma once
 
 #include <algorithm>
@@ -91,8 +93,16 @@ inline void pause(const VehicleType& type, Driver& driver, Int length, Int end) 
         driver = {0, end, 0};
         return;
     }
-    driver.since += length;
-    if ((first > 0 || second > 0) && length >= first) driver.half_rested = 1;
+    if ((first > 0 || second > 0) && length >= first) {
+        driver.since += length;
+        driver.half_rested = 1;
+    }
+}
+
+// A driver who has been at other work for so long.
+inline Driver having_stood(const VehicleType& type, Driver driver, Int duration) {
+    if (type.work_interrupts == 1 && duration >= rest_duration(type, whole_rest)) driver.driven = 0;
+    return driver;
 }
 
 // How long a rest is at least, in one or in two parts.
@@ -115,7 +125,7 @@ inline Int most_saved_by(const VehicleType& type, Int length) {
 inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, Int driving,
                       Int lasting) {
     Int times = 0;
-    if (driver.driven + driving > type.max_driving) {
+    if (type.work_interrupts == 0 && driver.driven + driving > type.max_driving) {
         times = (driver.driven + driving - 1) / type.max_driving;
     }
     if (limits_work(type))
@@ -125,13 +135,14 @@ inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, In
     return (driver.half_rested == 1 ? std::min(each, second) : each) + (times - 1) * each;
 }
 
-// A leg that a driver who may have to rest has before him, on a route that begins at `begin`.
+// A leg that a driver who may have to rest has before him, on a route that begins at `begin`, and
+// how long he stood at other work before it.
 class RestedLeg {
 public:
-    RestedLeg(const Speeds& speeds, Int begin, Driver driver, Int leave, Int duration)
+    RestedLeg(const Speeds& speeds, Int begin, Driver driver, Int stood, Int leave, Int duration)
         : type_(&speeds.type),
           begin_(begin),
-          driver_(driver),
+          driver_(having_stood(speeds.type, driver, stood)),
           time_(leave),
           left_(speeds, duration) {}
 

@@ -244,7 +244,8 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         const std::optional<Driver> driver = driver_of(setting, log, driven);
         if (!driver) return {-1, {}};
         const Speeds speeds = speeds_of(setting);
-        const RestedLeg leg(speeds, begin, *driver, leave, travel_of(setting, here, to));
+        const RestedLeg leg(speeds, begin, *driver, stood_at(setting, here), leave,
+                            travel_of(setting, here, to));
         const std::optional<Rests> rests =
             Unforeseeing(setting.type, leg, opens, leaves).run(vehicle.rested, heavy, begin);
         if (!rests || (attends && rests->any_unstated())) return {-1, {}};

@@ -528,7 +528,8 @@ std::optional<Driver> driver_of(const Setting& setting, const VehicleLog& log, I
         const Int behind = stops_of(log, trip).behind;
         for (Int index = log.trip[trip].first_stop + 1; index < behind; ++index) {
             const auto [rests, since, origin, to, leave] = leg_to(log, index);
-            RestedLeg leg(speeds, since, driver, leave, travel_of(setting, origin, to));
+            RestedLeg leg(speeds, since, driver, stood_at(setting, origin), leave,
+                          travel_of(setting, origin, to));
             const bool done = drive_with(leg, rests);
             driver = leg.driver();
             if (!done || may_drive(setting.type, driver, leg.time()) < 0) return std::nullopt;

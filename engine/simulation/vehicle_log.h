@@ -91,6 +91,11 @@ inline auto travel_without_setup(const Setting& setting, Int origin, Int to) {
     };
 }
 
+// How long its driver is at other work at a node, however long he waits; reloading isn't counted.
+inline Int stood_at(const Setting& setting, Int node) {
+    return node < setting.num_depots ? 0 : setting.node[node].service_duration();
+}
+
 // How fast a truck drives.
 inline Speeds speeds_of(const Setting& setting) {
     return {setting.type, setting.profile_time, setting.profile_factor};
@@ -112,7 +117,8 @@ inline Int come(const Setting& setting, const BegunLeg& begun, Driver& driver) {
     const auto& [rests, begin, origin, to, leave] = begun;
     if (follows_driver(setting.type)) {
         const Speeds speeds = speeds_of(setting);
-        RestedLeg leg(speeds, begin, driver, leave, travel_of(setting, origin, to));
+        RestedLeg leg(speeds, begin, driver, stood_at(setting, origin), leave,
+                      travel_of(setting, origin, to));
         if (!drive_with(leg, rests)) return -1;
         driver = leg.driver();
         return leg.time() + setup_after(setting.setup, origin, to);
@@ -131,7 +137,8 @@ inline Int driven_between(const Setting& setting, const BegunLeg& begun, const D
     const auto& [rests, begin, origin, to, leave] = begun;
     if (follows_driver(setting.type)) {
         const Speeds speeds = speeds_of(setting);
-        RestedLeg leg(speeds, begin, driver, leave, travel_of(setting, origin, to));
+        RestedLeg leg(speeds, begin, driver, stood_at(setting, origin), leave,
+                      travel_of(setting, origin, to));
         drive_with(leg, rests);
         return leg.driven();
     }

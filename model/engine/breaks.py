@@ -62,7 +62,8 @@ def driver_fields(kind: VehicleType) -> Fields:
         "max_driving": rules.max_driving, "max_work": rules.max_work,
         "driven_before": rules.driven_before, "worked_before": rules.worked_before,
         "half_rested_before": rules.half_rested_before,
-        "rests_in_flights": rules.while_drones_fly}
+        "rests_in_flights": rules.while_drones_fly,
+        "work_interrupts": rules.other_work_interrupts}
 
 
 def longest_travel(kind: VehicleType) -> int:
@@ -96,7 +97,7 @@ class BrokenRoute:
         self._driver.since = (begin if since == NONE else since) - types[k].worked_before
         self._driver.half_rested = types[k].half_rested_before
 
-    def drive(self, rests: int, leave: int, duration: int) -> Iterator[BreakTimes]:
+    def drive(self, rests: int, leave: int, duration: int, stood: int) -> Iterator[BreakTimes]:
         """Yield the breaks on a leg.
 
         Parameters
@@ -107,6 +108,8 @@ class BrokenRoute:
             When the leg begins.
         duration
             Of the leg, without setup.
+        stood
+            How long the driver was at other work before it.
         """
         count = rests & 15
         kind = self._types[self._k]
@@ -114,6 +117,7 @@ class BrokenRoute:
             return
         leg = one(dtype_of("tandem_broken_leg"))
         leg.rests, leg.begin, leg.leave, leg.duration = rests, self._begin, leave, duration
+        leg.stood = stood
         times = np.zeros((count, 3), np.int64)
         if kind.must_rest:
             call("tandem_rest_times", self._types, *self._profile, self._k, leg, self._driver,

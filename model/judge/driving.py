@@ -1,6 +1,6 @@
 """How long drivers are at the wheel, and at work, and whether they rest in between.
 
-All that is not a break of at least some length is work, waiting included. Times in ms.
+All that is not a rest, or a part of one, is work, waiting and short breaks included. Times in ms.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -47,15 +47,25 @@ class Driver:
         self.day = rules.driven_before
         self.is_half_rested = rules.half_rested_before
         self._since = begin - rules.worked_before
+        self._stands_since = begin  # not at the wheel
 
     def worked(self, now: int) -> int:
         """Return how long it has been at work."""
         return now - self._since
 
-    def drive(self, duration: int) -> None:
+    def driven_by(self, now: int) -> int:
+        """Return how long it has been at the wheel that counts if it drives on then."""
+        is_interrupted = (self._rules.other_work_interrupts
+                          and now - self._stands_since >= self._rules.rest)
+        return 0 if is_interrupted else self.driven
+
+    def drive(self, begin: int, end: int) -> None:
         """Be at the wheel. In place."""
-        self.driven += duration
-        self.day += duration
+        if begin == end:
+            return
+        self.driven = self.driven_by(begin) + end - begin
+        self.day += end - begin
+        self._stands_since = end
 
     def pause(self, begin: int, end: int) -> None:
         """Take a break, which may be a rest, or a part of one. In place."""
@@ -63,8 +73,9 @@ class Driver:
         if length >= self._rules.rest or (self.is_half_rested and length >= split[1]):
             self.driven, self.is_half_rested, self._since = 0, False, end
             return
-        self._since += length
-        self.is_half_rested = self.is_half_rested or (bool(split) and length >= split[0])
+        if split and length >= split[0]:
+            self._since += length
+            self.is_half_rested = True
 
 
 def driver_behind(rules: DrivingRules, kind: VehicleType, trips: Sequence[Trip]) -> Driver:
@@ -74,7 +85,7 @@ def driver_behind(rules: DrivingRules, kind: VehicleType, trips: Sequence[Trip])
         if spell.is_break:
             driver.pause(spell.begin, spell.end)
         else:
-            driver.drive(spell.end - spell.begin)
+            driver.drive(spell.begin, spell.end)
     return driver
 
 
@@ -101,7 +112,7 @@ def excesses(kind: VehicleType, trips: Sequence[Trip]) -> Iterator[Excess]:
                                      driver.worked(spell.begin) - rules.max_work)
                 driver.pause(spell.begin, spell.end)
                 continue
-            driver.drive(spell.end - spell.begin)
+            driver.drive(spell.begin, spell.end)
             yield from _positive(index, spell.stop, "driving", driver.driven - rules.max_driving)
             yield from _positive(index, spell.stop, "work",
                                  driver.worked(spell.end) - rules.max_work)

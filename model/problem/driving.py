@@ -20,6 +20,7 @@ class DrivingRules:
     driven_before: Milliseconds = 0  # since the last rest, and so that day, before the route begins
     worked_before: Milliseconds = 0  # since the last rest
     while_drones_fly: bool = True  # whether a rest may lie in a flight
+    other_work_interrupts: bool = False  # that lasts as long as a rest: driving counts anew then
     half_rested_before: bool = False  # the first part of a split rest was taken since the last one
 
     def __post_init__(self) -> None:

@@ -48,10 +48,11 @@ def _driving_left(kind: VehicleType, rules: DrivingRules, done: Route,
                   home: int) -> DrivingRules | None:
     driver = driver_behind(rules, kind, done.trips)
     day = rules.max_driving_per_day
+    driven = driver.driven_by(home)
     if day < UNLIMITED:
-        day -= driver.day - driver.driven
-    if day < driver.driven:
+        day -= driver.day - driven
+    if day < driven:
         return None
-    return replace(rules, max_driving_per_day=day, driven_before=driver.driven,
+    return replace(rules, max_driving_per_day=day, driven_before=driven,
                    worked_before=max(0, driver.worked(home)),
                    half_rested_before=driver.is_half_rested)

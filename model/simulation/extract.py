@@ -83,14 +83,16 @@ def _trips(problem: Problem, instance: Instance, index: int,
 def _breaks(instance: Instance, k: int, stops: Sequence[Stop], rests: Sequence[int],
             broken: BrokenRoute) -> tuple[TakenBreak, ...]:
     """Return the breaks of a trip, packed as `rests` behind each of its stops."""
-    legs, taken = instance.duration[0, instance.type[0, k].travel], list[TakenBreak]()
+    kind, first, taken = instance.type[0, k], int(instance.size[0].depots), list[TakenBreak]()
+    legs, served = instance.duration[0, kind.travel], instance.node[0, kind.variant, :, 0]
     for place, (here, there) in enumerate(pairwise(stops)):
         duration = legs.item(here.node, there.node)
-        if instance.type[0, k].speed_changes < 0:
+        if kind.speed_changes < 0:
             duration -= there.setup
         taken += [TakenBreak(number, place, PLACES[where], arrival, start, end)
                   for number, where, arrival, start, end in broken.drive(
-                      rests[place], here.departure, duration)]
+                      rests[place], here.departure, duration,
+                      int(served[here.node].service_duration) if here.node >= first else 0)]
     return tuple(taken)
 
 

@@ -21,6 +21,7 @@ def drawn_rules(rng: np.random.Generator) -> DrivingRules:
         driving + minutes(4, 30) if rng.random() < 0.5 else UNLIMITED,
         minutes(8, 25) if rng.random() < 0.4 else UNLIMITED,
         minutes(0, 4) if rng.random() < 0.3 else 0, minutes(0, 4) if rng.random() < 0.3 else 0,
+        other_work_interrupts=not split and driving % (2 * MINUTE) == 0,
         half_rested_before=bool(split) and first % (2 * MINUTE) == 0,
         while_drones_fly=bool(rng.random() < 0.7))
 

@@ -32,6 +32,11 @@ def law_warnings(survey: Survey) -> Warnings:
         if rules is None or rules.preset is None:
             continue
         law, looser = LAWS[rules.preset], []
+        if rules.other_work_interrupts and not law.other_work_interrupts:
+            yield warning_at(
+                "LOOSER_THAN_PRESET", ("fleet", index, "driving_rules", "other_work_interrupts"),
+                f"By {rules.preset!r} breaks alone interrupt driving, and here other work does, "
+                "too, which counts: leave other_work_interrupts out to keep the rule's.")
         for name in ("max_driving", "max_driving_per_day", "max_work_before_break"):
             looser += [(f"driving_rules.{name}", getattr(rules, name), getattr(law, name), False)]
         looser += [("driving_rules.break_duration", rules.break_duration, law.break_duration, True),

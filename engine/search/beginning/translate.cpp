@@ -212,7 +212,7 @@ extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types,
                             View<Int, 2>(*profile_factor)[k]};
         const View<Int, 2> written(*times);
         const Rests rests(leg->rests);
-        RestedLeg rested(speeds, leg->begin, *driver, leg->leave, leg->duration);
+        RestedLeg rested(speeds, leg->begin, *driver, leg->stood, leg->leave, leg->duration);
         for (Int index = 0; index < rests.count(); ++index) {
             written(index, 1) = rested.take(rests.number(index), rests.place(index));
             written(index, 0) = rested.stood();

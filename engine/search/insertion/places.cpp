@@ -157,8 +157,7 @@ void try_trips_of(const Insertion& insertion, Int slot) {
     const Fleet& now = searcher.now;
     const Int k = now.route[slot].type;
     if (now.route[slot].trips >= data.type[k].max_trips || data.deadline.passed() ||
-        !goods_may_follow(data, now, slot, node) ||
-        !may_take_off_again(data, now, k)) {
+        !goods_may_follow(data, now, slot, node) || !may_take_off_again(data, now, k)) {
         return;
     }
     if (is_paired(data.pair, node)) {

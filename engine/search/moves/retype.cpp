@@ -77,8 +77,7 @@ void give_type(const ProblemData& data, Searcher& searcher, Int slot, Int k, boo
     const Int spare = now.route.size() - 2;
     set_aside(data, now, slot, spare);
     now.route[slot].type = k;
-    if (refresh(data, now, slot) &&
-        !(cheaper && now.cost[slot] >= cost - least_saving)) {
+    if (refresh(data, now, slot) && !(cheaper && now.cost[slot] >= cost - least_saving)) {
         --now.used[former];
         ++now.used[k];
     } else {

@@ -94,6 +94,12 @@ struct Truck {
         };
     }
 
+    // Return how long its driver is at other work at a stop, however long he waits.
+    Int stood_at(const Stop& stop) const {
+        if (stop.kind == customer_stop) return places[stop.node].service_duration();
+        return stop.kind == start_stop && stop.trip > 0 ? type.reload_duration : 0;
+    }
+
     // Whether when a leg ends that begins at a stop hangs on pauses.
     bool pauses(const Stop& from) const { return follows || (resting && from.rests != 0); }
 
@@ -103,7 +109,7 @@ struct Truck {
     Int come(const Stop& from, Int to, Int leave, Driver& driver) const {
         const Int setup = setup_after(data.setup, from.node, to);
         if (follows) {
-            RestedLeg leg(speeds, begin, driver, leave, duration_of_leg(from, to));
+            RestedLeg leg(speeds, begin, driver, stood_at(from), leave, duration_of_leg(from, to));
             if (!drive_with(leg, Rests(from.rests))) return far;
             driver = leg.driver();
             return leg.time() + setup;
@@ -116,7 +122,8 @@ struct Truck {
     // Return how long it is on a timed leg from a stop to a node. In place, as `come`.
     Int drive(const Stop& from, Int to, Driver& driver) const {
         if (follows) {
-            RestedLeg leg(speeds, begin, driver, from.leave, duration_of_leg(from, to));
+            RestedLeg leg(speeds, begin, driver, stood_at(from), from.leave,
+                          duration_of_leg(from, to));
             drive_with(leg, Rests(from.rests));
             driver = leg.driver();
             return leg.driven();

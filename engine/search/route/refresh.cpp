@@ -118,8 +118,7 @@ bool refresh_as_is(const ProblemData& data, const Fleet& fleet, Int slot) {
 // Tell whether trips of a type may end at one depot and not at another, however far they are.
 bool depots_differ(const ProblemData& data, Int k) {
     const VehicleType& type = data.type[k];
-    return keeps_hours(type) || (hubs_count(data) && takes_batteries(type)) ||
-           bounds_reach(type);
+    return keeps_hours(type) || (hubs_count(data) && takes_batteries(type)) || bounds_reach(type);
 }
 
 // Let a trip end at stop `p`, and the next begin, where that costs least of all places, which may

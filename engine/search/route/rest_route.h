@@ -67,7 +67,8 @@ public:
 
     // Return the leg for a driver who leaves so.
     RestedLeg leg_of(const RestLabel& label, const Way& way) const {
-        return {truck.speeds, truck.begin, label.driver, label.time, way.duration};
+        return {truck.speeds, truck.begin, label.driver, truck.stood_at(stops[way.p]),
+                label.time,   way.duration};
     }
 
     // Whether a driver may have to rest again who has so much ahead.

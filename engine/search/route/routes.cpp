@@ -128,8 +128,7 @@ bool load_trips(const ProblemData& data, Route& route, View<Stop, 1> stops, View
             trip.last = p;
             stops[trip.first].release = trip.release;
             if (trip.distance > longest_trip(type) || !may_make(type, trip) ||
-                !reaches_all(data, k, stops, trip) ||
-                !allows_sorties(type, s - flown) ||
+                !reaches_all(data, k, stops, trip) || !allows_sorties(type, s - flown) ||
                 !have_batteries(data.type, k, sorties, flown, s)) {
                 return false;
             }

@@ -203,14 +203,15 @@ def _trips(data: ProblemData, fleet: Fleet, slot: int, route: Any) -> tuple[Trip
         Trip(with_handling(halts[first:last + 1], *handling),
              tuple(_sortie(data, route.type, row, halts[row.launch].node, first)
                    for row in sorties if first <= row.launch <= last),
-             _breaks(data.type[route.type], halts, rows, (first, last), broken) if broken else (),
+             _breaks(data, data.type[route.type], halts, rows, (first, last), broken)
+             if broken else (),
              (Charge(since, until),) if kind.shares_chargers and since < until else ())
         for first, last, since, until in trips[
             ["first", "last", "charged_from", "charged_until"]].tolist())
 
 
-def _breaks(kind: Any, halts: Sequence[Stop], rows: Records, trip: tuple[int, int],
-            broken: BrokenRoute) -> tuple[TakenBreak, ...]:
+def _breaks(data: ProblemData, kind: Any, halts: Sequence[Stop], rows: Records,
+            trip: tuple[int, int], broken: BrokenRoute) -> tuple[TakenBreak, ...]:
     """Return the breaks of a trip, of which the first and the last stop are given."""
     first, last = trip
     rests, taken = rows["rests"].tolist(), list[TakenBreak]()
@@ -220,8 +221,16 @@ def _breaks(kind: Any, halts: Sequence[Stop], rows: Records, trip: tuple[int, in
             duration -= halts[place + 1].setup + resting_in_gap(kind, rests[place])
         taken += [TakenBreak(number, place - first, PLACES[where], arrival, start, end)
                   for number, where, arrival, start, end in broken.drive(
-                      rests[place], halts[place].departure, duration)]
+                      rests[place], halts[place].departure, duration,
+                      _stood_at(data, kind, rows[place], place))]
     return tuple(taken)
+
+
+def _stood_at(data: ProblemData, kind: Any, row: Any, place: int) -> int:
+    """Return how long a driver is at other work at a stop, however long he waits."""
+    if row["kind"] == CUSTOMER:
+        return int(data.place[kind.variant][row["node"], 0]["service_duration"])
+    return int(kind.reload_duration) if row["kind"] == START and place > 0 else 0
 
 
 def _stop(node: int, kind: int, arrival: int, release: int, hold: int, leave: int,

@@ -159,6 +159,45 @@ def test_us_rules_bound_the_working_day(service: httpx.Client, far: Request) -> 
     assert law["planned"]["max_working_duration"] == 50_400
 
 
+@pytest.mark.parametrize(("rules", "rests", "seconds"), [
+    ({"preset": "us-hos"}, 0, 37_800),
+    ({"preset": "us-hos", "other_work_interrupts": False}, 1, 39_600),
+    ({"max_driving": 28_800, "break_duration": 1800, "other_work_interrupts": True}, 0, 37_800),
+    ({"max_driving": 28_800, "break_duration": 1801, "other_work_interrupts": True}, 1, 39_601)])
+def test_half_an_hour_of_unloading_interrupts_driving_in_the_us(
+        service: httpx.Client, far: Request, rules: Request, rests: int, seconds: float) -> None:
+    far["customers"] = [{"id": "a", "location": [300, 0], "demand": [1],
+                         "service_duration": 1800}]
+    far["fleet"][0] |= {"driving_rules": rules, "costs": {"per_hour": 1}}
+    plan = planned(service, far)
+    assert len(breaks_of(plan)) == rests
+    assert plan["routes"][0]["working_duration"] == seconds
+    assert is_feasible(service, far, plan)
+    for law in plan.get("driving_rules", []):
+        assert law["other_work_interrupts"] is True
+        assert law["planned"]["other_work_interrupts"] is (rests == 0)
+
+
+def test_what_interrupts_more_than_the_rule_allows_is_told(service: httpx.Client,
+                                                           far: Request) -> None:
+    far["fleet"][0]["driving_rules"]["other_work_interrupts"] = True
+    path, = [each["path"] for each in planned(service, far)["warnings"]
+             if each["code"] == "LOOSER_THAN_PRESET"]
+    assert path == "$.fleet[0].driving_rules.other_work_interrupts"
+
+
+def test_breaks_too_short_for_a_rest_are_work(service: httpx.Client, far: Request) -> None:
+    """Driving takes 28 minutes, and the break five."""
+    far["customers"] = [{"id": "a", "location": [14, 0], "demand": [1]}]
+    far["fleet"][0] |= {
+        "driving_rules": {"break_duration": 900, "max_work_before_break": 1800},
+        "breaks": [{"id": "short", "duration": 300, "at": "anywhere",
+                    "start": {"earliest": 600, "latest": 600}}]}
+    plan = planned(service, far)
+    assert [each["id"] for each in breaks_of(plan)] == ["short", "rest"]
+    assert is_feasible(service, far, plan)
+
+
 @pytest.mark.parametrize(("changes", "code", "path"), [
     ({"driving_rules": {"max_driving": 9}}, "MISSING_BREAK_DURATION",
      "$.fleet[0].driving_rules.break_duration"),

@@ -99,11 +99,12 @@ def _breaks(kind: VehicleType, legs: list[int], begin: int, now: int,
             continue
         if worked + start - now > rules.max_work // MINUTE:
             continue
-        then = (leg, come, driven, worked + start - now, half, index + 1)
+        paused = worked + start - now + each.duration // MINUTE
+        then = (leg, come, driven, paused, half, index + 1)
         if each.duration >= rules.rest or (half and each.duration >= rules.split[1]):
             then = leg, come, 0, 0, False, index + 1
         elif rules.split and each.duration >= rules.split[0]:
-            then = *then[:4], True, index + 1
+            then = leg, come, driven, worked + start - now, True, index + 1
         yield start - now + each.duration // MINUTE, then
 
 
@@ -123,7 +124,9 @@ def _next(problem: Problem, nodes: tuple[int, ...], legs: list[int], now: int,
         ways = [(1, (leg, come, driven, worked + 1, half, number))]
         if customer.earliest <= now * MINUTE <= customer.latest:
             service = customer.service_duration // MINUTE
-            ways.append((service, (leg + 1, 0, driven, worked + service, half, number)))
+            stands = rules.other_work_interrupts and customer.service_duration >= rules.rest
+            ways.append((service, (leg + 1, 0, 0 if stands else driven, worked + service, half,
+                                   number)))
     ways.append((rules.rest // MINUTE, (leg, come, 0, 0, False, number)))
     if rules.split:
         part = rules.split[1 if half else 0] // MINUTE
@@ -158,6 +161,25 @@ def test_search_finds_the_cheapest_plan_with_rests(seed: int, beside: bool) -> N
     judged = check(problem, found)
     assert judged.violations == ()
     assert judged.cost.total == pytest.approx(cheapest(problem))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_search_finds_the_cheapest_plan_where_service_interrupts_driving(seed: int) -> None:
+    rng = np.random.default_rng([seed, 7])
+    problem = drawn(rng)
+    kind, = problem.vehicle_types
+    rules = replace(drawn_rules(rng), split=(), half_rested_before=False, max_work=UNLIMITED,
+                    max_driving=int(rng.integers(6, 12)) * MINUTE, max_driving_per_day=UNLIMITED,
+                    rest=int(rng.integers(3, 8)) * MINUTE, other_work_interrupts=True)
+    problem = replace(
+        problem, vehicle_types=(replace(kind, driving=rules,
+                                        max_travel_duration=60 * MINUTE),),
+        customers=tuple([replace(each, service_duration=int(rng.integers(0, 9)) * MINUTE)
+                         for each in problem.customers]))
+    found = improve(problem, pack([problem]), Solution((), (1, 2)),
+                    SearchConfig(turns=200)).solution
+    assert check(problem, found).cost.total == pytest.approx(cheapest(problem))
+    rests_by_law(problem, found)
 
 
 def slowed(seed: int) -> Problem:
@@ -248,7 +270,8 @@ def mixed(seed: int) -> Problem:
 def law_of(rules: DrivingRules) -> Law:
     """Return rules as the law's judge reads them."""
     return Law(rules.max_driving, rules.rest, (rules.split[0], rules.split[1]) if rules.split
-               else None, rules.max_driving_per_day, rules.max_work)
+               else None, rules.max_driving_per_day, rules.max_work,
+               rules.other_work_interrupts)
 
 
 def rests_by_law(problem: Problem, plan: Solution) -> int:

@@ -1028,6 +1028,7 @@ export default {
     split: 'Geteilt',
     worked_before: 'Vorher gearbeitet',
     while_drones_fly: 'Pausen während Flügen',
+    other_work_interrupts: 'Andere Arbeit unterbricht das Fahren',
     battery_wh: 'Akku',
     capacity: 'Ladekapazität',
     charge_w: 'Ladeleistung',
@@ -1445,6 +1446,7 @@ export default {
       driven_before: 'Zeit am Steuer seit der letzten Pause, bevor das Fahrzeug beginnt.',
       worked_before: 'Arbeit seit der letzten Pause, bevor das Fahrzeug beginnt.',
       while_drones_fly: 'Ob gerastet werden darf, während Drohnen unterwegs sind.',
+      other_work_interrupts: 'Ob andere Arbeit, oder Warten, so lang wie eine Pause, das Fahren unterbricht wie eine.',
     },
     BreakStartInput: {
       earliest: 'Frühester Beginn.',

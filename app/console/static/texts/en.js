@@ -1014,6 +1014,7 @@ export default {
     split: 'Split',
     worked_before: 'Worked before',
     while_drones_fly: 'Rests while drones fly',
+    other_work_interrupts: 'Other work interrupts driving',
     battery_wh: 'Battery wh',
     capacity: 'Capacity',
     charge_w: 'Charge w',
@@ -1424,6 +1425,7 @@ export default {
       driven_before: 'Time at the wheel since the last rest, before the vehicle begins.',
       worked_before: 'Time at work since the last rest, before the vehicle begins.',
       while_drones_fly: 'Whether a driver may rest while drones are out.',
+      other_work_interrupts: 'Whether other work as long as a rest, or waiting, interrupts driving as a rest does.',
     },
     BreakStartInput: {
       earliest: 'Earliest begin.',
