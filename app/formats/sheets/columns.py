@@ -10,11 +10,11 @@ from app.formats.sheets.clocks import Style
 from app.formats.sheets.headings import HEADING, guesses, simple
 from app.formats.sheets.layout import Table
 from app.formats.sheets.links import is_link, place_of
-from app.formats.sheets.meanings import MEANINGS
+from app.formats.sheets.meanings import MEANINGS, meaning_at
 from app.formats.sheets.numbers import own_unit
 from app.formats.sheets.readers import NO, ORDER_KINDS, YES, read, ticked_kind
 from app.formats.sheets.schemas import ColumnMapping
-from app.formats.sheets.sides import Side, guesses_at, sides_of
+from app.formats.sheets.sides import DELIVERY, OWN, Side, guesses_at, sides_of
 from app.formats.sheets.states import CANCELLED, DONE, STATES
 from app.formats.sheets.units import UnitGuess, amount_unit, clock_unit, duration_unit
 
@@ -26,6 +26,9 @@ LEAST_FIT = 0.3
 
 GUESSED = 0.99
 """Most confidence in a meaning that is not stated."""
+
+MOST = 0.7
+"""Share of a column's cells that must look like something for the column to be taken for it."""
 
 BY_CONTENT = 0.5
 """Most confidence in a meaning that no heading states."""
@@ -72,8 +75,10 @@ def columns_of(table: Table, style: Style, mapping: Sequence[ColumnMapping]) -> 
         index: _with_unit(table, Column(index, table.headings[index], entry.meaning, entry.unit,
                                         1.0, language=_language(table.headings[index])))
         for index, entry in stated.items()}
-    options = [option for index, side in enumerate(sides_of(table.headings)) if index not in stated
-               for option in _options(table, index, style, side)]
+    points = [_share(_samples(table, index), _is_point) > MOST
+              for index in range(len(table.headings))]
+    options = [option for index, side in enumerate(sides_of(table.headings, points))
+               if index not in stated for option in _options(table, index, style, side)]
     taken = {column.meaning for column in found.values()}
     spoken = language_of(options)
     # `van` is a vehicle in English, and where a window begins in Dutch.
@@ -153,44 +158,59 @@ def _matches(entry: ColumnMapping, heading: str, index: int, repeats: bool) -> b
 
 def _options(table: Table, index: int, style: Style, side: Side) -> Iterable[Column]:
     """Yield what a column may mean, with the confidence that it does."""
-    cells = [raw for _, raw in table.column(index)][:SAMPLED]
-    heading = table.headings[index]
+    cells, named = _samples(table, index), set()
+    heading, are_points = table.headings[index], _share(cells, _is_point) > MOST
     for guess in guesses_at(heading, side)[:6]:
-        if guess.score >= HEADING:
+        # Coordinates are words as well: of a second place, that would go unasked.
+        if guess.score >= HEADING and not (are_points and guess.meaning.endswith("address")):
             column = _with_unit(table, Column(index, heading, guess.meaning, guess.unit,
                                               language=guess.language))
             fit = _fit(cells, column, style) if cells else 0.5
             if fit >= LEAST_FIT:
                 confidence = GUESSED * guess.score * (0.5 + 0.5 * fit)
+                named.add(guess.meaning)
                 yield replace(column, confidence=round(confidence, 3))
                 # Two columns with names: one of them is a number for the driver.
                 if guess.meaning == "name":
                     yield Column(index, heading, "order", None, round(guess.score * 0.6, 3),
                                  language=guess.language)
-    yield from _by_content(table, index, cells)
+    for column in _by_content(table, index, cells):
+        meaning = column.meaning if side.name in (OWN, DELIVERY) else (
+            meaning_at(side.name, column.meaning))
+        if meaning in named:
+            yield replace(column, meaning=meaning, doubts=())
+        elif meaning in MEANINGS:
+            yield replace(column, meaning=meaning)
 
 
 def _by_content(table: Table, index: int, cells: Sequence[Raw]) -> Iterable[Column]:
     """Yield what the cells of a column look like, whatever its heading is."""
-    texts = [raw for raw in cells if isinstance(raw, str)]
-    if not texts or len(texts) < 0.7 * len(cells):
-        return
     heading = table.headings[index]
     looks: tuple[tuple[str, Callable[[str], object], float], ...] = (
-        ("point", _POINT.fullmatch, 1.0), ("point", _is_map, 1.0),
+        ("point", _is_point, 1.0),
         ("email", _EMAIL.fullmatch, BY_CONTENT), ("window", _WINDOW.fullmatch, BY_CONTENT),
         ("phone", _PHONE.fullmatch, BY_CONTENT))
     for meaning, fits, sure in looks:
-        share = sum(bool(fits(text)) for text in texts) / len(cells)
-        if share > 0.7:
+        share = _share(cells, fits)
+        if share > MOST:
             doubt = Doubt("MEANING_BY_CONTENT", f"Column {letters(index)} is taken for "
                           f"{MEANINGS[meaning].title.lower()} by its cells alone.", letters(index))
             yield _with_unit(table, Column(index, heading, meaning, None,
                                            min(sure * share, 0.995), (doubt,)))
 
 
-def _is_map(text: str) -> bool:
-    return is_link(text) and place_of(text) is not None
+def _samples(table: Table, index: int) -> list[Raw]:
+    return [raw for _, raw in table.column(index)][:SAMPLED]
+
+
+def _share(cells: Sequence[Raw], fits: Callable[[str], object]) -> float:
+    """Return the share of cells that are texts which fit."""
+    return sum(isinstance(raw, str) and bool(fits(raw)) for raw in cells) / max(len(cells), 1)
+
+
+def _is_point(text: str) -> bool:
+    """Tell whether a text is a place: two numbers, or a link to a map."""
+    return _POINT.fullmatch(text) is not None or (is_link(text) and place_of(text) is not None)
 
 
 def _with_unit(table: Table, column: Column) -> Column:

@@ -33,6 +33,12 @@ STEMS = {PICKUP: ("abhol", "belade", "absender", "versender", "ophaal", "laad"),
 ENDS = {"from": PICKUP, "von": PICKUP, "to": DELIVERY, "nach": DELIVERY}
 """What stands before a place's columns, and alone says when windows begin and end."""
 
+BARE_ENDS = ENDS | {
+    "start": PICKUP, "source": PICKUP, "desde": PICKUP, "da": PICKUP, "van": PICKUP, "z": PICKUP,
+    "end": DELIVERY, "target": DELIVERY, "ende": DELIVERY, "hasta": DELIVERY, "a": DELIVERY,
+    "naar": DELIVERY, "do": DELIVERY}
+"""The same, alone above places."""
+
 FILLERS = frozenset((
     "d", "de", "di", "da", "do", "des", "du", "del", "della", "dell", "of", "the", "la", "le"))
 
@@ -67,9 +73,13 @@ class Side:
     found: tuple[Guess, ...] = ()
 
 
-def sides_of(headings: Sequence[str]) -> list[Side]:
-    """Return which place each heading is about; all their own where none says a second."""
-    sides = [_side(heading) for heading in headings]
+def sides_of(headings: Sequence[str], are_points: Sequence[bool]) -> list[Side]:
+    """Return which place each heading is about; all their own where none says a second.
+
+    `are_points` tells below which of them places are.
+    """
+    sides = [_end(heading) if is_point and simple(heading) in BARE_ENDS else _side(heading)
+             for heading, is_point in zip(headings, are_points, strict=True)]
     own = any(_is_place(guess) for heading, side in zip(headings, sides, strict=True)
               for guess in (side.found if side.name == DELIVERY else guesses(heading)[:2])
               if side.name in (OWN, DELIVERY))
@@ -91,6 +101,11 @@ def guesses_at(heading: str, side: Side) -> tuple[Guess, ...]:
 
 def _is_place(guess: Guess) -> bool:
     return guess.meaning in PLACE and guess.score >= HEADING
+
+
+def _end(heading: str) -> Side:
+    """Return which place is below a heading that says no more than from where, or to where."""
+    return Side(BARE_ENDS[simple(heading)], (Guess("point", SURE),))
 
 
 def _side(heading: str) -> Side:

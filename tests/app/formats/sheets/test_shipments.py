@@ -204,3 +204,54 @@ def test_what_a_sheet_of_shipments_says_is_planned(searching: httpx.Client) -> N
              for stop in trip["stops"]]
     assert kinds.index(("pickup", "A1")) < kinds.index(("delivery", "A1"))
     assert plan.json()["summary"]["served"] == 5
+
+
+PLACES = ((4.8357, 45.764), (4.88, 45.77))
+
+
+def both_ends(headings: str) -> ImportReply:
+    """Read two orders with coordinates in one cell at each end."""
+    first, second = (f'"{latitude},{longitude}"' for longitude, latitude in PLACES)
+    return read(f"name,{headings},weight\nA,{first},{second},5\nB,{first},{second},2\n",
+                depot="45.760,4.850", vehicles=2, capacity=[50], shift="8:00-18:00")
+
+
+@pytest.mark.parametrize("headings", [
+    "pickup.latlng,dropoff.latlng", "pickup coordinates,delivery coordinates", "from,to",
+    "von,nach", "Start,End", "Abholkoordinaten,Lieferkoordinaten", "origin,destination",
+    "coordenadas de recogida,coordenadas de entrega", "pickup address,delivery address",
+    "pickup position,coordinates"])
+def test_goods_go_from_pickup_to_delivery_by_coordinates_in_one_cell(headings: str) -> None:
+    made = request(both_ends(headings))
+    assert made["customers"] == []
+    for shipment, amount in zip(made["shipments"], (5, 2), strict=True):
+        assert shipment["amount"] == [amount]
+        assert shipment["pickup"]["location"] == list(PLACES[0])
+        assert shipment["delivery"]["location"] == list(PLACES[1])
+
+
+@pytest.mark.parametrize("headings", ["foo,bar", "location A,location B"])
+def test_a_second_place_that_no_heading_tells_is_asked(headings: str) -> None:
+    reply = both_ends(headings)
+    assert [question.kind for question in reply.questions] == ["column"]
+    assert reply.questions[0].column == "C"
+
+
+def test_windows_and_notes_of_both_ends_go_with_them() -> None:
+    made = request(read(
+        "pickup.latlng,pickup.timeslot,dropoff.latlng,dropoff.timeslot,weight,pickup.comments\n"
+        '"45.7640,4.8357",2026-06-10 09:00 - 2026-06-10 10:00,"45.7700,4.8800",'
+        "2026-06-10 09:30 - 2026-06-10 11:00,5.5,Ring twice\n",
+        depot="45.760,4.850", vehicles=2, capacity=[50], shift="8:00-18:00"))
+    (shipment,) = made["shipments"]
+    assert shipment["pickup"] == {
+        "location": [4.8357, 45.764], "time_window": {"earliest": 32400, "latest": 36000},
+        "info": {"notes": "Ring twice"}}
+    assert shipment["delivery"]["location"] == [4.88, 45.77]
+    assert shipment["delivery"]["time_window"] == {"earliest": 34200, "latest": 39600}
+
+
+def test_coordinates_of_a_pickup_alone_are_the_customers_own() -> None:
+    made = request(read('name,pickup coordinates,weight\nA,"45.764,4.8357",5\n',
+                        depot="45.760,4.850", vehicles=2, capacity=[50], shift="8:00-18:00"))
+    assert made["customers"][0]["location"] == [4.8357, 45.764]
