@@ -1,10 +1,12 @@
 // Arrays that belong to others, row by row without gaps.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <exception>
 #include <type_traits>
 
 namespace tandem {
@@ -15,6 +17,18 @@ constexpr bool checks_indices = true;
 constexpr bool checks_indices = false;
 #endif
 
+// Thrown before anything is read or written outside an array.
+class Outside : public std::exception {};
+
+[[noreturn, gnu::cold, gnu::noinline]] inline void found_outside() { throw Outside(); }
+
+// Throws at an index outside an array, in all builds.
+inline void ensure_index(std::int64_t index, std::int64_t size) {
+    if (static_cast<std::uint64_t>(index) >= static_cast<std::uint64_t>(size)) [[unlikely]] {
+        found_outside();
+    }
+}
+
 // Ends the process at an index outside an array, in builds for sanitizers.
 inline void check_index(std::int64_t index, std::int64_t size) {
     if constexpr (checks_indices) {
@@ -22,7 +36,11 @@ inline void check_index(std::int64_t index, std::int64_t size) {
     }
 }
 
-// A view of an array of N dimensions. Indices are not checked but in builds for sanitizers.
+// A view of an array of N dimensions.
+//
+// Whoever writes where a number that was counted up tells does so by `at`, `first` or `part`, which
+// check in all builds; all other indices are checked in builds for sanitizers alone, as that takes
+// a tenth of the time of a search.
 template <class T, int N>
 class View {
 public:
@@ -69,6 +87,14 @@ public:
         }
     }
 
+    // The element, which has to be there.
+    T& at(std::int64_t index) const
+        requires(N == 1)
+    {
+        ensure_index(index, shape_[0]);
+        return data_[index];
+    }
+
     T* data() const { return data_; }
     T* begin() const
         requires(N == 1)
@@ -85,12 +111,21 @@ public:
     std::int64_t size() const { return shape_[0]; }
     bool empty() const { return shape_[0] == 0; }
 
-    // The first `count` rows.
+    // The first `count` rows, which have to be there.
     View first(std::int64_t count) const {
-        check_index(count, shape_[0] + 1);
+        ensure_index(count, shape_[0] + 1);
         View part = *this;
         part.shape_[0] = count;
         return part;
+    }
+
+    // So many elements from one on, which have to be there.
+    View part(std::int64_t from, std::int64_t count) const
+        requires(N == 1)
+    {
+        ensure_index(from, shape_[0] + 1);
+        ensure_index(count, shape_[0] - from + 1);
+        return {data_ + from, {count}};
     }
 
 private:
@@ -108,5 +143,11 @@ private:
     T* data_ = nullptr;
     std::array<std::int64_t, N> shape_{};
 };
+
+// Copy the first elements of a row to another, both of which have to hold so many. In place.
+template <class T, class Other>
+void copy_first(View<T, 1> from, std::int64_t count, View<Other, 1> to) {
+    std::copy_n(from.first(count).begin(), count, to.first(count).begin());
+}
 
 }  // namespace tandem

@@ -23,14 +23,15 @@ LIFTING = 0.1
 """Share of contradictions that are sent, to be refused."""
 
 
-def mixed_request(rng: random.Random) -> Data:
-    """Return a request."""
+def mixed_request(rng: random.Random, number: int | None = None, *, tables: bool = True) -> Data:
+    """Return a request, with so many customers; if so asked, without tables of legs."""
     size = rng.choice((1, 1, 2))
     depots = [{"id": f"D{number}", "location": a_place(rng)}
               for number in range(rng.choice((1, 2)))]
     request: Data = {
         "coordinate_system": "planar", "planar_unit": 1000, "depots": depots,
-        "customers": [_customer(rng, f"c{number}", size) for number in range(rng.randint(3, 10))],
+        "customers": [_customer(rng, f"c{each}", size)
+                      for each in range(rng.randint(3, 10) if number is None else number)],
         "fleet": [_truck(rng, f"t{number}", size, depots)
                   for number in range(rng.choice((1, 1, 2)))],
         "unassigned_cost": rng.choice((None, None, 60, 1000)),
@@ -43,7 +44,7 @@ def mixed_request(rng: random.Random) -> Data:
     for name, change in (OTHERS | OF_A_DAY).items():
         if name in names:
             change(rng, request)
-    if "missing_legs" in names:
+    if "missing_legs" in names and tables:
         lose_legs(rng, request, [*places_of(request), *(
             place for kind in request["fleet"] for place in _own_places(kind))])
     return request

@@ -29,16 +29,17 @@ NAMES = ("#", "kunde #", "顧客-#", "Ünïcødé #", "🚚#", "a/b?#&=", "'\"#\
          "truck-#", "[#].x", "-#", "# " * 60)
 
 
-def wild_request(rng: random.Random) -> Data:
-    """Return a request."""
+def wild_request(rng: random.Random, number: int | None = None, *, tables: bool = True) -> Data:
+    """Return a request, with so many customers; if so asked, without tables of legs."""
     dimensions, name = rng.choice((1, 1, 2, 2, 3, 3, 8)), rng.choice(NAMES)
     system, unit, place = _geography(rng)
     depots: list[Data] = [{"id": f"D{number}", "location": place(),
                            **_maybe(rng, 0.1, time_window=_shift(rng)),
                            **_maybe(rng, 0.2, chargers=rng.choice((0, 1, 1, 3)))}
                           for number in range(rng.randint(1, 3))]
-    customers = [{"id": name.replace("#", str(number)), "location": place(),
-                  **_customer(rng, dimensions)} for number in range(rng.choice(SIZES))]
+    customers = [{"id": name.replace("#", str(each)), "location": place(),
+                  **_customer(rng, dimensions)}
+                 for each in range(rng.choice(SIZES) if number is None else number)]
     fleet = [{"id": rng.choice(NAMES).replace("#", f"t{number}"), **_vehicle_type(rng, dimensions),
               **({"depot": rng.choice(depots)["id"]} if rng.random() < 0.5 else {})}
              for number in range(rng.choice((1, 1, 2, 4)))]
@@ -60,7 +61,7 @@ def wild_request(rng: random.Random) -> Data:
         _let_stop(rng, request, place)
     if rng.random() < 0.2:
         add_shipments(rng, request, place, lambda: _windows(rng))
-    if rng.random() < 0.25:
+    if rng.random() < 0.25 and tables:
         _add_matrices(rng, request)
     if rng.random() < 0.1:
         request["fairness"] = wild_fairness(rng)

@@ -34,6 +34,7 @@ public:
     Int size() const { return view_.size(); }
     operator View<const T, 1>() const { return view_; }
     T& operator[](Int index) const { return view_[index]; }
+    T& at(Int index) const { return view_.at(index); }
 
 private:
     std::unique_ptr<T[]> room_;

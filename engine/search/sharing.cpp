@@ -76,7 +76,7 @@ Int add_routes(const ProblemData& data, Searcher& whole, const Searcher& part, I
     }
     for (const Int node : part.missing.first(part.count->missing)) {
         leave_out(data, now, node);
-        whole.missing[count.missing++] = node;
+        whole.missing.at(count.missing++) = node;
     }
     list_active(whole);
     return filled;
@@ -89,7 +89,7 @@ Int add_best(Searcher& whole, const Searcher& part, Int filled) {
         copy_route(part.best, slot, whole.best, filled++);
     }
     for (const Int node : part.best_missing.first(part.count->best_missing)) {
-        whole.best_missing[count.best_missing++] = node;
+        whole.best_missing.at(count.best_missing++) = node;
     }
     return filled;
 }

@@ -26,7 +26,7 @@ Int begin_turn(const ProblemData& data, Searcher& searcher, Int most) {
         count.focus = any_customer(data, searcher.now, searcher.rng);
     }
     const Int total = count.missing;
-    std::copy_n(searcher.missing.begin(), total, absent.begin());
+    copy_first(searcher.missing, total, absent);
     const Int alone = std::max(Int{0}, total - most);
     for (Int index = total - 1; index >= alone; --index) {
         std::swap(absent[index], absent[below(searcher.rng, index + 1)]);

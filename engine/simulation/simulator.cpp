@@ -163,7 +163,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
                               (verdict == Verdict::unsure &&
                                legal_by_trial(rollout, no_reload, service, outlooks[found]));
         const ActionKind kind = service.by_drone ? ActionKind::launch : ActionKind::drive;
-        if (is_legal) actions[found++] = encode_action(kind, service.node);
+        if (is_legal) actions.at(found++) = encode_action(kind, service.node);
     };
     for (Int node = size.depots; node < size.depots + size.customers; ++node) {
         if (state.served(r, node) || !may_carry(setting, vehicle, node)) continue;
@@ -201,12 +201,12 @@ Int legal_returns(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1>
     const Int b = state.problem[r];
     const Int k = state.vehicle[r].type;
     const VehicleType& type = instance.type(b, k);
-    actions[found++] = encode_action(ActionKind::end_trip, type.ends_at);
+    actions.at(found++) = encode_action(ActionKind::end_trip, type.ends_at);
     if (type.changes_ends == 0 || state.log.count[r].trips >= type.max_trips) return found;
     for (Int place = 0; place < instance.size[b].depots; ++place) {
         if (place != type.ends_at && instance.reload(b, k, place) &&
             may_reload(rollout, place, outlooks[found])) {
-            actions[found++] = encode_action(ActionKind::end_trip, place);
+            actions.at(found++) = encode_action(ActionKind::end_trip, place);
         }
     }
     return found;
@@ -325,7 +325,7 @@ Int legal_actions(const Instance& instance, State& state, Int r, Int scratch, Vi
     }
     for (Int k = 0; k < instance.size[b].types; ++k) {
         if (open_legal(rollout, k)) {
-            actions[found++] = encode_action(ActionKind::open, k);
+            actions.at(found++) = encode_action(ActionKind::open, k);
         }
     }
     return found;
@@ -368,7 +368,7 @@ Int apply_route(const Instance& instance, State& state, Int r, View<const Int, 1
                 Int first) {
     Int index = first;
     do {
-        apply(instance, state, r, actions[index++]);
+        apply(instance, state, r, actions.at(index++));
     } while (index < actions.size() && kind_of(actions[index]) != ActionKind::open);
     return index;
 }

@@ -23,11 +23,11 @@ namespace tandem {
 namespace {
 
 void log_op(VehicleLog& log, Int stop, Int sortie, bool is_recovery) {
-    log.op[log.count.ops++] = {stop, sortie, is_recovery};
+    log.op.at(log.count.ops++) = {stop, sortie, is_recovery};
 }
 
 void log_stop(VehicleLog& log, Int node, Int arrival, Int start, Int leave) {
-    log.stop[log.count.stops++] = {node, arrival, start, leave, 0};
+    log.stop.at(log.count.stops++) = {node, arrival, start, leave, 0};
 }
 
 // Append the recoveries decided by `leave_for`, in order.
@@ -106,7 +106,7 @@ void begin_trip(OpenVehicle& open, Int release) {
     auto& [setting, vehicle, log, drones] = open;
     const Int start = std::max(vehicle.next_start, release);
     const Int leave = leaves_first(setting.type, start);
-    log.trip[log.count.trips++] = {log.count.stops, log.count.ops, release, start};
+    log.trip.at(log.count.trips++) = {log.count.stops, log.count.ops, release, start};
     log_stop(log, vehicle.node, start, start, leave);
     if (log.count.trips == 1) {
         vehicle.start_best = start;

@@ -4,6 +4,7 @@ import numpy as np
 
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
+from model.search.beginning.room import Room
 from model.search.beginning.translate import empty_searcher
 from model.search.hubs import shared_out, taken_by
 from model.search.route.layout import NOWHERE, OTHERS, ProblemData, are_kept
@@ -104,9 +105,10 @@ class Crew:
 def make_rooms(data: ProblemData, whole: Searcher,
                seeds: list[np.random.SeedSequence]) -> list[Searcher]:
     """Return room for a search by each seed, as large as the whole."""
-    sizes = (len(whole.active), *(table.shape[1] for table in
-                                  (whole.now.stop, whole.now.trip, whole.now.sortie)))
-    return [empty_searcher(data, sizes, whole.alone, seed) for seed in seeds]
+    stops, trips, sorties = (table.shape[1] for table in (
+        whole.now.stop, whole.now.trip, whole.now.sortie))
+    room = Room(len(whole.active), stops, trips, sorties)
+    return [empty_searcher(data, room, whole.alone, seed) for seed in seeds]
 
 
 def take_all(data: ProblemData, whole: Searcher, part: Searcher) -> None:

@@ -26,7 +26,7 @@ void disband(const ProblemData& data, Searcher& searcher) {
         if (now.where[node].slot < 0) continue;
         now.where[node].slot = nowhere;
         if (!is_other_end(data.pair, node)) {
-            searcher.missing[count.missing++] = unit_of(data.pair, node);
+            searcher.missing.at(count.missing++) = unit_of(data.pair, node);
         }
     }
     list_active(searcher);
@@ -58,7 +58,7 @@ void give_up_route(const ProblemData& data, Searcher& searcher) {
         if (stop.kind != customer_stop) continue;
         now.where[stop.node].slot = nowhere;
         if (is_other_end(data.pair, stop.node)) continue;
-        searcher.missing[count.missing++] = stop.node;
+        searcher.missing.at(count.missing++) = stop.node;
         cost += data.unassigned_cost + data.unassigned_more[stop.node];
     }
     route.stamp = ++count.stamp;

@@ -42,9 +42,9 @@ bool refresh_by_trips(const ProblemData& data, const Fleet& fleet, Int slot) {
     for (Int p = 0; p < fleet.route[spare].length; ++p) {
         if (fleet.stop(spare, p).kind != end_stop) continue;
         const Int before = route.length;
-        append(fleet, spare, first, p + 1, slot);
+        const bool fits = append(fleet, spare, first, p + 1, slot);
         first = p + 1;
-        if (refresh(data, fleet, slot)) {
+        if (fits && refresh(data, fleet, slot)) {
             done = true;
             continue;
         }
@@ -122,7 +122,7 @@ void begin(const ProblemData& data, Searcher& searcher, Int num_routes) {
         const Int unit = unit_of(data.pair, node);
         if (unit == node || is_other_end(data.pair, node)) ++count.customers;
         if (unit == node && now.where[served_place(data, now, node)].slot == nowhere) {
-            searcher.missing[count.missing++] = node;
+            searcher.missing.at(count.missing++) = node;
         }
     }
     for (Int slot = 0; slot < searcher.active.size(); ++slot) now.route[slot].stamp = 1;

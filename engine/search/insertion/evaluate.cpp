@@ -290,23 +290,19 @@ bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, 
     if (!is_pickup(data.pair, node)) return true;
     const auto& [route, stops, sorties] = sequence;
     const Int delivery = data.pair[node].partner, end = route.length - 1;
-    if (way == 0) {
-        insert_stops(sequence, end, {{delivery, customer_stop}});
-        return true;
-    }
+    if (way == 0) return insert_stops(sequence, end, {{delivery, customer_stop}});
     const bool fetched = route.sorties > 0;
     if (way == 1) {
         const Int row = fetched ? row_of_drone(data.type, route.type, sorties[0].drone) : 0;
-        if (!fetched || data.visits[row] < 2 || !data.can(row, 1, delivery)) return false;
-        join_sortie(sorties[0], 1, delivery);
-        return true;
+        return fetched && data.visits[row] >= 2 && data.can(row, 1, delivery) &&
+               join_sortie(sorties[0], 1, delivery);
     }
     const Int row = drone_row_at(data.type, route.type, (way - 2) / ways_to_bring);
     const Int bringing = (way - 2) % ways_to_bring;
     if (!data.can(row, 1, delivery) || (bringing > 0 && fetched)) return false;
     const auto [launch, recovery] = bringing_flight(bringing, end);
-    add_sortie(route, sorties, launch, recovery, first_drone(data.type, route.type, row), delivery);
-    return true;
+    return add_sortie(sequence, launch, recovery, first_drone(data.type, route.type, row),
+                      delivery);
 }
 
 // The ways in which a route of a type serves a customer alone, or a shipment, by its pickup.
@@ -337,10 +333,10 @@ public:
             halt = data_.near_halts(node_, place % halts_);
             if (halt < 0) return false;
         }
-        begin_route(sequence_in(fleet, slot), data_.type[k_], k_, node_, begun,
-                    first_drone(data_.type, k_, row), halt);
-        return deliver_alone(data_, sequence_in(fleet, slot), node_, way / begun_) &&
-               refresh(data_, fleet, slot);
+        const Sequence sequence = sequence_in(fleet, slot);
+        return begin_route(sequence, data_.type[k_], k_, node_, begun,
+                           first_drone(data_.type, k_, row), halt) &&
+               deliver_alone(data_, sequence, node_, way / begun_) && refresh(data_, fleet, slot);
     }
 
 private:
@@ -402,8 +398,10 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     if (data.evaluation[k].priced || has_driving_rules(data.type[k]) ||
         (is_apart(data, k) && (kind >= new_trip || bounds_reach(data.type[k]))) || whole) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
-        apply(depot, sequence_in(fleet, to), move, node, data.pair);
-        if (!refresh_cost(data, fleet, to, bar + fleet.cost[slot])) return infeasible;
+        if (!apply(depot, sequence_in(fleet, to), move, node, data.pair) ||
+            !refresh_cost(data, fleet, to, bar + fleet.cost[slot])) {
+            return infeasible;
+        }
         return fleet.cost[to] - fleet.cost[slot];
     }
     const Int there =
@@ -413,7 +411,8 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const bool alone = kind == new_trip || kind == flight_trip || kind == halt_trip;
     const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
-    apply(depot, sequence_in(fleet, to), within(move, part.first, skipped), node, data.pair);
+    const Move moved = within(move, part.first, skipped);
+    if (!apply(depot, sequence_in(fleet, to), moved, node, data.pair)) return infeasible;
     give_releases(fleet, to, alone, trip, release);
     double cost =
         price_part(data, fleet, slot, part, to) + vehicle_cost_at(data.vehicle_cost, k, node);

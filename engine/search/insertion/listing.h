@@ -13,11 +13,14 @@ inline double most_saved(const ProblemData& data, const Fleet& fleet, Int slot, 
     return fleet.early[slot] - vehicle_cost_at(data.vehicle_cost, fleet.route[slot].type, node);
 }
 
-// Lists an insertion that costs at least `cost`; returns it, to complete it.
+// Lists an insertion that costs at least `cost`; returns it, to complete it. Were there no room, it
+// would take the place of the last one.
 inline Move& add_offer(const Searcher& searcher, double cost, Int kind, Int slot, Int first) {
-    const Int index = searcher.scratch->offers++;
-    searcher.scratch->least[index] = cost;
-    Move& offer = searcher.scratch->offer[index];
+    Scratch& scratch = *searcher.scratch;
+    if (scratch.offers < scratch.offer.size()) ++scratch.offers;
+    const Int index = scratch.offers - 1;
+    scratch.least[index] = cost;
+    Move& offer = scratch.offer[index];
     offer.kind = kind;
     offer.slot = slot;
     offer.first = first;

@@ -135,9 +135,9 @@ bool serve(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int nod
     Move move{};
     if (!ways.note(way, 0, move)) return false;
     const Sequence sequence = sequence_in(fleet, slot);
-    begin_empty(sequence, data.type[k], k);
-    lay_out_parts(sequence, 0, move, pickups_of(data.pair, node), data.pair[node].partner);
-    return refresh(data, fleet, slot);
+    return begin_empty(sequence, data.type[k], k) &&
+           lay_out_parts(sequence, 0, move, pickups_of(data.pair, node), data.pair[node].partner) &&
+           refresh(data, fleet, slot);
 }
 
 }  // namespace

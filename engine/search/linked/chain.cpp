@@ -59,7 +59,7 @@ void note_times(Linked& linked, Int node) {
         return;
     }
     const Link& here = linked.link[node];
-    linked.moment[noted.moments++] = {node, here.leave, here.latest};
+    linked.moment.at(noted.moments++) = {node, here.leave, here.latest};
 }
 
 // Takes the customer inserted last out again. Times stay as they are.
@@ -138,7 +138,7 @@ void tie_in(const ProblemData& data, Linked& linked, Int slot, Int before, Int n
     const LegRow onward = legs_from(data.leg, m, node);
     const Int there = distance_from(inward, before);
     const Int on = distance_to(onward, behind);
-    Entry& entry = linked.entry[linked.noted->entries++];
+    Entry& entry = linked.entry.at(linked.noted->entries++);
     entry = {node, 0, 0};
     if (behind >= data.num_depots) {
         entry.onward = linked.link[behind].inward;
@@ -182,7 +182,7 @@ Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int b
 Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int count) {
     Noted& noted = *linked.noted;
     Run& run = linked.run[slot];
-    Piece& piece = linked.piece[noted.pieces++];
+    Piece& piece = linked.piece.at(noted.pieces++);
     piece = {slot, run.type, count, 0, 0};
     note_stale(linked, slot);
     const Int before = linked.link[first].before;
@@ -190,8 +190,8 @@ Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int co
     Int node = first;
     for (Int number = 0; number < count; ++number) {
         Link& here = linked.link[node];
-        linked.removed[noted.removed] = here;
-        linked.removed_node[noted.removed] = node;
+        linked.removed.at(noted.removed) = here;
+        linked.removed_node.at(noted.removed) = node;
         ++noted.removed;
         saved += here.onward;
         take_load(data, run, node);

@@ -363,7 +363,7 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
     for (Int index = first; index < searcher.count->absent; ++index) {
         const Int node = absent[index];
         if (data.deadline.passed()) {
-            absent[left++] = node;
+            absent.at(left++) = node;
             continue;
         }
         const bool opens = opens_first && index == first;
@@ -380,7 +380,7 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
         if (best.cost != infeasible && wanted && insert(data, searcher, linked, node, best.move)) {
             total += best.cost;
         } else {
-            absent[left++] = node;
+            absent.at(left++) = node;
         }
         spare -= std::min(best.cost, left_out);
         if (spare < 0.0) return {false, total};

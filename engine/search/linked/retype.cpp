@@ -48,7 +48,7 @@ void give_run(Searcher& searcher, Linked& linked, Int slot, Int k) {
     Run& run = linked.run[slot];
     if (linked.former[slot] == nowhere) {
         linked.former[slot] = run.type;
-        linked.retyped[linked.noted->retyped++] = slot;
+        linked.retyped.at(linked.noted->retyped++) = slot;
     }
     --searcher.now.used[run.type];
     ++searcher.now.used[k];

@@ -60,7 +60,7 @@ public:
         note_changed(searcher_, other);
         SearchCounts& count = *searcher_.count;
         count.absent = count.missing;
-        std::copy_n(searcher_.missing.begin(), count.missing, searcher_.absent.begin());
+        copy_first(searcher_.missing, count.missing, searcher_.absent);
         if (data_.strategy.swap_vehicles && uniform(searcher_.rng) < retyped_share) {
             added_ -= cheapen_run(data_, searcher_, linked_, slot);
             added_ -= cheapen_run(data_, searcher_, linked_, other);
@@ -78,7 +78,7 @@ public:
         for (const Int node : missing) searcher_.now.where[node].slot = 0;
         for (const Int node : absent) searcher_.now.where[node].slot = nowhere;
         count.missing = count.absent;
-        std::copy(absent.begin(), absent.end(), searcher_.missing.begin());
+        copy_first(absent, count.absent, searcher_.missing);
         searcher_.value->cost = cost;
     }
 

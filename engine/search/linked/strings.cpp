@@ -129,7 +129,7 @@ Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) 
         customer = rank < data.near.shape(1) ? data.near(seed, rank) : nowhere;
     }
     for (const Int node : linked.removed_node.first(linked.noted->removed)) {
-        searcher.absent[count.absent++] = node;
+        searcher.absent.at(count.absent++) = node;
     }
     return {saved, seed};
 }

@@ -214,11 +214,12 @@ void BestOperations::trace() {
     unsigned set = all_;
     for (Spot to = last(); set != 0 || to != start;) {
         const PartScratch::Reached& how = reached(set, to);
-        scratch_.planned[count_++] = {how.from, to, how.flown, set & ~how.before};
+        scratch_.planned.at(count_++) = {how.from, to, how.flown, set & ~how.before};
         set = how.before;
         to = how.from;
     }
-    std::reverse(&scratch_.planned[0], &scratch_.planned[0] + count_);
+    const View<PlannedOperation, 1> planned = scratch_.planned.view().first(count_);
+    std::reverse(planned.begin(), planned.end());
 }
 
 }  // namespace tandem

@@ -163,32 +163,33 @@ bool BestPart::write(Int slot, const Part& part, const BestOperations& best) {
     touch(searcher_, slot);
     keep_aside(now, slot, now.route.size() - 2);
     return rewrite(data_, searcher_, slot, part.first, part.last, [&](const Stop& first) {
-        put(now.stop[slot], now.route[slot].length, first.node, first.kind);
+        if (!add_stop(sequence_in(now, slot), first.node, first.kind)) return false;
         for (Int number = 0; number < best.count(); ++number) {
-            write_operation(slot, best, best.operation(number));
+            if (!write_operation(slot, best, best.operation(number))) return false;
         }
+        return true;
     });
 }
 
-// Write an operation behind the last stop of a route, but not the part's last stop. In place.
-void BestPart::write_operation(Int slot, const BestOperations& best,
+// Write an operation behind the last stop of a route, but not the part's last stop. In place; false
+// if there is no room.
+bool BestPart::write_operation(Int slot, const BestOperations& best,
                                const PlannedOperation& operation) {
-    const auto [route, stops, sorties] = sequence_in(searcher_.now, slot);
-    const Int p = route.length;
-    const bool waits = operation.from == operation.to;
+    const Sequence sequence = sequence_in(searcher_.now, slot);
+    const Int& length = sequence.route.length;
+    const Int p = length - 1;
+    bool fits = true;
     best.on_the_way(operation, [&](Spot customer) {
-        put(stops, ++route.length, best.node(customer), customer_stop);
+        fits = fits && add_stop(sequence, best.node(customer), customer_stop);
     });
-    if (!waits || route.length > p) {
-        ++route.length;
-        if (operation.to != best.last()) {
-            put(stops, route.length, best.node(operation.to),
-                best.is_customer(operation.to) ? customer_stop : halt_stop);
-        }
+    const bool waits = operation.from == operation.to && length == p + 1;
+    if (!waits && operation.to != best.last()) {
+        fits = fits && add_stop(sequence, best.node(operation.to),
+                                best.is_customer(operation.to) ? customer_stop : halt_stop);
     }
-    if (operation.flown != no_spot) {
-        add_sortie(route, sorties, p, route.length, 0, best.node(operation.flown));
-    }
+    if (!fits || operation.flown == no_spot) return fits;
+    const Int to = operation.to == best.last() ? length : length - 1;
+    return add_sortie(sequence, p, to, 0, best.node(operation.flown));
 }
 
 }  // namespace tandem

@@ -32,7 +32,7 @@ private:
     void add_halts(Int slot, const Part& part, PartToPlan& read) const;
     unsigned needed(Int slot, const Part& part, const PartToPlan& read, Int halt) const;
     bool write(Int slot, const Part& part, const BestOperations& best);
-    void write_operation(Int slot, const BestOperations& best, const PlannedOperation& operation);
+    bool write_operation(Int slot, const BestOperations& best, const PlannedOperation& operation);
 
     const ProblemData& data_;
     Searcher& searcher_;

@@ -23,7 +23,7 @@ constexpr Int nearby = 2;  // at how many places before or behind a customer one
 
 // Let all from a place on come `more` places later. In place; what they are is all that is kept.
 void move_rest(View<Line, 1> line, Int from, Int length, Int more) {
-    const auto move = [&](Int place) { line[place + more].node = line[place].node; };
+    const auto move = [&](Int place) { line.at(place + more).node = line[place].node; };
     if (more > 0) {
         for (Int place = length - 1; place >= from; --place) move(place);
     } else {
@@ -49,7 +49,7 @@ void halt_for(const ProblemData& data, const Searcher& searcher, Int node) {
     if (halt < 0) return;
     const Int spare = now.route.size() - 2;
     set_aside(data, now, slot, spare);
-    insert_stops(sequence_in(now, slot), p + 1, {{halt, halt_stop}});
+    if (!insert_stops(sequence_in(now, slot), p + 1, {{halt, halt_stop}})) return;
     if (!refresh(data, now, slot)) put_back(data, now, slot, spare);
     locate(now, slot);
 }
@@ -80,7 +80,7 @@ Places change_halts(const ProblemData& data, Int k, View<Line, 1> line, Int leng
         move_rest(line, place + 1, length, -1);
         return {place, place, -1};
     }
-    if (2 * halts > count) return {1, 0};
+    if (2 * halts > count || length >= line.size()) return {1, 0};
     const Int beside = 1 + below(rng, count);
     const View<const std::int32_t, 1> near = nearest_halts(data, line[beside].node);
     const Int halt = near[below(rng, near.size())];

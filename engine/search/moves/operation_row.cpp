@@ -6,9 +6,10 @@
 namespace tandem {
 
 void OperationRow::replace(Int first, Int last, const OperationRow& by) {
-    const auto begin = room_.begin() + first, rest = room_.begin() + last;
-    const auto end = room_.begin() + length_;
     const Int longer = by.length_ - (last + 1 - first);
+    const View<OperationStop, 1> room = room_.first(length_ + std::max(Int{0}, longer));
+    const auto begin = room.begin() + first, rest = room.begin() + last;
+    const auto end = room.begin() + length_;
     if (longer > 0) std::move_backward(rest, end, end + longer);
     if (longer < 0) std::move(rest, end, rest + longer);
     std::copy_n(by.room_.begin(), by.length_ - 1, begin);
@@ -54,7 +55,8 @@ void OperationRow::remove_flight(Int place) {
 
 void OperationRow::insert_stop(Int place, Int node) {
     const bool joint = room_[begin_of(place)].flown == nobody;
-    const auto behind = room_.begin() + place + 1, end = room_.begin() + length_;
+    const View<OperationStop, 1> room = room_.first(length_ + 1);
+    const auto behind = room.begin() + place + 1, end = room.begin() + length_;
     std::move_backward(behind, end, end + 1);
     room_[place + 1] = {static_cast<std::int32_t>(node), nobody, joint};
     ++length_;

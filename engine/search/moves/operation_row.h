@@ -43,12 +43,13 @@ public:
     }
 
     void clear() { length_ = 0; }
-    void append(const OperationStop& stop) { room_[length_++] = stop; }
+    void append(const OperationStop& stop) { room_.at(length_++) = stop; }
 
     // Take the stops of another from place `first` to `last`. In place.
     void copy(const OperationRow& other, Int first, Int last) {
         length_ = last + 1 - first;
-        std::copy_n(other.room_.begin() + first, length_, room_.begin());
+        std::copy_n(other.room_.part(first, length_).begin(), length_,
+                    room_.first(length_).begin());
     }
 
     // Put operations in place of those from stop `first` to `last`, which stays. In place.

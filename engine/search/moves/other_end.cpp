@@ -164,9 +164,9 @@ bool move_end(const ProblemData& data, const Searcher& searcher, double rise) {
     Best best{data.strategy.blink, searcher.rng};
     OtherEnd({data, searcher, node, false, best}, slot, trip).find(former);
     if (best.cost >= rise) return false;
-    apply(data.type[now.route[slot].type].depot, sequence_in(now, slot), best.move, node,
-          data.pair);
-    const bool allowed = refresh(data, now, slot);
+    const Int depot = data.type[now.route[slot].type].depot;
+    const bool allowed = apply(depot, sequence_in(now, slot), best.move, node, data.pair) &&
+                         refresh(data, now, slot);
     locate(now, slot);
     return allowed;
 }

@@ -107,8 +107,9 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const Int former = route.type;
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
-    apply(data.type[route.type].depot, sequence_in(now, slot), move, node, data.pair);
-    const bool allowed = refresh(data, now, slot);
+    const bool allowed =
+        apply(data.type[route.type].depot, sequence_in(now, slot), move, node, data.pair) &&
+        refresh(data, now, slot);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);
         put_back(data, now, slot, spare);
@@ -209,7 +210,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
     for (Int index = first; index < count.absent; ++index) {
         const Int node = absent[index];
         if (data.deadline.passed()) {
-            absent[left++] = node;
+            absent.at(left++) = node;
             continue;
         }
         if (has_halts(data) && uniform(searcher.rng) < halting_share)
@@ -226,7 +227,7 @@ bool recreate(const ProblemData& data, const Searcher& searcher, Int first, bool
         const double left_out = data.unassigned_cost + data.unassigned_more[node];
         const bool wanted = best.cost < left_out || opens;
         if (best.cost == infeasible || !wanted || !insert(data, searcher, chosen, best.move)) {
-            absent[left++] = node;
+            absent.at(left++) = node;
         }
         spare -= std::min(best.cost, left_out);
         if (spare < 0.0) return false;

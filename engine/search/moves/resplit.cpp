@@ -35,7 +35,7 @@ constexpr double same_share = 1e-12;  // costs that differ by a smaller share ar
 
 template <class T>
 View<T, 1> behind(View<T, 1> values, Int begin) {
-    return {values.data() + begin, {values.size() - begin}};
+    return values.part(begin, values.size() - begin);
 }
 
 // Tell whether a drone is launched before stop `p` and recovered behind it.
@@ -65,10 +65,11 @@ LinedUp line_up(const Fleet& fleet, Int slot, Int first, Int last, View<Line, 1>
     bool exact = true;
     while (s < sorties.size() && sorties[s].launch < first) ++s;
     for (Int p = first; p <= last; ++p) {
-        line[length].node = stops[p].node;
+        Line& place = line.at(length);
+        place.node = stops[p].node;
         if (p == landing) {
-            line[length].before = begin;
-            line[length].flight = flown;
+            place.before = begin;
+            place.flight = flown;
             begin = length;
             flown = no_flight;
             landing = p + 1;
@@ -81,8 +82,7 @@ LinedUp line_up(const Fleet& fleet, Int slot, Int first, Int last, View<Line, 1>
                 flown = length;
                 landing = sorties[s].recovery;
             }
-            line[length].node = sorties[s].nodes[0];
-            ++length;
+            line.at(length++).node = sorties[s].nodes[0];
         }
     }
     return {length, exact};
@@ -125,8 +125,6 @@ bool are_idle(const ProblemData& data, View<const Line, 1> line, Int begin, Int 
 }
 
 // Tell whether the customers between two places of the line are too much for a truck.
-//
-// There may be no room for so many stops and sorties then, so that it has to be known before.
 bool overloads(const ProblemData& data, Int k, View<const Line, 1> line, Int begin, Int end) {
     Amount load{};
     for (Int place = begin + 1; place < end; ++place) {
@@ -147,35 +145,35 @@ void turn_round(View<Line, 1> line, Int length) {
     line[0].before = next;
 }
 
-// Append the stops that the operations make, but for the last. In place; turns `before` round.
+// Append the stops that the operations make, but for the last. In place; turns `before` round;
+// false if there is no room.
 //
 // `kind` is that of the first stop.
-void write_operations(const ProblemData& data, const Sequence& sequence, View<Line, 1> line,
+bool write_operations(const ProblemData& data, const Sequence& sequence, View<Line, 1> line,
                       Int length, Int kind) {
-    const auto& [route, stops, sorties] = sequence;
-    const auto kind_of = [&](Int place) {
-        return line[place].node < data.num_depots ? halt_stop : customer_stop;
+    const auto add = [&](Int place) {
+        const Int node = line[place].node;
+        return add_stop(sequence, node, node < data.num_depots ? halt_stop : customer_stop);
     };
     turn_round(line, length);
-    put(stops, route.length, line[0].node, kind);
+    if (!add_stop(sequence, line[0].node, kind)) return false;
     for (Int i = 0; i < length - 1;) {
         const Int j = line[i].before;
-        const Int p = route.length;
+        const Int p = sequence.route.length - 1;
         const Int flown = line[j].flight;
-        if (flown != no_flight) {
-            add_sortie(route, sorties, p, p + j - i - 1, 0, line[flown].node);
-        }
-        for (Int place = i + 1; place < j; ++place) {
+        bool fits =
+            flown == no_flight || add_sortie(sequence, p, p + j - i - 1, 0, line[flown].node);
+        for (Int place = i + 1; place < j && fits; ++place) {
             if (flown == no_flight) {
-                add_sortie(route, sorties, p, p, 0, line[place].node);
+                fits = add_sortie(sequence, p, p, 0, line[place].node);
             } else if (place != flown) {
-                put(stops, ++route.length, line[place].node, kind_of(place));
+                fits = add(place);
             }
         }
-        ++route.length;
-        if (j < length - 1) put(stops, route.length, line[j].node, kind_of(j));
+        if (!fits || (j < length - 1 && !add(j))) return false;
         i = j;
     }
+    return true;
 }
 
 }  // namespace
@@ -243,7 +241,7 @@ bool Resplit::line_up(Int slot, Part part) {
     const Int begin = lines_.length - 1;
     const Route& route = fleet.route[slot];
     if (route.length == 0) {
-        line[lines_.length++].node = line[begin].node;
+        line.at(lines_.length++).node = line[begin].node;
         return true;
     }
     const View<Line, 1> rest = behind(line, begin);
@@ -359,9 +357,9 @@ bool Resplit::write_between(Int slot, Int begin, Int end) const {
     route.type = type_;
     ++now.used[type_];
     return rewrite(data_, searcher_, slot, part_.first, part_.last, [&](const Stop& first) {
-        write_operations(data_, sequence_in(now, slot),
-                         behind(searcher_.scratch->line.view(), begin), end - begin + 1,
-                         first.kind);
+        return write_operations(data_, sequence_in(now, slot),
+                                behind(searcher_.scratch->line.view(), begin), end - begin + 1,
+                                first.kind);
     });
 }
 

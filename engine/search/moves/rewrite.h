@@ -12,8 +12,8 @@ namespace tandem {
 
 // Write the route that is kept aside into a slot, but what lies between stops `first` and `last`.
 //
-// `write_part` gets stop `first`, and writes from there up to but without stop `last`, in place.
-// False if the route breaks a rule.
+// `write_part` gets stop `first`, and writes from there up to but without stop `last`, in place;
+// false if there is no room. False if so, or if the route breaks a rule.
 template <typename WritePart>
 bool rewrite(const ProblemData& data, const Searcher& searcher, Int slot, Int first, Int last,
              const WritePart& write_part) {
@@ -21,9 +21,10 @@ bool rewrite(const ProblemData& data, const Searcher& searcher, Int slot, Int fi
     const Int spare = now.route.size() - 2;
     Route& route = now.route[slot];
     route.length = route.sorties = route.trips = 0;
-    append(now, spare, 0, first, slot);
-    write_part(now.stop(spare, first));
-    append(now, spare, last, now.route[spare].length, slot);
+    if (!append(now, spare, 0, first, slot) || !write_part(now.stop(spare, first)) ||
+        !append(now, spare, last, now.route[spare].length, slot)) {
+        return false;
+    }
     if (has_halts(data)) {
         // Where ways by a launch site are shorter, the truck may have come by for nothing.
         close_ranks(sequence_in(now, slot), searcher.marked, searcher.scratch->moved);

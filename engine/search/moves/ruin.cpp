@@ -126,7 +126,7 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
             }
             if (removed.count > marked) {
                 --strings;
-                if (!listed(touched, num_touched, slot)) touched[num_touched++] = slot;
+                if (!listed(touched, num_touched, slot)) touched.at(num_touched++) = slot;
             }
         }
         node = rank < near.size() ? near[rank] : nowhere;
@@ -140,7 +140,7 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
             if (slot < 0 || removed.marked[lag.node]) continue;
             if (uniform(searcher.rng) >= company_share) continue;
             removed.mark(lag.node);
-            if (!listed(touched, num_touched, slot)) touched[num_touched++] = slot;
+            if (!listed(touched, num_touched, slot)) touched.at(num_touched++) = slot;
         }
     }
     return {num_touched, seed};

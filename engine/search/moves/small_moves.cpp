@@ -80,9 +80,7 @@ void SmallMoves::add_trip(Int node) {
     const Trip& there = now.trip(slot, now.stop(slot, stop_beside(now, node)).trip);
     const Int room = data_.num_nodes + more_places;
     const View<OperationStop, 1> rows = searcher_.scratch->operations;
-    const auto part = [&](Int number) {
-        return OperationRow(View<OperationStop, 1>(rows.data() + number * room, {room}), 0);
-    };
+    const auto part = [&](Int number) { return OperationRow(rows.part(number * room, room), 0); };
     Changing& added = trip(num_trips_);
     added = {slot, there.first, there.last,           type,
              0,    Amount{},    part(2 * num_trips_), part(2 * num_trips_ + 1),
@@ -125,7 +123,7 @@ bool SmallMoves::read(Changing& trip) {
 // Count a customer of a trip. In place.
 void SmallMoves::take_on(Changing& trip, Int node) {
     trip.load = plus(trip.load, demand_of(data_.place[0][node]));
-    searcher_.scratch->moved_customers[customers_ + trip.customers++] = node;
+    searcher_.scratch->moved_customers.at(customers_ + trip.customers++) = node;
 }
 
 // Note where who is between two places of a trip's row is. In place.
@@ -396,7 +394,7 @@ SmallMoves::Span SmallMoves::widened(Span span) const {
 SmallMoves::Draft SmallMoves::draft(Int number, Span span) const {
     const Int room = data_.num_nodes + more_places;
     const View<OperationStop, 1> rows = searcher_.scratch->drafts;
-    Draft draft{span, {{rows.data() + number * room, {room}}, 0}, 0.0};
+    Draft draft{span, {rows.part(number * room, room), 0}, 0.0};
     draft.row.copy(trip(span.trip).row, span.first, span.last);
     draft.before = cost(trip(span.trip).type, draft.row);
     return draft;
@@ -489,17 +487,20 @@ bool SmallMoves::write(const Changing& trip, const OperationRow& row) const {
     const Fleet& now = searcher_.now;
     keep_aside(now, trip.slot, now.route.size() - 2);
     return rewrite(data_, searcher_, trip.slot, trip.first, trip.last, [&](const Stop& first) {
-        Route& route = now.route[trip.slot];
+        const Sequence sequence = sequence_in(now, trip.slot);
         for (Int place = 0; place < row.length() - 1; ++place) {
             const OperationStop& stop = row[place];
-            const Int p = route.length++;
-            put(now.stop[trip.slot], p, stop.node, place > 0 ? customer_stop : first.kind);
+            const Int p = sequence.route.length;
+            if (!add_stop(sequence, stop.node, place > 0 ? customer_stop : first.kind)) {
+                return false;
+            }
             if (stop.flown == nobody) continue;
             const Int end = row.end_behind(place);
             const auto [across, waiting] = costs(trip.type, row, place, end);
             const Int to = waiting < across ? p : p + end - place;
-            add_sortie(route, now.sortie[trip.slot], p, to, 0, stop.flown);
+            if (!add_sortie(sequence, p, to, 0, stop.flown)) return false;
         }
+        return true;
     });
 }
 

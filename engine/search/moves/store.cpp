@@ -86,7 +86,7 @@ public:
         if (!is_moved) return false;
         // Who is left out stays the same, and isn't listed as absent yet.
         count.absent = count.missing;
-        std::copy_n(searcher_.missing.begin(), count.missing, searcher_.absent.begin());
+        copy_first(searcher_.missing, count.missing, searcher_.absent);
         if (by_small_moves) return true;
         if (data_.strategy.swap_vehicles && uniform(searcher_.rng) < retyped_share) {
             improve_types(data_, searcher_);

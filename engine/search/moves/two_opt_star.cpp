@@ -144,8 +144,7 @@ bool too_long(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
     const Route& rest = fleet.route[b.slot];
     const Int trips =
         fleet.stop(a.slot, a.stop).trip + rest.trips - fleet.stop(b.slot, b.stop).trip;
-    return trips > data.type[front.type].max_trips ||
-           front.sorties + rest.sorties > fleet.sortie.shape(1);
+    return trips > data.type[front.type].max_trips;
 }
 
 // Tell whether the route up to cut `b`, then on behind cut `a`, has a trip to nobody.
@@ -210,16 +209,19 @@ Cut find_tail(const ProblemData& data, const Searcher& searcher, Cut a, double l
 }
 
 // Write a route up to cut `a`, then another's rest behind cut `b`, both kept aside, into a slot. In
-// place.
-void join(const ProblemData& data, Fleet& now, Int slot, Cut a, Cut b) {
+// place; false if there is no room.
+bool join(const ProblemData& data, Fleet& now, Int slot, Cut a, Cut b) {
     Route& route = now.route[slot];
     route.length = route.sorties = 0;
-    append(now, a.slot, 0, a.stop + 1, slot);
-    append(now, b.slot, b.stop + 1, now.route[b.slot].length, slot);
+    if (!append(now, a.slot, 0, a.stop + 1, slot) ||
+        !append(now, b.slot, b.stop + 1, now.route[b.slot].length, slot)) {
+        return false;
+    }
     // Whoever ends another's route still ends where its own type does.
     if (data.splice(route.type, route.type)) {
         now.stop(slot, route.length - 1).node = data.type[route.type].ends_at;
     }
+    return true;
 }
 
 // Swap tails; `b` may be in an empty slot. In place; false if that breaks a rule.
@@ -230,19 +232,14 @@ bool swap_tails(const ProblemData& data, Searcher& searcher, Cut a, Cut b) {
     const Int k = now.route[a.slot].type;
     Route& other = now.route[b.slot];
     if (other.length == 0) {
-        other.type = k;
-        other.sorties = 0;
-        insert_stops(sequence_in(now, b.slot), 0,
-                     {{data.type[k].begins_at, start_stop}, {data.type[k].ends_at, end_stop}});
+        if (!begin_empty(sequence_in(now, b.slot), data.type[k], k)) return false;
         ++now.used[k];
     }
     const Cut one{now.route.size() - 2, a.stop};
     const Cut two{now.route.size() - 1, b.stop};
     keep_aside(now, a.slot, one.slot);
     keep_aside(now, b.slot, two.slot);
-    join(data, now, a.slot, one, two);
-    join(data, now, b.slot, two, one);
-    bool done = true;
+    bool done = join(data, now, a.slot, one, two) && join(data, now, b.slot, two, one);
     for (Int slot : {a.slot, b.slot}) {
         Route& route = now.route[slot];
         if (route.length == 2 && route.sorties == 0) {
@@ -259,22 +256,22 @@ bool swap_tails(const ProblemData& data, Searcher& searcher, Cut a, Cut b) {
 
 }  // namespace
 
-void append(const Fleet& source, Int slot, Int first, Int behind, Int to) {
-    Route& route = source.route[to];
-    const View<Stop, 1> stops = source.stop[to];
+bool append(const Fleet& source, Int slot, Int first, Int behind, Int to) {
+    const auto& [route, stops, sorties] = sequence_in(source, to);
     const Int shift = route.length - first;
     for (Int p = first; p < behind; ++p) {
         const Stop& stop = source.stop(slot, p);
-        put(stops, p + shift, stop.node, stop.kind);
+        if (!add_stop(sequence_in(source, to), stop.node, stop.kind)) return false;
     }
-    route.length += behind - first;
     for (const Sortie& sortie : source.sortie[slot].first(source.route[slot].sorties)) {
         if (sortie.launch < first || sortie.launch >= behind) continue;
-        Sortie& copy = source.sortie(to, route.sorties++);
+        if (route.sorties >= sorties.size()) return false;
+        Sortie& copy = sorties[route.sorties++];
         copy = sortie;
         copy.launch += shift;
         copy.recovery += shift;
     }
+    return true;
 }
 
 bool two_opt_star(const ProblemData& data, Searcher& searcher, double limit) {

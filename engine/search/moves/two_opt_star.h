@@ -7,8 +7,9 @@ namespace tandem {
 
 constexpr Int tail_neighbours = 16;  // with how many neighbours' routes a tail is tried
 
-// Append stops `first` to `behind - 1` of a route, and sorties from there, to another. In place.
-void append(const Fleet& source, Int slot, Int first, Int behind, Int to);
+// Append stops `first` to `behind - 1` of a route, and sorties from there, to another. In place;
+// false if there is no room.
+[[nodiscard]] bool append(const Fleet& source, Int slot, Int first, Int behind, Int to);
 
 // Swap the tail behind a random stop if that may cost less than `limit`.
 //

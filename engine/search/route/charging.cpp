@@ -56,8 +56,8 @@ void note_pluggings(const ProblemData& data, const Fleet& fleet, Int slot) {
         for (const Trip& trip : fleet.trip[other].first(route.trips)) {
             if (trip.charged_until <= trip.charged_from) continue;
             const Int depot = fleet.stop(other, trip.first).node;
-            pluggings[count++] = {depot, trip.charged_from, 1};
-            pluggings[count++] = {depot, trip.charged_until, -1};
+            pluggings.at(count++) = {depot, trip.charged_from, 1};
+            pluggings.at(count++) = {depot, trip.charged_until, -1};
         }
     }
     std::sort(pluggings.begin(), pluggings.begin() + count, comes_before);

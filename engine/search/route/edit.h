@@ -10,10 +10,18 @@
 namespace tandem {
 
 // What is chosen of a route: its stops and sorties, in order.
+//
+// The arrays have room for what `model/search/beginning/room.py` counts. A plan that breaks rules
+// may need more on its way to one that breaks none, so that whatever adds to a route asks: it is
+// false where there is no room. The route may then be half of what was meant, and the move is to be
+// taken back as if it broke a rule.
 struct Sequence {
     Route& route;
     View<Stop, 1> stops;
     View<Sortie, 1> sorties;
+
+    // Whether so many stops more have room.
+    bool has_room(Int more) const { return route.length + more <= stops.size(); }
 };
 
 inline Sequence sequence_in(const Fleet& fleet, Int slot) {
@@ -113,9 +121,9 @@ constexpr Int start_to_halt = 5;
 constexpr Int halt_to_end = 6;
 constexpr Int ways_by_halt = 3;
 
-// Write a stop's place in the sequence. In place.
+// Write a stop's place in the sequence, which has to be there. In place.
 inline void put(View<Stop, 1> stops, Int p, Int node, Int kind) {
-    Stop& stop = stops[p];
+    Stop& stop = stops.at(p);
     stop.node = node;
     stop.kind = kind;
     stop.release = none;
@@ -128,35 +136,42 @@ struct Visit {
     Int kind;
 };
 
-// Let some stops come at place `p`, and those from there on behind them. In place.
-void insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits);
+// Let some stops come at place `p`, and those from there on behind them. In place; false, with
+// nothing changed, if there is no room.
+[[nodiscard]] bool insert_stops(const Sequence& sequence, Int p,
+                                std::initializer_list<Visit> visits);
 
-// Add a sortie to one customer, in its place in the order. In place.
-void add_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
-                Int node);
+// Let a stop come last. In place; likewise.
+[[nodiscard]] bool add_stop(const Sequence& sequence, Int node, Int kind);
+
+// Add a sortie to one customer, in its place in the order. In place; likewise.
+[[nodiscard]] bool add_sortie(const Sequence& sequence, Int launch, Int recovery, Int drone,
+                              Int node);
 
 // As `add_sortie`, before others from and to the same stops: what it delivers is aboard no longer
-// than it need be. In place.
-void add_first_sortie(Route& route, View<Sortie, 1> sorties, Int launch, Int recovery, Int drone,
-                      Int node);
+// than it need be. In place; likewise.
+[[nodiscard]] bool add_first_sortie(const Sequence& sequence, Int launch, Int recovery, Int drone,
+                                    Int node);
 
-// Insert several pickups and their delivery. In place.
+// Insert several pickups and their delivery. In place; false if there is no room.
 //
 // A pickup comes behind the former stop that `Move.end` tells, or is fetched from there, as noted;
 // the delivery comes behind the former stop `last` and all of them, or is brought by drone `sortie`
 // from there to `landing`.
-void insert_parts(const Sequence& sequence, const Move& move, const Pickups& pickups, Int delivery);
+[[nodiscard]] bool insert_parts(const Sequence& sequence, const Move& move, const Pickups& pickups,
+                                Int delivery);
 
 // Let an empty trip that begins at a stop serve several pickups, in order, and their delivery. In
-// place.
+// place; false if there is no room.
 //
 // As noted, a pickup is fetched from the stop that `Move.end` tells, and the delivery brought by
 // drone `sortie` from stop `last` to `landing`, by their numbers once all the truck's are there.
-void lay_out_parts(const Sequence& sequence, Int start, const Move& move, const Pickups& pickups,
-                   Int delivery);
+[[nodiscard]] bool lay_out_parts(const Sequence& sequence, Int start, const Move& move,
+                                 const Pickups& pickups, Int delivery);
 
-// Let a sortie serve a customer before its customer number `place`. In place.
-void join_sortie(Sortie& sortie, Int place, Int node);
+// Let a sortie serve a customer before its customer number `place`. In place; false if no sortie
+// has room for one more.
+[[nodiscard]] bool join_sortie(Sortie& sortie, Int place, Int node);
 
 // Customers to be removed, in the order in which they were marked, each once. Of a shipment all
 // ends are, for which the first pickup stands; for a customer's places the first does.
@@ -173,7 +188,7 @@ struct Removed {
             for_each_pickup(pair, node, [&](Int pickup) { marked[pickup] = true; });
             marked[pair[unit_of(pair, node)].partner] = true;
         }
-        absent[count++] = unit_of(pair, node);
+        absent.at(count++) = unit_of(pair, node);
     }
 
     void unmark(Int node) const {
@@ -182,17 +197,18 @@ struct Removed {
     }
 };
 
-// Insert a customer, on trips from a depot; of a shipment, by its first pickup, all ends. In place.
-void apply(Int depot, const Sequence& sequence, const Move& move, Int node,
-           View<const Pair, 1> pair);
+// Insert a customer, on trips from a depot; of a shipment, by its first pickup, all ends. In place;
+// false if there is no room.
+[[nodiscard]] bool apply(Int depot, const Sequence& sequence, const Move& move, Int node,
+                         View<const Pair, 1> pair);
 
-// Write a route that serves nobody. In place.
-void begin_empty(const Sequence& sequence, const VehicleType& type, Int k);
+// Write a route that serves nobody. In place; likewise.
+[[nodiscard]] bool begin_empty(const Sequence& sequence, const VehicleType& type, Int k);
 
 // Write a route that serves one customer in one of the `ways`, by a `drone`, or from a launch site.
-// In place.
-void begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
-                 Int drone, Int halt);
+// In place; likewise.
+[[nodiscard]] bool begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node,
+                               Int way, Int drone, Int halt);
 
 // Drop marked customers from sorties, and sorties that serve nobody else. In place.
 void drop_visits(const Sequence& sequence, View<const bool, 1> marked);

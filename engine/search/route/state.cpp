@@ -11,15 +11,15 @@ namespace tandem {
 
 void copy_route(const Fleet& source, Int slot, const Fleet& target, Int to) {
     const Route& route = source.route[slot];
-    target.route[to] = route;
+    target.route.at(to) = route;
     target.cost[to] = source.cost[slot];
     target.early[to] = source.early[slot];
     for (Int tier = 0; tier < tiers_aboard(source); ++tier) {
-        std::copy_n(&source.stop_load(slot, tier, 0), route.length, &target.stop_load(to, tier, 0));
+        copy_first(source.stop_load[slot][tier], route.length, target.stop_load[to][tier]);
     }
-    std::copy_n(source.stop[slot].data(), route.length, target.stop[to].data());
-    std::copy_n(source.trip[slot].data(), route.trips, target.trip[to].data());
-    std::copy_n(source.sortie[slot].data(), route.sorties, target.sortie[to].data());
+    copy_first(source.stop[slot], route.length, target.stop[to]);
+    copy_first(source.trip[slot], route.trips, target.trip[to]);
+    copy_first(source.sortie[slot], route.sorties, target.sortie[to]);
 }
 
 bool is_same(const Fleet& fleet, Int slot, const Fleet& other, Int at) {
@@ -78,14 +78,14 @@ void touch(const Searcher& searcher, Int slot) {
     if (route.stamp == changing) return;
     copy_route(searcher.now, slot, searcher.before, count.touched);
     route.stamp = changing;
-    searcher.touched[count.touched++] = slot;
+    searcher.touched.at(count.touched++) = slot;
 }
 
 void keep_aside(const Fleet& fleet, Int slot, Int to) {
     const Route& route = fleet.route[slot];
     fleet.route[to] = route;
-    std::copy_n(fleet.stop[slot].data(), route.length, fleet.stop[to].data());
-    std::copy_n(fleet.sortie[slot].data(), route.sorties, fleet.sortie[to].data());
+    copy_first(fleet.stop[slot], route.length, fleet.stop[to]);
+    copy_first(fleet.sortie[slot], route.sorties, fleet.sortie[to]);
 }
 
 void list_all_changed(const Searcher& searcher) {
@@ -111,7 +111,7 @@ void keep_totals(const Searcher& searcher) {
     count.changed = 0;
     std::copy(searcher.now.used.begin(), searcher.now.used.end(), searcher.best.used.begin());
     count.best_missing = count.missing;
-    std::copy_n(searcher.missing.begin(), count.missing, searcher.best_missing.begin());
+    copy_first(searcher.missing, count.missing, searcher.best_missing);
     searcher.value->best = searcher.value->cost;
 }
 
@@ -150,7 +150,7 @@ void accept(const Searcher& searcher, double cost) {
         note_changed(searcher, slot);
     }
     count.missing = count.absent;
-    std::copy_n(searcher.absent.begin(), count.absent, searcher.missing.begin());
+    copy_first(searcher.absent, count.absent, searcher.missing);
     searcher.value->cost = cost;
 }
 
@@ -168,7 +168,7 @@ void go_back(const Searcher& searcher) {
     list_active(searcher);
     for (const Int slot : searcher.active.first(count.active)) locate(now, slot);
     count.missing = count.best_missing;
-    std::copy_n(searcher.best_missing.begin(), count.best_missing, searcher.missing.begin());
+    copy_first(searcher.best_missing, count.best_missing, searcher.missing);
     searcher.value->cost = searcher.value->best;
 }
 

@@ -66,7 +66,7 @@ inline void note_changed(const Searcher& searcher, Int slot) {
     SearchCounts& count = *searcher.count;
     if (count.changed == all_slots || searcher.is_changed[slot]) return;
     searcher.is_changed[slot] = true;
-    searcher.changed[count.changed++] = slot;
+    searcher.changed.at(count.changed++) = slot;
 }
 
 // List all slots as changed since the best. In place.

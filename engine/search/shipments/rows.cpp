@@ -31,10 +31,11 @@ bool write_row(const ProblemData& data, const Fleet& fleet, Int slot,
         fleet.cost[slot] = 0.0;
         return true;
     }
-    if (Int(nodes.size()) > fleet.stop.shape(1)) return false;
     for (const Int node : nodes) {
-        put(fleet.stop[slot], route.length++, node,
-            node < data.num_depots ? end_stop : customer_stop);
+        if (!add_stop(sequence_in(fleet, slot), node,
+                      node < data.num_depots ? end_stop : customer_stop)) {
+            return false;
+        }
     }
     fleet.stop(slot, 0).kind = start_stop;
     const bool allowed = refresh(data, fleet, slot);
@@ -45,7 +46,8 @@ bool write_row(const ProblemData& data, const Fleet& fleet, Int slot,
 void write_missing(const ProblemData& data, const Searcher& searcher,
                    const std::vector<Int>& pickups) {
     searcher.count->missing = Int(pickups.size());
-    std::copy(pickups.begin(), pickups.end(), searcher.missing.begin());
+    const View<Int, 1> missing = searcher.missing.first(searcher.count->missing);
+    std::copy(pickups.begin(), pickups.end(), missing.begin());
     for (const Int pickup : pickups) leave_out(data, searcher.now, pickup);
 }
 

@@ -105,13 +105,13 @@ public:
         for (Int index = first; index < count.absent; ++index) {
             const Int node = absent[index];
             if (data_.deadline.passed()) {
-                absent[left++] = node;
+                absent.at(left++) = node;
                 continue;
             }
             const double price = price_of(node);
             const double left_out = data_.unassigned_cost + data_.unassigned_more[node];
             const double cost = place(node, left_out - price, opens && rate_.fixed < spare) + price;
-            if (cost >= left_out) absent[left++] = node;
+            if (cost >= left_out) absent.at(left++) = node;
             opens = false;
             spare -= std::min(cost, left_out);
             if (spare < 0.0) return false;
@@ -142,7 +142,7 @@ public:
         SearchCounts& count = *searcher_.count;
         for (const Int slot : searcher_.touched.first(count.touched)) note_changed(searcher_, slot);
         count.missing = count.absent;
-        std::copy_n(searcher_.absent.begin(), count.absent, searcher_.missing.begin());
+        copy_first(searcher_.absent, count.absent, searcher_.missing);
         searcher_.value->cost = cost;
     }
 
@@ -193,7 +193,7 @@ private:
         if (touched_in_[std::size_t(slot)] == count.turn) return;
         touched_in_[std::size_t(slot)] = count.turn;
         before_[std::size_t(count.touched)] = row_of(slot);
-        searcher_.touched[count.touched++] = slot;
+        searcher_.touched.at(count.touched++) = slot;
     }
 
     void place_nodes(Int slot) {

@@ -5,15 +5,15 @@ from typing import Any
 
 import numpy as np
 
-from model.engine.amount_rows import DIMENSIONS_PER_TIER
 from model.engine.breaks import NONE, PLACES, BrokenRoute, resting_in_gap
 from model.engine.library import call, dtype_of, packed
-from model.engine.records import Record, Records, one, read_rows
+from model.engine.records import Records, one, read_rows
 from model.engine.type_rows import NO_PROFILE
 from model.problem import FloatArray, IntArray, Problem
+from model.search.beginning.room import Room, room_for
 from model.search.route.engine import INFEASIBLE
 from model.search.route.layout import (
-    CUSTOMER, END, HALT, MOST_VISITS, NOWHERE, START, Fleet, ProblemData, empty_fleet,
+    CUSTOMER, END, HALT, NOWHERE, START, Fleet, ProblemData, empty_fleet,
 )
 from model.search.route.state import Searcher
 from model.solution import (
@@ -21,16 +21,12 @@ from model.solution import (
     with_handling,
 )
 
-SPARE_SLOTS = 8
-STOPS_OPENED = 4
-"""Stops that one insertion adds at most, and one more; of shipments with several pickups more."""
-
 
 def make_searcher(problem: Problem, data: ProblemData, solution: Solution,
                   seed: np.random.SeedSequence) -> Searcher:
     """Begin a search from a plan; routes that it can't read are left to be planned anew."""
     alone = np.full(data.can.shape, INFEASIBLE)
-    searcher = empty_searcher(data, _sizes(problem, data, solution), alone, seed)
+    searcher = empty_searcher(data, room_for(problem, data, solution), alone, seed)
     call("tandem_alone_costs", data, searcher.now, alone)
     for slot, route in enumerate(solution.routes):
         write_route(searcher.now, slot, route)
@@ -38,15 +34,15 @@ def make_searcher(problem: Problem, data: ProblemData, solution: Solution,
     return searcher
 
 
-def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
+def empty_searcher(data: ProblemData, room: Room, alone: FloatArray,
                    seed: np.random.SeedSequence) -> Searcher:
-    """Make room for a search: for so many routes, and stops, trips and sorties of one."""
-    slots, stops, trips, sorties = sizes
+    """Make room for a search."""
+    slots, stops, trips, sorties = room
     nodes, count = data.num_nodes, one(dtype_of("tandem_search_counts"))
     now, before, best = (empty_fleet(data, slots, stops, trips, sorties, noted)
                          for noted in (nodes, 0, 0))
     count.focus = NOWHERE
-    room = (nodes, slots) if data.strategy.keep_places else (0, 0)
+    kept = (nodes, slots) if data.strategy.keep_places else (0, 0)
     return Searcher(
         now=now, before=before, best=best, count=count, value=one(dtype_of("tandem_search_values")),
         rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
@@ -54,64 +50,12 @@ def empty_searcher(data: ProblemData, sizes: tuple[int, ...], alone: FloatArray,
         missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
         marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
         hit=np.zeros((slots, trips), np.int64), alone=alone,
-        kept_stamp=np.zeros(room, np.int64), kept_move=np.zeros(room, dtype_of("tandem_move")),
-        kept_cost=np.zeros(room))
+        kept_stamp=np.zeros(kept, np.int64), kept_move=np.zeros(kept, dtype_of("tandem_move")),
+        kept_cost=np.zeros(kept))
 
 
 def _row(length: int) -> IntArray:
     return np.zeros(length, np.int64)
-
-
-def _sizes(problem: Problem, data: ProblemData, solution: Solution) -> tuple[int, int, int, int]:
-    """Return how many routes, and stops, trips and sorties of one, are provided for."""
-    types, number = data.type[:data.num_types], problem.num_customers
-    delivered, picked = (np.array(amounts, np.int64).reshape(number, problem.num_dimensions)
-                         for amounts in ([customer.demand for customer in problem.customers],
-                                         [customer.taken_in for customer in problem.customers]))
-    asked = np.maximum(delivered.sum(axis=0), picked.sum(axis=0))
-    most, fewest = 0, number
-    for kind in types:
-        capacity = kind.capacity[:len(asked)] * min(int(kind.max_trips), number)
-        if kind.drones:
-            # Part of a trip is written anew before more than what it delivers is looked at.
-            looked_at = slice(DIMENSIONS_PER_TIER)
-            most = max(most, _most_of(delivered[:, looked_at], capacity[looked_at]))
-        else:
-            most = max(most, min(_most_carried(delivered, picked, capacity), _most_served(kind)))
-        needed = int(np.ceil(asked / np.maximum(capacity, 1)).max()) if number else 0
-        fewest = min(fewest, max(needed, -(-number // max(1, _most_served(kind)))))
-    # What is given may keep fewer rules than what the search makes of it.
-    most = max((most, *(sum(len(trip.stops) + len(trip.sorties) for trip in route.trips)
-                        for route in solution.routes)))
-    count = int(types["count"].sum())
-    wanted = 2 * max(len(solution.routes), 2 * fewest) + SPARE_SLOTS
-    if not solution.routes:
-        wanted = number
-    trips = min(int(types["max_trips"].max()), max(1, most)) + 1
-    flown = most if data.visits.any() else 0
-    halts = 2 * flown if len(data.halts) else 0  # where each is launched, and recovered
-    opened = max([STOPS_OPENED, *[len(each.nodes) + 1 for each in problem.shipments]])
-    return (max(1, min(count, number, wanted), len(solution.routes)),
-            most + halts + 2 * trips + opened, trips, flown + 1)
-
-
-def _most_carried(delivered: IntArray, picked: IntArray, capacity: IntArray) -> int:
-    """Return how many customers a vehicle carries for at most; amounts are (customer, dimension).
-    """
-    has, had = delivered.any(axis=1), picked.any(axis=1)
-    carried = _most_of(delivered[has], capacity) + _most_of(picked[had], capacity)
-    return min(len(delivered), carried + int((~(has | had)).sum()))
-
-
-def _most_of(amounts: IntArray, capacity: IntArray) -> int:
-    """Return how many of these (customer, dimension) a capacity holds at most."""
-    return int((np.sort(amounts, axis=0).cumsum(axis=0) <= capacity).all(axis=1).sum())
-
-
-def _most_served(kind: Record) -> int:
-    """Return how many customers a vehicle of a type serves at most, by stops and sorties."""
-    flown = int(kind.max_sorties) * MOST_VISITS if kind.drones else 0
-    return int(kind.max_trips) * (int(kind.max_stops) + flown)
 
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:

@@ -54,6 +54,21 @@ def test_launch_sites_are_for_some_vehicles_at_some_time(
     assert [left_out["id"] for left_out in planned(service, far_off)["unassigned"]] == ["isle"]
 
 
+def test_crowds_who_stay_out_leave_the_service_as_it_was(service: httpx.Client) -> None:
+    """Two hundred for six places, each of whom might be flown to from a launch site."""
+    crowd = {"coordinate_system": "planar", "depots": [{"id": "d", "location": [0, 0]}],
+             "customers": [{"id": f"c{number}", "location": [0, 0], "demand": [1]}
+                           for number in range(210)],
+             "launch_sites": [{"id": "l", "location": [0, 0], "cost": 1}],
+             "fleet": [{"id": "truck", "count": 2, "capacity": [3], "speed_kmh": 30,
+                        "costs": {"fixed": 5, "per_km": 1, "per_hour": 10, "per_load_km": 0.1},
+                        "drones": {"count": 2, "capacity": [3], "speed_kmh": 50,
+                                   "endurance": 1800}}]}
+    for seed in range(3):
+        plan = planned(service, crowd | {"options": SEARCHED | {"seed": seed}})
+        assert plan["summary"]["served"] == 6
+
+
 def test_lines_and_reasons_know_launch_sites(service: httpx.Client,
                                              far_off: Request) -> None:
     far_off["options"] = SEARCHED | {"geometry": True}
