@@ -90,6 +90,7 @@ fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10
 	$(BIN)/python -m benchmarks.fuzz.api --cases $(CASES)
 	$(BIN)/python -m benchmarks.fuzz.problems
 	$(BIN)/python -m benchmarks.fuzz.mixed --problems 1000
+	$(BIN)/python -m benchmarks.fuzz.crowds --problems 500
 	$(BIN)/python -m benchmarks.fuzz.vroom
 	$(BIN)/python -m benchmarks.fuzz.remedies
 	$(BIN)/python -m benchmarks.fuzz.replans

@@ -10,7 +10,7 @@ from model.engine.library import call
 from model.judge.check import check
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning import translate
-from model.search.beginning.room import Room, room_for
+from model.search.beginning.room import STOPS_OPENED, Room, room_for
 from model.search.improve import SearchConfig, improve
 from model.search.problem_data import make_data
 from model.search.route.layout import ProblemData
@@ -51,15 +51,17 @@ def test_stops_for_crowds_who_are_missing_have_room() -> None:
 
 
 def tight(problem: Problem, data: ProblemData, solution: Solution) -> Room:
-    """Return room for a third of what there should be, and for the plan given."""
+    """Return room for one trip without launch sites, a third of all sorties, and the plan given."""
     room = room_for(problem, data, solution)
+    halts = 2 * (room.sorties - 1) if len(data.halts) else 0
     stops = [sum(len(trip.stops) for trip in route.trips) for route in solution.routes]
     sorties = [sum(len(trip.sorties) for trip in route.trips) for route in solution.routes]
-    return room._replace(stops=max([4, room.stops // 3, *stops]),
-                         sorties=max([1, room.sorties // 3, *sorties]))
+    return room._replace(
+        stops=max([4, room.stops - halts - 2 * room.trips - STOPS_OPENED + 2, *stops]),
+        sorties=max([1, room.sorties // 3, *sorties]))
 
 
-@pytest.mark.parametrize("variant", ["cvrp", "hetero", "multitrip", "drone", "mixed", "appointed"])
+@pytest.mark.parametrize("variant", ["multitrip", "drone", "table1", "mixed"])
 def test_searches_go_on_where_routes_have_no_room(
         monkeypatch: pytest.MonkeyPatch, variant: str) -> None:
     monkeypatch.setattr(translate, "room_for", tight)
@@ -68,13 +70,14 @@ def test_searches_go_on_where_routes_have_no_room(
 
 def test_all_kinds_of_moves_ask_for_room(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(translate, "room_for", tight)
-    for seed in range(40):
+    for seed in range(12):
         rng = np.random.default_rng(seed)
-        problem = mixed_day(rng)
-        if seed % 2:
-            drawn = generate(rng, 12, "drone")
-            problem = with_some_revisits(rng, with_shipments(rng, with_launch_sites(rng, drawn)))
-        improved(problem, seed, 60)
+        drawn = mixed_day(rng) if seed % 2 else generate(rng, 12, "drone")
+        if seed % 4 == 0:
+            drawn = with_some_revisits(rng, with_launch_sites(rng, drawn))
+        elif seed % 4 == 2:
+            drawn = with_shipments(rng, drawn)
+        improved(drawn, seed, 40)
 
 
 def test_what_a_plan_given_has_fits() -> None:
