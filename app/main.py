@@ -3,6 +3,7 @@
 import logging
 from collections.abc import AsyncIterator, Iterator
 from contextlib import asynccontextmanager, contextmanager
+from functools import partial
 from http import HTTPStatus
 from importlib.metadata import version
 
@@ -18,13 +19,15 @@ from app.formats.sheets.lookups import new_lookups
 from app.formats.sheets.lookups import router as addresses_router
 from app.formats.sheets.routes import router as sheets_router
 from app.formats.vroom.routes import router as vroom_router
+from app.maps.roads.asked import KnownRoads, answers_of
 from app.maps.roads.opening import extracts_of, opened_roads
+from app.maps.roads.roads import Roads
 from app.maps.streets.gallery import Gallery
 from app.maps.streets.routes import router as streets_router
+from app.plans.desk import PlanDesk
 from app.plans.flights.routes import router as flights_router
 from app.plans.routes import router as plans_router
-from app.plans.service import PlanService
-from app.plans.warming import warmed
+from app.plans.workplace import opened, opened_with
 from app.records.dispatches.pages import mount_drivers_page
 from app.records.dispatches.routes import router as dispatches_router
 from app.records.dispatches.store import delete_expired
@@ -38,14 +41,16 @@ from app.schemas.errors import InvalidRequestError, RequestError, problem_respon
 from app.schemas.openapi import TAGS, allowed_methods, describe, operation_id
 from app.serving.access.gate import KeyScrubber
 from app.serving.access.setup import control_access, guarding
+from app.serving.children.pool import Pool
+from app.serving.children.starting import processes, threads
 from app.serving.health import router as health_router
-from app.serving.load.courtesy import Courtesy
 from app.serving.load.memory import giving_back
 from app.serving.load.setup import is_asked, prepare_for_load
+from app.serving.observe.logs import log_config
 from app.serving.observe.observer import Observer
 from app.serving.observe.routes import metrics_router
 from app.serving.settings import Settings
-from model.planner import PlanCheckError, Planner, load_planner
+from model.planner import PlanCheckError, Planner
 
 logger = logging.getLogger(__name__)
 
@@ -53,6 +58,14 @@ PACKAGE = "tandem-planner"
 """Whose version is the service's."""
 
 RETRY_SECONDS = 5
+
+PRELOADED = ("app.plans.answers", "app.plans.flights.answering", "app.formats.vroom.answering",
+             "app.records.jobs.order")
+"""All that those need that plan."""
+
+BESIDE = 2
+"""How many may plan beside what settings count: jobs' requests are checked, suspects begin alone.
+"""
 
 
 def create_app(settings: Settings | None = None, planner: Planner | None = None) -> FastAPI:
@@ -63,15 +76,13 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
     settings
         How to run; None reads them from the environment.
     planner
-        Used in place of the one that the settings name.
+        Used in place of the one that the settings name, by threads of this process.
     """
     settings = settings or Settings()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        loaded = planner or warmed(load_planner(
-            settings.weights_dir, settings.policies, observer.metrics.count_refused_plan))
-        with _running(app, settings, loaded, observer), shutdown.listening(settings.drain_seconds):
+        with _running(app, settings, planner, observer), shutdown.listening(settings.drain_seconds):
             yield
         observer.stop()
 
@@ -105,21 +116,41 @@ def create_app(settings: Settings | None = None, planner: Planner | None = None)
 
 
 @contextmanager
-def _running(app: FastAPI, settings: Settings, planner: Planner,
+def _running(app: FastAPI, settings: Settings, planner: Planner | None,
              observer: Observer) -> Iterator[None]:
     """Have all run that answers requests: its state has what they turn to."""
     with opened_roads(settings) as roads, guarding(settings) as app.state.guard:
         roads.start()
-        service = PlanService(planner, settings.search_threads, observer.record_plan,
-                              Bounds.of_plans(settings), roads)
-        app.state.service, app.state.addresses = service, roads.addresses
-        jobs = running_jobs(settings, planner, observer.metrics, observer.record_plan, roads,
-                            [delete_expired], Courtesy(lambda: app.state.turns.are_waited_for))
-        app.state.gallery.start()
-        with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
-              giving_back(lambda: is_asked(app))):
-            yield
-        app.state.gallery.stop()
+        app.state.addresses = roads.addresses
+        with _planning(settings, planner, roads, observer) as app.state.plans:
+            jobs = running_jobs(settings, app.state.plans, observer.metrics, observer.record_plan,
+                                [delete_expired])
+            app.state.gallery.start()
+            with (keeping_plans(settings) as app.state.kept, jobs as app.state.jobs,
+                  giving_back(lambda: is_asked(app))):
+                yield
+            app.state.gallery.stop()
+
+
+@contextmanager
+def _planning(settings: Settings, planner: Planner | None, roads: Roads,
+              observer: Observer) -> Iterator[PlanDesk]:
+    """Yield who has plans made; as many get ready for that as plans may be made at once."""
+    known = KnownRoads.of(roads)
+    if planner is None:
+        logs = log_config(settings.log_format, settings.log_level)
+        start = processes(partial(opened, settings, known), logs, PRELOADED)
+    else:
+        start = threads(partial(opened_with, planner, settings, known))
+    at_once = settings.max_concurrent_plans if settings.role != "worker" else 0
+    slots = settings.job_slots if settings.role != "api" else 0
+    pool = Pool(start, at_once + slots + BESIDE, answers_of(roads), observer.metrics.count_death)
+    try:
+        pool.warm(at_once or slots)
+        yield PlanDesk(pool, settings.policies if planner is None else planner.policies,
+                       Bounds.of_plans(settings), roads, observer.metrics, observer.record_plan)
+    finally:
+        pool.close()
 
 
 def _map_errors(app: FastAPI) -> None:

@@ -4,11 +4,8 @@ from typing import Annotated
 
 from fastapi import APIRouter, Depends, Request, Response
 
-from app.plans.checking import answer_check
-from app.plans.explaining import answer_explain
-from app.plans.fitting import answer_fit
-from app.plans.service import PlanService
-from app.requests.bounds import Bounds
+from app.plans import answers
+from app.plans.desk import PlanDesk
 from app.schemas.check import CheckReply, CheckRequest
 from app.schemas.explain import ExplainReply, ExplainRequest
 from app.schemas.fit import FitReply, FitRequest
@@ -33,33 +30,30 @@ CHECK_ERROR_RESPONSES = {status: response for status, response in ERROR_RESPONSE
 """A plan of whatever kind is an answer."""
 
 
-def get_service(request: Request) -> PlanService:
-    """Return the service that this application runs."""
-    service: PlanService = request.app.state.service
-    return service
+def get_desk(request: Request) -> PlanDesk:
+    """Return who has plans made for this application."""
+    desk: PlanDesk = request.app.state.plans
+    return desk
 
 
-Service = Annotated[PlanService, Depends(get_service)]
+Plans = Annotated[PlanDesk, Depends(get_desk)]
 
 
 @router.post("/plan", summary="Plan deliveries", tags=["planning"], response_model=PlanReply,
              responses=ERROR_RESPONSES, openapi_extra=json_body(PlanRequest, EXAMPLES))
 async def plan(request: Request, principal: Plan, planning: Planning, body: Body,
-               service: Service) -> Response:
+               plans: Plans) -> Response:
     """Return routes, costs and load rates; customers that can't be served stay unassigned."""
-    reply = await planning.run(request, lambda should_stop: service.plan(body, should_stop))
+    reply = await plans.answer(planning, request, answers.plan, body)
     return Response(reply, media_type="application/json")
 
 
 @router.post("/check", summary="Judge a plan", tags=["planning"], response_model=CheckReply,
              responses=CHECK_ERROR_RESPONSES, openapi_extra=json_body(CheckRequest, CHECK_EXAMPLES))
 async def check(request: Request, principal: Plan, planning: Planning, body: Body,
-                service: Service) -> Response:
+                plans: Plans) -> Response:
     """Return every rule that a plan breaks, and its true cost by term."""
-    bounds = Bounds.of_plans(request.app.state.settings)
-    reply = await planning.run(
-        request,
-        lambda should_stop: answer_check(body.content, bounds, should_stop, service.roads))
+    reply = await plans.answer(planning, request, answers.check, body)
     return Response(reply, media_type="application/json")
 
 
@@ -67,9 +61,9 @@ async def check(request: Request, principal: Plan, planning: Planning, body: Bod
              response_model=WarningsReply, responses=CHECK_ERROR_RESPONSES,
              openapi_extra=json_body(PlanRequest, {"smallest": EXAMPLES["smallest"]}))
 async def warnings(request: Request, principal: Plan, reading: Reading, body: Body,
-                   service: Service) -> Response:
+                   plans: Plans) -> Response:
     """Return what looks wrong with a request, or its errors, without planning it."""
-    reply = await reading.run(lambda: service.warnings(body))
+    reply = await reading.run(lambda: plans.warnings(body))
     return Response(reply, media_type="application/json")
 
 
@@ -77,11 +71,9 @@ async def warnings(request: Request, principal: Plan, reading: Reading, body: Bo
              responses=ERROR_RESPONSES,
              openapi_extra=json_body(ExplainRequest, EXPLAIN_EXAMPLES))
 async def explain(request: Request, principal: Plan, planning: Planning, body: Body,
-                  service: Service) -> Response:
+                  plans: Plans) -> Response:
     """Return what it would cost to serve a customer elsewhere, and what drones save."""
-    bounds = Bounds.of_plans(request.app.state.settings)
-    reply = await planning.run(request, lambda should_stop: answer_explain(
-        body, bounds, service.planner, should_stop, service.roads))
+    reply = await plans.answer(planning, request, answers.explain, body)
     return Response(reply, media_type="application/json")
 
 
@@ -89,9 +81,7 @@ async def explain(request: Request, principal: Plan, planning: Planning, body: B
              response_model=FitReply, responses=CHECK_ERROR_RESPONSES,
              openapi_extra=json_body(FitRequest, FIT_EXAMPLES))
 async def fit(request: Request, principal: Plan, planning: Planning, body: Body,
-              service: Service) -> Response:
+              plans: Plans) -> Response:
     """Return the best places for a customer in a plan whose others stay, each with its price."""
-    bounds = Bounds.of_plans(request.app.state.settings)
-    reply = await planning.run(
-        request, lambda should_stop: answer_fit(body, bounds, should_stop, service.roads))
+    reply = await plans.answer(planning, request, answers.fit, body)
     return Response(reply, media_type="application/json")

@@ -7,11 +7,10 @@ from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.replies import Data
-from app.plans.task import Task, task_of, warning_replies
+from app.plans.task import Task, task_of
 from app.requests.bounds import UNBOUNDED, Bounds
 from app.requests.conversion.preparing import Preparing, patience
 from app.requests.reading import read_request
-from app.requests.warnings.finding import warnings_of
 from app.schemas.request import OptionsInput, PlanRequest
 from app.serving.load.received import ReceivedBody
 from model.engine.cores import num_cores
@@ -55,17 +54,6 @@ class PlanService:
                          received_at, listener, work.waited)
         self._on_plan(reply)
         return to_json(reply)
-
-    def warnings(self, body: ReceivedBody) -> bytes:
-        """Return the reply to a request of `POST /warnings` as JSON; nothing is planned.
-
-        Raises
-        ------
-        RequestError
-            If `body` is no valid request.
-        """
-        request = read_request(body.content, self.planner.policies, self._bounds)
-        return to_json({"warnings": warning_replies(warnings_of(request, self.roads.profiles))})
 
 
 def reply_of(planner: Planner, task: Task, options: PlanOptions, received_at: float,

@@ -9,7 +9,7 @@ from python_multipart import create_form_parser
 from python_multipart.exceptions import FormParserError
 
 from app.formats.sheets.schemas import ImportReply, ImportSettings
-from app.plans.routes import Service
+from app.plans.routes import Plans
 from app.requests.refusal import require_readable
 from app.schemas.errors import InvalidRequestError, RequestError, schema_error
 from app.schemas.hints import with_hints
@@ -67,7 +67,7 @@ Settings = Annotated[str | None, Query(
              tags=["planning"], response_model=ImportReply, responses=ERROR_RESPONSES,
              openapi_extra=BODY)
 async def import_sheet(request: Request, principal: Plan, reading: Reading, body: Body,
-                       service: Service, settings: Settings = None) -> Response:
+                       plans: Plans, settings: Settings = None) -> Response:
     """Return what the columns mean, how cells are read, and the request that they make."""
     content_type = request.headers.get("content-type", "")
 
@@ -79,7 +79,7 @@ async def import_sheet(request: Request, principal: Plan, reading: Reading, body
         file, stated = _parts(body.content, content_type)
         finder = Finder(request.app.state.addresses, LOOKING_UP)
         reply = import_file(file, read_settings(stated if stated is not None else settings), finder,
-                            service.roads.profiles)
+                            plans.roads.profiles)
         return reply.model_dump_json().encode()
 
     reply = await reading.run(answer)

@@ -15,6 +15,7 @@ from app.formats.vroom.schemas import VroomOptionsInput, VroomRequest
 from app.formats.vroom.translate import given_routes, translate
 from app.formats.vroom.violations import add_violations
 from app.maps.roads.roads import NO_ROADS, Roads
+from app.plans.workplace import Workplace
 from app.requests.conversion.preparing import Preparing, patience
 from app.schemas.errors import InvalidRequestError
 from app.serving.load.received import ReceivedBody
@@ -82,6 +83,13 @@ def answer(planner: Planner, body: ReceivedBody, settings: Settings,
         raise refused(error) from error
     on_plan(reply)
     return to_json(reply)
+
+
+def answer_there(place: Workplace, body: ReceivedBody,
+                 should_stop: Callable[[], bool]) -> bytes:
+    """Return the same where plans are made; raises as `answer` does."""
+    return answer(place.service.planner, body, place.settings, should_stop,
+                  place.count_vroom_plan, place.service.roads, place.count_refused_plan)
 
 
 def preparing_of(stated: VroomOptionsInput, began: float, settings: Settings,

@@ -5,11 +5,11 @@ from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
-from app.formats.vroom.answering import answer
+from app.formats.vroom.answering import answer_there
 from app.formats.vroom.errors import INTERNAL, VroomError, VroomErrorReply
 from app.formats.vroom.schemas import VroomRequest
 from app.formats.vroom.schemas_response import VroomReply
-from app.plans.routes import Service
+from app.plans.routes import Plans
 from app.schemas.errors import MEDIA_TYPE
 from app.schemas.openapi import SCHEMA_REF, json_body
 from app.serving.access.guard import Plan
@@ -46,16 +46,10 @@ ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
              response_model=VroomReply, responses=ERROR_RESPONSES,
              openapi_extra=json_body(VroomRequest, EXAMPLES))
 async def vroom(request: Request, principal: Plan, planning: Planning, body: Body,
-                service: Service) -> Response:
+                plans: Plans) -> Response:
     """Take what VROOM takes, and answer as it does; what can't be planned is refused by name."""
-    settings = request.app.state.settings
     try:
-        reply = await planning.run(
-            request,
-            lambda should_stop: answer(service.planner, body, settings, should_stop,
-                                       request.app.state.metrics.count_vroom_plan,
-                                       service.roads,
-                                       request.app.state.metrics.count_refused_plan))
+        reply = await plans.answer(planning, request, answer_there, body)
     except VroomError as error:
         return error.response()
     except PlanCheckError as error:

@@ -8,19 +8,34 @@ from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.checking import PLAN, illegal_plan, read_about_plan
 from app.plans.explaining import preparing_within
 from app.plans.flights.courses import flights_of
-from app.plans.flights.files import FlightFile, flight_file
+from app.plans.flights.files import FORMAT_ASKED, FlightFile, flight_file
 from app.plans.flights.flight import Flight
 from app.plans.task import task_of
+from app.plans.workplace import Workplace
 from app.requests.bounds import Bounds
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.locating import at_addresses
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
-from app.requests.plan_reading import read_plan
+from app.requests.plan_reading import parse_plan, read_plan
 from app.schemas.errors import InvalidRequestError
-from app.schemas.flights import FlightsRequest
+from app.schemas.flights import FlightFormat, FlightsRequest, Per, WpmlInput
 from app.schemas.plan import PlanInput
 from app.schemas.request import PlanRequest
+from app.serving.load.received import ReceivedBody
+
+
+def flights(place: Workplace, body: ReceivedBody, should_stop: Callable[[], bool]) -> FlightFile:
+    """Answer `POST /flights` where plans are made."""
+    return answer_flights(body.content, place.bounds, should_stop, place.service.roads)
+
+
+def fly_planned(place: Workplace, request: PlanRequest, reply: bytes, file_format: FlightFormat,
+                per: Per, wpml: WpmlInput, should_stop: Callable[[], bool]) -> FlightFile:
+    """Answer what is asked of a job's plan there."""
+    written = planned_flights(request, parse_plan(reply),
+                              preparing_within(place.bounds, should_stop), place.service.roads)
+    return flight_file(written, file_format, per, FORMAT_ASKED, wpml)
 
 
 def answer_flights(body: bytes, bounds: Bounds, should_stop: Callable[[], bool] = lambda: False,

@@ -4,10 +4,9 @@ from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
-from app.plans.flights.answering import answer_flights
+from app.plans.flights import answering
 from app.plans.flights.files import WRITERS, ZIP, FlightFile
-from app.plans.routes import CHECK_ERROR_RESPONSES, Service
-from app.requests.bounds import Bounds
+from app.plans.routes import CHECK_ERROR_RESPONSES, Plans
 from app.schemas.flights import FlightsRequest
 from app.schemas.openapi import json_body
 from app.serving.access.guard import Plan
@@ -29,11 +28,9 @@ FLIGHTS: dict[int | str, dict[str, Any]] = {200: {
              response_class=Response, responses={**CHECK_ERROR_RESPONSES, **FLIGHTS},
              openapi_extra=json_body(FlightsRequest, EXAMPLES))
 async def flights(request: Request, principal: Plan, planning: Planning, body: Body,
-                  service: Service) -> Response:
+                  plans: Plans) -> Response:
     """Return a plan's flights as a file that flight controllers read; no permission to fly."""
-    bounds = Bounds.of_plans(request.app.state.settings)
-    return sent(await planning.run(request, lambda should_stop: answer_flights(
-        body.content, bounds, should_stop, service.roads)))
+    return sent(await plans.answer(planning, request, answering.flights, body))
 
 
 def sent(file: FlightFile) -> Response:

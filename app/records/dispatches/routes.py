@@ -154,7 +154,7 @@ async def end_dispatch(request: Request, dispatch_id: DispatchId, principal: Job
 
 def _service(request: Request, engine: Engine) -> DispatchService:
     return DispatchService(DispatchStore(engine), request.app.state.settings,
-                           request.app.state.service.roads)
+                           request.app.state.plans.roads)
 
 
 def _told(request: Request, followed: Followed, status: int = 200) -> Response:

@@ -37,6 +37,15 @@ class Asked:
     options: PlanOptions
 
 
+def asked_of(request: PlanRequest, search_threads: int, roads: Roads,
+             should_stop: Callable[[], bool]) -> Asked:
+    """Return what a job's request asks for; raises as `Asking.make` does."""
+    work = preparing(request.options, JOB_BOUNDS, should_stop).beside_search(
+        LEAST_PREPARING, "a job's search")
+    task = task_of(request, work, roads=roads)
+    return Asked(task, plan_options(request.options, search_threads))
+
+
 @dataclass
 class _Kept:
     """What is made once, by whoever comes first."""
@@ -79,11 +88,7 @@ class Asking:
         RequestError, KeyError
             If it can't be planned any more.
         """
-        request = self._read(row)
-        work = preparing(request.options, JOB_BOUNDS, should_stop).beside_search(
-            LEAST_PREPARING, "a job's search")
-        task = task_of(request, work, roads=self._roads)
-        return Asked(task, plan_options(request.options, self._search_threads))
+        return asked_of(self._read(row), self._search_threads, self._roads, should_stop)
 
     def keep(self, job_id: str, asked: Asked, now: float) -> None:
         """Keep what a job asks for, as others will need it. In place."""

@@ -98,8 +98,7 @@ class DividedWork:
             return OVER
         self._wait(rounds)
         if self._stopping.is_set():
-            self._hand_back(rounds)
-            raise Stopping
+            self.leave(job_id)
         regions = self._store.children(job_id)
         rounds.look(regions, self._clock())
         self._merge(rounds, [region for region in regions if region.is_over])
@@ -111,6 +110,17 @@ class DividedWork:
         if rounds is not None:
             rounds.is_cancelled = True
             rounds.news.set()
+
+    def leave(self, job_id: str) -> None:
+        """Leave a job to others. In place.
+
+        Raises
+        ------
+        Stopping
+            Always.
+        """
+        self._hand_back(self._held[job_id])
+        raise Stopping
 
     def drop(self, job_id: str) -> None:
         """Let go of a job that failed. In place."""

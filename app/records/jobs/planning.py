@@ -1,29 +1,32 @@
-"""Plan jobs: slices of about a second that write down what a search in another thread found."""
+"""Plan jobs: slices of about a second that write down what a search elsewhere found."""
 
 import logging
 import threading
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from dataclasses import replace
+from typing import Any, Protocol
 
-from pydantic_core import from_json, to_json
-
-from app.plans.replies import Data
 from app.records.clock import now_ms
 from app.records.jobs.asked import Asking
+from app.records.jobs.order import (
+    BEGUN, STANDING, Order, Outcome, RegionOfJob, WholeJob, work_on,
+)
+from app.records.jobs.reading import stated
 from app.records.jobs.region_task import ERRANDS, RegionTask
 from app.records.jobs.rows import JobRow, Standing
-from app.records.jobs.running import Begun, RegionTerms, Returning, Running, sign_of_life
+from app.records.jobs.running import RegionTerms, Returning, Running, Told, sign_of_life
 from app.records.jobs.schemas import State
-from app.records.jobs.search import EarlierWork, Search
 from app.records.jobs.slices import (
     MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping, hold,
 )
 from app.records.jobs.store import JobStore
 from app.requests.conversion.preparing import StoppedError
 from app.schemas.errors import NoRoadsError, RequestError
-from app.serving.load.courtesy import NOBODY_WAITS, Courtesy
-from model.planner import PlanCheckError, Planner
+from app.serving.children.child import Call
+from app.serving.children.errors import EndedUnexpectedlyError
+from model.planner import PlanCheckError
 
 logger = logging.getLogger(__name__)
 
@@ -36,33 +39,41 @@ REST_POLLING = 0.1
 MOST_WAITING = 6 * 3600.0
 """Seconds after which a job whose roads don't answer is given up."""
 
+PATIENCE = 2.0
+"""Slices without any news of a search after which a sign of life is given without."""
+
+
+class Begin(Protocol):
+    """Has work begin in a process that plans."""
+
+    def __call__(self, function: Callable[..., Any], *args: Any, what: str,
+                 should_stop: Callable[[], bool],
+                 listeners: Mapping[str, Callable[[Any], None]]) -> Call:
+        """Return the work under way."""
+
 
 class PlanWork:
-    """The plan jobs that this process works on.
+    """The plan jobs that are planned for this process.
 
     Parameters
     ----------
-    planner
-        The one that this process has loaded.
+    begin
+        Has them planned.
     store
         Where jobs are kept.
     asking
-        What makes tasks of their requests.
+        What makes tasks of the requests of those planned by regions.
     returning
         How jobs get back to their queue.
     on_plan
-        Is told the reply of each job that is done.
+        Is told of each plan that is done, as it is counted.
     terms
         Which jobs are planned by regions, after their first plan.
-    courtesy
-        Whom jobs make way for.
     """
 
-    def __init__(self, planner: Planner, store: JobStore, asking: Asking, returning: Returning,
-                 on_plan: Callable[[Data], None], terms: RegionTerms,
-                 courtesy: Courtesy = NOBODY_WAITS) -> None:
-        self._courtesy = courtesy
-        self._planner = planner
+    def __init__(self, begin: Begin, store: JobStore, asking: Asking, returning: Returning,
+                 on_plan: Callable[[Mapping[str, Any]], None], terms: RegionTerms) -> None:
+        self._begin_call = begin
         self._store = store
         self._asking = asking
         self._returning = returning
@@ -78,17 +89,23 @@ class PlanWork:
         Raises
         ------
         Stopping
-            If this process ends.
+            If this process ends, or leaves the job to others.
         """
         running = hold(self._running, job_id, self._stopping, self._begin)
         if running is None:
             return OVER
-        has_ended = running.search.wait(SLICE)
-        self._courtesy.give_way(self._stopping.is_set)
+        if running.cancelled.is_set() or self._stopping.is_set():
+            running.call.stop()
+        has_ended = running.call.wait(PATIENCE * SLICE, running.should_stop,
+                                      lambda: running.has_news)
         if self._stopping.is_set():
-            self._hand_back(running)
-            raise Stopping
-        return self._end(running) if has_ended else self._note(running)
+            self.leave(job_id)
+        if has_ended:
+            return self._end(running)
+        if running.is_to_wait_its_turn:
+            # Its legs are there, and known the next time: it is planned where the plans are.
+            self.leave(job_id)
+        return self._note(running)
 
     def holds(self, job_id: str) -> bool:
         """Tell whether a job is worked on here."""
@@ -101,20 +118,31 @@ class PlanWork:
             beginning.set()
         running = self._running.get(job_id)
         if running is not None:
-            running.is_cancelled = True
-            running.search.stop()
+            running.cancelled.set()
+            running.call.stop()
 
     def drop(self, job_id: str) -> None:
         """Let go of a job that failed. In place."""
         running = self._running.pop(job_id, None)
         if running is not None:
-            running.search.stop()
+            running.call.drop()
+
+    def leave(self, job_id: str) -> None:
+        """Write down what was found for a job, and leave it to others. In place.
+
+        Raises
+        ------
+        Stopping
+            Always.
+        """
+        self._hand_back(self._running.pop(job_id))
+        raise Stopping
 
     def stop(self) -> None:
         """Have all jobs handed back. In place."""
         self._stopping.set()
         for running in list(self._running.values()):
-            running.search.stop()
+            running.call.stop()
 
     @property
     def is_idle(self) -> bool:
@@ -122,58 +150,51 @@ class PlanWork:
         return not self._running and not self._beginning
 
     def _begin(self, job_id: str) -> Running | None:
-        """Take a job and start its search; None if there is nothing to search. In place."""
-        self._courtesy.give_way(self._stopping.is_set)
+        """Take a job and have it planned; None if there is nothing to plan. In place."""
         has_waited = self._has_waited(job_id)
         row = self._taken(job_id, has_waited)
         if row is None:
             return None
-        began = time.perf_counter()
-        self._beginning[job_id] = threading.Event()
+        cancelled = self._beginning[job_id] = threading.Event()
+        should_stop, told = sign_of_life(self._store, row, cancelled, self._stopping), Told()
+
+        def hear_standing(standing: Standing) -> None:
+            told.standing = standing
+
+        def hear_share(share: float) -> None:
+            told.share = share
+
         try:
-            begun = self._begun(row)
+            call = self._begin_call(work_on, self._order(row, should_stop), what="job",
+                                    should_stop=should_stop,
+                                    listeners={BEGUN: hear_share, STANDING: hear_standing})
         except StoppedError:
             self._give_up(row)
             return None
-        except NoRoadsError as error:
-            self._put_off(row, error)
-            return None
+        except EndedUnexpectedlyError:
+            # None is free that plans, or there is no memory for one.
+            self._release(row)
         except (RequestError, KeyError) as error:
-            # It was valid when it came: a policy may have been removed since.
-            reasons = " ".join(item.message for item in getattr(error, "errors", ())[:1])
-            self._fail(row, f"The request can't be planned any more: {error} {reasons}".rstrip())
+            self._fail_invalid(row, error)
             return None
         finally:
             del self._beginning[job_id]
-        if has_waited:
-            # Its legs are there, and known the next time: it is planned where the plans are.
-            self._release(row)
-        kept = self._store.result(job_id)
-        earlier = EarlierWork(row.searched, row.search_iterations,
-                              None if kept is None else from_json(kept))
-        validated = time.perf_counter() - began
-        return Running(row, Search(self._planner, begun.task, begun.options, earlier), validated,
-                       begun.share, best=earlier.reply)
+        return Running(row, call, cancelled, should_stop, told, has_waited, row.cost,
+                       row.search_iterations)
 
-    def _begun(self, row: JobRow) -> Begun:
+    def _order(self, row: JobRow, should_stop: Callable[[], bool]) -> Order:
         """Return what is to be done for a job; raises as `Asking.make` does."""
-        should_stop = sign_of_life(self._store, row, self._beginning[row.id], self._stopping)
+        kept = (row.created_at, row.searched, row.search_iterations, self._store.result(row.id))
         if row.kind != "region":
-            asked = self._asking.make(row, should_stop)
-            if not self._terms.divides(asked):
-                return Begun(asked.task, asked.options)
-            self._asking.keep(row.id, asked, time.monotonic())
-            limit = asked.options.time_limit
-            first = replace(asked.options, time_limit=self._terms.seconds)
-            return Begun(asked.task, first, self._terms.seconds / limit)
+            return Order(WholeJob(*stated(self._store, row), self._terms), *kept)
         whole = None if row.parent is None else self._store.find(row.parent)
         if whole is None or whole.is_over:
             raise StoppedError("The job whose region this is has ended.")
         asked = self._asking.shared(whole, should_stop, time.monotonic())
         errand = ERRANDS.validate_json(self._store.request(row.id))
-        return Begun(RegionTask.of(asked.task.problem, errand.region),
-                     replace(asked.options, time_limit=errand.seconds, seed=errand.seed,
-                             cooled=errand.cooled))
+        options = replace(asked.options, time_limit=errand.seconds, seed=errand.seed,
+                          cooled=errand.cooled)
+        return Order(RegionOfJob(RegionTask.of(asked.task.problem, errand.region), options), *kept)
 
     def _taken(self, job_id: str, has_waited: bool) -> JobRow | None:
         """Take a job, and return it unless it is over then. In place."""
@@ -264,106 +285,110 @@ class PlanWork:
 
     def _note(self, running: Running) -> Slice:
         """Write down what a search found. In place."""
-        search = running.search
-        find, reply = search.find(), None
-        if find is not None and find is not running.noted:
-            reply = search.reply_so_far(find)
-        cancel = self._store.note(running.row.id, running.row.attempt,
-                                  self._standing(running, search.progress, reply))
-        running.noted = find
-        if reply is not None and (running.best is None or cost_of(reply) < cost_of(running.best)):
-            running.best = reply
+        row, standing = running.row, running.told.standing
+        if standing is None:
+            cancel = self._store.keep_alive(row.id, row.attempt)
+        else:
+            cancel = self._store.note(row.id, row.attempt, standing)
+            running.told.standing = None
+            running.take(standing)
         if cancel is None:
             # Lost to another process, or ended. DBOS lets whoever owns the workflow go on.
-            search.stop()
-            del self._running[running.row.id]
+            self.drop(row.id)
         if cancel:
-            self.cancel(running.row.id)
-        return self._slice(running, is_over=False)
+            self.cancel(row.id)
+        return Slice(False, running.iterations, running.cost)
 
     def _end(self, running: Running) -> Slice:
-        """End a job whose search has ended. In place."""
+        """End a job that is planned. In place."""
+        # Held until that is written down: the database may be away.
+        try:
+            ended = self._ended(running)
+        except Stopping:
+            del self._running[running.row.id]
+            raise
+        del self._running[running.row.id]
+        return Slice(ended, running.iterations, running.cost)
+
+    def _ended(self, running: Running) -> bool:
+        """Write down what came of a job, or leave it to others; tell whether it is over. In place.
+        """
         row = running.row
         try:
-            reply = self._better(running, running.search.reply())
+            outcome: Outcome = running.call.result()
+        except EndedUnexpectedlyError:
+            self._bear_death(row)
+        except StoppedError:
+            self._give_up(row)
+        except NoRoadsError as error:
+            self._put_off(row, error)
         except PlanCheckError as error:
             logger.error("plan of job %s withheld: %s", row.id, error)
-            ended = self._fail(row, WITHHELD)
-        except NoRoadsError as error:
-            del self._running[row.id]
-            self._put_off(row, error)
-            return OVER
+            return self._fail(row, WITHHELD)
+        except (RequestError, KeyError) as error:
+            self._fail_invalid(row, error)
         except Exception:  # whatever planning raised is this job's end, not the process's
             logger.exception("job %s failed", row.id)
-            ended = self._fail(row, NOT_COMPUTED)
+            return self._fail(row, NOT_COMPUTED)
         else:
-            state: State = "cancelled" if running.is_cancelled else "done"
-            progress = running.search.progress if running.is_cancelled else 1.0
-            running.best = reply
-            if running.share < 1.0 and not running.is_cancelled:
-                self._share_out(running, reply)
-            ended = self._store.finish(row.id, row.attempt, state,
-                                       self._standing(running, progress, reply))
-            if row.kind == "plan":
-                self._on_plan(reply)
-        del self._running[row.id]
-        return self._slice(running, is_over=ended)
+            running.take(outcome.standing)
+            return self._finish(running, outcome)
+        return True
 
-    def _share_out(self, running: Running, reply: Data) -> None:
-        """Write down a job's first plan, and have it go on by regions. In place.
+    def _finish(self, running: Running, outcome: Outcome) -> bool:
+        """Write down what a job came to; tell whether this ended it. In place.
+
+        Raises
+        ------
+        Stopping
+            If it goes on by regions.
+        """
+        row, standing, share = running.row, outcome.standing, running.told.share
+        is_cancelled = running.cancelled.is_set()
+        if share is not None and share < 1.0 and not is_cancelled:
+            self._store.note(row.id, row.attempt, replace(standing, progress=share))
+            if self._store.divide(row.id, row.attempt):
+                self._returning.share_out(row.id)
+            raise Stopping
+        state: State = "cancelled" if is_cancelled else "done"
+        if not is_cancelled:
+            standing = replace(standing, progress=1.0)
+        ended = self._store.finish(row.id, row.attempt, state, standing)
+        if outcome.plan is not None:
+            self._on_plan(outcome.plan)
+        return ended
+
+    def _bear_death(self, row: JobRow) -> None:
+        """Have a job begun anew, alone, in whose process's death it may have had a hand. In place.
 
         Raises
         ------
         Stopping
             Always.
         """
-        row = running.row
-        self._store.note(row.id, row.attempt, self._standing(running, 1.0, reply))
-        del self._running[row.id]
-        if self._store.divide(row.id, row.attempt):
-            self._returning.share_out(row.id)
+        logger.error("job %s: the process that planned it ended unexpectedly", row.id)
+        if self._store.lose(row.id, row.attempt):
+            self._returning.put_back(row.id)
         raise Stopping
-
-    def _better(self, running: Running, reply: Data) -> Data:
-        """Return a reply, with the best plan written down if that is cheaper by a hair."""
-        best = running.best
-        if best is None or cost_of(reply) <= cost_of(best):
-            return reply
-        return best | {"solver": reply["solver"] | {"final_cost": cost_of(best)}}
 
     def _hand_back(self, running: Running) -> None:
         """Write down what a stopped search found, and leave the job to others. In place."""
-        row, search = running.row, running.search
+        row, call = running.row, running.call
         try:
-            reply = self._better(running, search.reply()) if search.wait(SLICE) else None
-            self._store.note(row.id, row.attempt,
-                             self._standing(running, search.progress, reply))
+            call.stop()
+            if call.wait(SLICE, running.should_stop):
+                with suppress(RequestError, PlanCheckError):
+                    self._store.note(row.id, row.attempt, call.result().standing)
             if self._store.release(row.id, row.attempt):
                 self._returning.put_back(row.id)
         except Exception:  # the process ends: the job is begun anew from what is written down
             logger.exception("job %s was not handed back", row.id)
-        del self._running[row.id]
+        call.drop()
 
     def _fail(self, row: JobRow, error: str) -> bool:
         return self._store.finish(row.id, row.attempt, "failed", error=error)
 
-    def _standing(self, running: Running, progress: float, reply: Data | None) -> Standing:
-        search = running.search
-        progress *= running.share
-        if reply is None:
-            return Standing(progress, search.iterations, search.searched)
-        elapsed = reply["solver"]["elapsed"]
-        elapsed["validate"] = running.validated
-        elapsed["total"] = (now_ms() - running.row.created_at) / 1000
-        return Standing(progress, search.iterations, search.searched, cost_of(reply),
-                        to_json(reply))
-
-    @staticmethod
-    def _slice(running: Running, is_over: bool) -> Slice:
-        cost = None if running.best is None else cost_of(running.best)
-        return Slice(is_over, running.search.iterations, cost)
-
-
-def cost_of(reply: Data) -> float:
-    """Return the cost of a plan by its reply."""
-    return float(reply["cost"]["total"])
+    def _fail_invalid(self, row: JobRow, error: Exception) -> None:
+        # It was valid when it came: a policy may have been removed since.
+        reasons = " ".join(item.message for item in getattr(error, "errors", ())[:1])
+        self._fail(row, f"The request can't be planned any more: {error} {reasons}".rstrip())

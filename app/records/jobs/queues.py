@@ -16,9 +16,10 @@ APPLICATION_VERSION = "1"
 """Jobs are taken by processes of this version only: raise it when the steps of workflows change."""
 
 PLANS, STUDIES, WEBHOOKS, WAITING = "plans", "studies", "webhooks-by-host", "waiting"
-DIVIDED = "divided"
+DIVIDED, SUSPECTS = "divided", "suspects"
 """Queues. Comparisons and sweeps wait for their scenarios, divided plans for their regions and some
-for what they need before they can begin, so they must not take the plans' slots."""
+for what they need before they can begin, so they must not take the plans' slots. What may have
+ended a process begins alone, wherever there are processes, until it has come further."""
 
 FORMER_WEBHOOKS = "webhooks"
 """Where earlier versions enqueued calls, which may wait for hours until they are repeated."""

@@ -84,14 +84,39 @@ class JobReader:
         KeyError
             If it is not there.
         """
-        if row.parent is None or row.position is None:
-            return read_request(store.request(row.id), self._policies)
-        parent = store.find(row.parent)
-        if parent is None:
-            raise KeyError(row.parent)
-        base, scenarios = read_study(parent.kind, store.request(parent.id), self._policies)
-        return apply(base, scenarios.scenario(row.position), self._policies)
+        return request_of(*stated(store, row), self._policies)
 
     def scenarios(self, store: JobStore, row: JobRow) -> Scenarios:
         """Return the scenarios of a comparison or sweep; raises as `plan_request` does."""
         return read_study(row.kind, store.request(row.id), self._policies)[1]
+
+
+def stated(store: JobStore, row: JobRow) -> tuple[bytes, str | None, int]:
+    """Return what states a plan job's request: a body, of which study it is, and the place there.
+
+    Raises
+    ------
+    KeyError
+        If it is not there.
+    """
+    if row.parent is None or row.position is None:
+        return store.request(row.id), None, 0
+    parent = store.find(row.parent)
+    if parent is None:
+        raise KeyError(row.parent)
+    return store.request(parent.id), parent.kind, row.position
+
+
+def request_of(body: bytes, study: str | None, position: int,
+               policies: Sequence[str]) -> PlanRequest:
+    """Return a plan job's request by what states it.
+
+    Raises
+    ------
+    RequestError
+        If it is not valid any more.
+    """
+    if study is None:
+        return read_request(body, policies)
+    base, scenarios = read_study(study, body, policies)
+    return apply(base, scenarios.scenario(position), policies)

@@ -6,11 +6,11 @@ from fastapi import APIRouter, Depends, Header, Path, Query, Request, Response
 from pydantic_core import to_json
 from sse_starlette import EventSourceResponse
 
-from app.plans.explaining import Subject, explain_job, preparing_within
-from app.plans.flights.answering import planned_flights
-from app.plans.flights.files import FORMAT_ASKED, flight_file
+from app.plans import answers
+from app.plans.explaining import Subject
+from app.plans.flights.answering import fly_planned
 from app.plans.flights.routes import FLIGHTS, sent
-from app.plans.routes import Service
+from app.plans.routes import Plans
 from app.records.jobs.desk import JobDesk
 from app.records.jobs.events import events, while_admitted
 from app.records.jobs.replies import summary
@@ -21,9 +21,7 @@ from app.records.jobs.schemas import (
 )
 from app.records.jobs.service import JobService, Submission, is_job_id
 from app.records.jobs.webhook import check_url
-from app.requests.bounds import Bounds
 from app.requests.paging import cursor_of, read_cursor
-from app.requests.plan_reading import parse_plan
 from app.schemas.explain import ExplainOptions, ExplainReply
 from app.schemas.flights import (
     FORMAT_TEXT, PER_TEXT, FlightFormat, Per, WpmlInput, wpml_asked,
@@ -174,7 +172,7 @@ async def draw_plan(job_id: JobId, principal: Jobs, desk: Desk) -> Response:
             response_model=ExplainReply, responses=EXPLAINED)
 async def explain_plan(
     request: Request, job_id: JobId, principal: Jobs, planning: Planning, desk: Desk,
-    service: Service,
+    plans: Plans,
     customer: Annotated[str | None, Query(
         description="Id of the customer of whom it is asked why he is served where he is. Left "
         "out: of nobody.")] = None,
@@ -188,10 +186,9 @@ async def explain_plan(
 ) -> Response:
     """Return the same as `POST /explain` of a job's best plan so far."""
     wanted, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
-    bounds = Bounds.of_plans(request.app.state.settings)
-    reply = await planning.run(request, lambda should_stop: explain_job(
-        wanted, plan, Subject(customer, shipment), drones, ExplainOptions(time_limit=time_limit),
-        bounds, service.planner, should_stop, service.roads))
+    reply = await plans.answer(
+        planning, request, answers.explain_planned, wanted, plan, Subject(customer, shipment),
+        drones, ExplainOptions(time_limit=time_limit))
     return Response(reply, media_type="application/json")
 
 
@@ -200,16 +197,14 @@ async def explain_plan(
 async def write_flights(
     request: Request, job_id: JobId, principal: Jobs, planning: Planning, desk: Desk,
     file_format: Annotated[FlightFormat, Query(alias="format", description=FORMAT_TEXT)],
-    service: Service,
+    plans: Plans,
     wpml: Annotated[WpmlInput, Depends(wpml_asked)],
     per: Annotated[Per, Query(description=PER_TEXT)] = "sortie",
 ) -> Response:
     """Return the same as `POST /flights` of a job's best plan so far."""
     wanted, plan = await desk.ask(lambda jobs: jobs.plan(job_id, principal.key_id))
-    bounds = Bounds.of_plans(request.app.state.settings)
-    return sent(await planning.run(request, lambda should_stop: flight_file(
-        planned_flights(wanted, parse_plan(plan), preparing_within(bounds, should_stop),
-                        service.roads), file_format, per, FORMAT_ASKED, wpml)))
+    return sent(await plans.answer(planning, request, fly_planned, wanted, plan,
+                                   file_format, per, wpml))
 
 
 @router.delete("/jobs/{job_id}", summary="Stop a job", response_model=JobReply, responses=FOUND)

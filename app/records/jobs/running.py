@@ -5,12 +5,12 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from app.plans.replies import Data
 from app.records.jobs.asked import Asked
-from app.records.jobs.rows import JobRow
-from app.records.jobs.search import Find, Plannable, Search
+from app.records.jobs.rows import JobRow, Standing
+from app.records.jobs.search import Plannable
 from app.records.jobs.slices import SLICE
 from app.records.jobs.store import JobStore
+from app.serving.children.child import Call
 from model.planner import PlanOptions
 from model.problem import limits_chargers
 
@@ -63,6 +63,14 @@ class RegionTerms:
                 and all(origin.by != "roads" for origin in task.legs))
 
 
+@dataclass
+class Told:
+    """What was told of a job since somebody looked."""
+
+    share: float | None = None  # of the job's time that is searched now; None: it isn't yet
+    standing: Standing | None = None
+
+
 @dataclass(frozen=True)
 class Begun:
     """What is to be done for a job."""
@@ -74,15 +82,32 @@ class Begun:
 
 @dataclass
 class Running:
-    """A search under way in this process."""
+    """A job that is planned for this process."""
 
     row: JobRow
-    search: Search
-    validated: float  # seconds
-    share: float = 1.0  # of the job's time that this search takes
-    noted: Find | None = None
-    best: Data | None = None  # reply to the best plan written down
-    is_cancelled: bool = False
+    call: Call
+    cancelled: threading.Event
+    should_stop: Callable[[], bool]  # gives signs of life, too
+    told: Told
+    has_waited: bool  # for what it needed before it could begin
+    cost: float | None  # of the best plan written down
+    iterations: int
+
+    @property
+    def is_to_wait_its_turn(self) -> bool:
+        """Tell whether it may begin, where only those are that can't yet."""
+        return self.has_waited and self.told.share is not None
+
+    @property
+    def has_news(self) -> bool:
+        """Tell whether something is to be done about what was told."""
+        return self.told.standing is not None or self.is_to_wait_its_turn
+
+    def take(self, standing: Standing) -> None:
+        """Know how far it has come. In place."""
+        self.iterations = standing.search_iterations
+        if standing.cost is not None and (self.cost is None or standing.cost < self.cost):
+            self.cost = standing.cost
 
 
 def sign_of_life(store: JobStore, row: JobRow, cancelled: threading.Event,

@@ -2,6 +2,7 @@
 
 import threading
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Protocol
 
@@ -77,15 +78,17 @@ class Search:
         How, `time_limit` being the time for all processes together.
     earlier
         What was done already.
+    should_stop
+        Tells whether to end within milliseconds, or once the first plan is made.
     """
 
     def __init__(self, planner: Planner, task: Plannable, options: PlanOptions,
-                 earlier: EarlierWork) -> None:
+                 earlier: EarlierWork, should_stop: Callable[[], bool]) -> None:
         self._task = task
         self._options = options
         self._earlier = earlier
         self._began = time.perf_counter()
-        self._stop = threading.Event()
+        self._should_stop = should_stop
         self._done = threading.Event()
         self._find: Find | None = None
         self._first: Progress | None = None
@@ -96,10 +99,6 @@ class Search:
         self._thread = threading.Thread(target=self._run, args=(planner,), name="job-search",
                                         daemon=True)
         self._thread.start()
-
-    def stop(self) -> None:
-        """Have the search end within milliseconds, or once the first plan is made. In place."""
-        self._stop.set()
 
     def wait(self, seconds: float) -> bool:
         """Wait for the end of the search; tell whether it has come."""
@@ -165,7 +164,7 @@ class Search:
         stand_back()
         try:
             self._result = self._task.plan(planner, self._remaining(), self._began,
-                                           Listener(self._stop.is_set, self._hear), self._start())
+                                           Listener(self._should_stop, self._hear), self._start())
         except Exception as error:  # for `reply` to raise: nobody waits for this thread
             self._error = error
         finally:

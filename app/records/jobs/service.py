@@ -96,15 +96,19 @@ class JobService:
         How many plans may wait or run at once.
     stop_here
         Stops a plan job at once if this process works on it.
+    validate
+        Checks a request and returns how many plans it asks for; raises as `submit` does.
     """
 
     def __init__(self, store: JobStore, queues: Queues, reader: JobReader, limits: OpenLimits,
-                 stop_here: Callable[[str], None]) -> None:
+                 stop_here: Callable[[str], None],
+                 validate: Callable[[Kind, bytes, Callable[[], bool]], int]) -> None:
         self._store = store
         self._queues = queues
         self._reader = reader
         self._limits = limits
         self._stop_here = stop_here
+        self._validate = validate
 
     def submit(self, submission: Submission,
                should_stop: Callable[[], bool] = lambda: False) -> tuple[JobRow, bool]:
@@ -123,7 +127,7 @@ class JobService:
         key_id = submission.key_id
         if key_id is not None and (row := self._store.find_by_key(key_id)) is not None:
             return _same(row, submission), False
-        plans = self._reader.validate(submission.kind, submission.body, should_stop)
+        plans = self._validate(submission.kind, submission.body, should_stop)
         # Never an id of before, under which queues and processes may know an earlier job still.
         job = NewJob(str(uuid.uuid4()), submission.kind, submission.owner, submission.fingerprint,
                      submission.body, submission.webhook, client=submission.client, plans=plans,

@@ -2,35 +2,34 @@
 
 import logging
 import threading
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
+from typing import Any
 
 from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
 from app.database.connections import close_for_good
 from app.database.durable import connect
-from app.maps.roads.roads import NO_ROADS, Roads
+from app.plans.desk import PlanDesk
 from app.records.jobs.asked import Asking
 from app.records.jobs.desk import JobDesk
 from app.records.jobs.divided import DividedWork
 from app.records.jobs.housekeeping import Housekeeper
+from app.records.jobs.order import validate
 from app.records.jobs.planning import PlanWork
-from app.records.jobs.queues import DIVIDED, PLANS, STUDIES, WAITING, Queues
+from app.records.jobs.queues import DIVIDED, PLANS, STUDIES, SUSPECTS, WAITING, Queues
 from app.records.jobs.reading import JobReader
 from app.records.jobs.rows import NewJob
 from app.records.jobs.running import RegionTerms, Returning
-from app.records.jobs.schemas import Data
 from app.records.jobs.service import JobService, OpenLimits
 from app.records.jobs.store import JobStore
 from app.records.jobs.studies import StudyWork
 from app.records.jobs.webhook import Caller, may_call_private
 from app.records.jobs.worker import Worker
-from app.serving.load.courtesy import NOBODY_WAITS, Courtesy
-from app.serving.observe.metrics import Metrics
+from app.serving.observe.metrics import Metrics, countable
 from app.serving.settings import Settings
-from model.planner import Planner
 
 logger = logging.getLogger(__name__)
 
@@ -41,46 +40,46 @@ RETRY = 1.0
 
 
 @contextmanager
-def running_jobs(settings: Settings, planner: Planner, metrics: Metrics,
-                 on_plan: Callable[[Data], None], roads: Roads = NO_ROADS,
-                 also_expire: Sequence[Callable[[Engine], None]] = (),
-                 courtesy: Courtesy = NOBODY_WAITS) -> Iterator[JobDesk]:
+def running_jobs(settings: Settings, planning: PlanDesk, metrics: Metrics,
+                 on_plan: Callable[[Mapping[str, Any]], None],
+                 also_expire: Sequence[Callable[[Engine], None]] = ()) -> Iterator[JobDesk]:
     """Yield where endpoints turn to; jobs are worked on until the block ends.
 
     Parameters
     ----------
     settings
         How to run.
-    planner
-        What plans.
+    planning
+        Who has plans made.
     metrics
         Where jobs are counted.
     on_plan
         Is told of each plan made.
-    roads
-        Those to plan on.
     also_expire
         What else deletes what has expired, besides jobs.
-    courtesy
-        Whom jobs make way for.
     """
+    roads = planning.roads
     queues = Queues(connect(settings.database))
     store = JobStore(queues.engine, int(settings.job_expiry_hours * HOUR_MS), queues.add_webhook,
                      metrics.count_finished_job)
-    reader = JobReader(planner.policies, settings, roads)
+    reader = JobReader(planning.policies, settings, roads)
     asking = Asking(partial(reader.plan_request, store), settings.search_threads, roads)
     returning = Returning(*(partial(queues.put, queue=queue)
                             for queue in (PLANS, WAITING, DIVIDED)))
     terms = RegionTerms(settings.region_from, settings.region_customers, settings.region_seconds)
-    plans = PlanWork(planner, store, asking, returning, on_plan, terms, courtesy)
+    plans = PlanWork(planning.begin, store, asking, returning, on_plan, terms)
     limits = OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)
-    service = JobService(store, queues, reader, limits, lambda job_id: stop_here(job_id))
+    service = JobService(store, queues, reader, limits, lambda job_id: stop_here(job_id),
+                         lambda kind, body, should_stop: planning.do(
+                             validate, kind, body, should_stop=should_stop))
 
     def add(jobs: Sequence[NewJob]) -> bool:
         return store.add(jobs, queues.add_job)
 
     divided = DividedWork(store, asking, terms, add, service.stop_jobs, returning,
-                          lambda job_id: queues.is_in(job_id, DIVIDED), on_plan)
+                          lambda job_id: queues.is_in(job_id, DIVIDED)
+                          or queues.is_in(job_id, SUSPECTS),
+                          lambda reply: on_plan(countable(reply)))
     studies = StudyWork(store, lambda row: reader.scenarios(store, row), add, service.stop_jobs,
                         lambda job_id: queues.put(job_id, STUDIES))
 
@@ -89,20 +88,28 @@ def running_jobs(settings: Settings, planner: Planner, metrics: Metrics,
         divided.cancel(job_id)
 
     housekeeper = Housekeeper(store, queues, also_expire, asking.forget_unused)
-    worker = Worker(settings, store, plans, divided, studies, housekeeper, _caller(settings))
+    worker = Worker(settings, store, queues, plans, divided, studies, housekeeper,
+                    _caller(settings))
     desk = JobDesk(store, queues, service, roads.zones)
     metrics.watch_jobs(desk.count)
+    with _started(desk, worker, queues.engine, is_working=settings.role != "api"):
+        yield desk
+
+
+@contextmanager
+def _started(desk: JobDesk, worker: Worker, engine: Engine, is_working: bool) -> Iterator[None]:
+    """Have the database prepared, and jobs worked on if so wanted, until the block ends."""
     stopping = threading.Event()
     starter = threading.Thread(target=_start, name="job-starter", daemon=True, args=(
-        desk, None if settings.role == "api" else worker, stopping))
+        desk, worker if is_working else None, stopping))
     starter.start()
     try:
-        yield desk
+        yield
     finally:
         stopping.set()
         starter.join()
         worker.stop()
-        close_for_good(queues.engine)
+        close_for_good(engine)
 
 
 def _start(desk: JobDesk, worker: Worker | None, stopping: threading.Event) -> None:

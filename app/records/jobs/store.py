@@ -254,6 +254,14 @@ class JobStore:
         """Give a job back to its queue; False if it is no longer this attempt's. In place."""
         return self._changed(_held(job_id, attempt), **_RELEASED) is not None
 
+    def lose(self, job_id: str, attempt: int) -> bool:
+        """Have a job wait again whose planning died, which counts; returns as `release` does.
+
+        In place.
+        """
+        return self._changed(_held(job_id, attempt), state="queued",
+                             attempt=JOBS.c.attempt + 1, revision=JOBS.c.revision + 1) is not None
+
     def divide(self, job_id: str, attempt: int) -> bool:
         """Give a job back that goes on by regions; returns as `release` does. In place."""
         return self._changed(_held(job_id, attempt), divided=True, **_RELEASED) is not None

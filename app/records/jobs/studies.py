@@ -58,8 +58,7 @@ class StudyWork:
         if row is None:
             return OVER
         if self._stopping.wait(SLICE):
-            self._hand_back(row)
-            raise Stopping
+            self.leave(job_id)
         children = self._store.children(job_id)
         iterations = sum(child.search_iterations for child in children)
         if all(child.is_over for child in children):
@@ -68,6 +67,21 @@ class StudyWork:
             return Slice(ended, iterations, _least_cost(children))
         self._note(row, children, iterations)
         return Slice(False, iterations, _least_cost(children))
+
+    def holds(self, job_id: str) -> bool:
+        """Tell whether a job is watched over here."""
+        return job_id in self._held
+
+    def leave(self, job_id: str) -> None:
+        """Leave a job to others. In place.
+
+        Raises
+        ------
+        Stopping
+            Always.
+        """
+        self._hand_back(self._held[job_id])
+        raise Stopping
 
     def drop(self, job_id: str) -> None:
         """Let go of a job that failed. In place."""

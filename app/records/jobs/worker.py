@@ -8,7 +8,7 @@ from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import asdict
 from datetime import datetime
-from typing import Any
+from typing import Any, Protocol
 
 from dbos import DBOS, DBOSConfig, EnqueueOptions, ScheduleInput, StepOptions
 from pydantic_core import to_json
@@ -22,8 +22,8 @@ from app.records.jobs.identity import Identity, take_identity
 from app.records.jobs.planning import PlanWork
 from app.records.jobs.queues import (
     APPLICATION, APPLICATION_VERSION, DIVIDED, EXPIRY_WORKFLOW, FORMER_WEBHOOKS, PLAN_WORKFLOW,
-    PLANS, SERIALIZER, STUDIES, STUDY_WORKFLOW, WAITING, WEBHOOK_WORKFLOW, WEBHOOKS,
-    webhook_options,
+    PLANS, SERIALIZER, STUDIES, STUDY_WORKFLOW, SUSPECTS, WAITING, WEBHOOK_WORKFLOW, WEBHOOKS,
+    Queues, webhook_options,
 )
 from app.records.jobs.replies import summary
 from app.records.jobs.slices import NOT_COMPUTED, Slice, Stopping
@@ -65,6 +65,19 @@ LOCKS = "workers"
 _ONE_PER_PROCESS = threading.Lock()
 
 
+class Work(Protocol):
+    """What is done for jobs of some kind."""
+
+    def holds(self, job_id: str) -> bool:
+        """Tell whether a job is worked on here."""
+
+    def advance(self, job_id: str) -> Slice:
+        """Work on a job for a slice, taking it first if need be. In place."""
+
+    def leave(self, job_id: str) -> None:
+        """Leave a job to others, by raising `Stopping`. In place."""
+
+
 class Worker:
     """Works on jobs from its start to its stop; DBOS is one per process, so workers are too.
 
@@ -72,8 +85,8 @@ class Worker:
     ----------
     settings
         Where the database is, what the process is called, and how many plans it makes at once.
-    store
-        Where jobs are kept.
+    store, queues
+        Where jobs are kept, and wait.
     plans, divided, studies
         What to do with plans, those by regions, and comparisons and sweeps.
     housekeeper
@@ -82,10 +95,13 @@ class Worker:
         What calls webhooks; None: none are called.
     """
 
-    def __init__(self, settings: Settings, store: JobStore, plans: PlanWork, divided: DividedWork,
-                 studies: StudyWork, housekeeper: Housekeeper, caller: Caller | None) -> None:
+    def __init__(self, settings: Settings, store: JobStore, queues: Queues, plans: PlanWork,
+                 divided: DividedWork, studies: StudyWork, housekeeper: Housekeeper,
+                 caller: Caller | None) -> None:
         self._settings = settings
         self._store = store
+        self._queues = queues
+        self._suspects: set[str] = set()  # that begin alone here
         self._plans = plans
         self._divided = divided
         self._studies = studies
@@ -148,6 +164,7 @@ class Worker:
                                       (WAITING, WAITING_AT_ONCE, PATIENT_POLLING),
                                       (DIVIDED, DIVIDED_AT_ONCE, PATIENT_POLLING)):
             DBOS.register_queue(queue, worker_concurrency=limit, polling_interval_sec=polling)
+        DBOS.register_queue(SUSPECTS, global_concurrency=1, polling_interval_sec=STUDY_POLLING)
         DBOS.register_queue(WEBHOOKS, worker_concurrency=WEBHOOKS_AT_ONCE,
                             partition_worker_concurrency=CALLS_OF_A_HOST,
                             polling_interval_sec=PATIENT_POLLING)
@@ -160,11 +177,11 @@ class Worker:
         # Attempts are counted in the jobs' own rows, where progress sets them back to none.
         @DBOS.workflow(name=PLAN_WORKFLOW, max_recovery_attempts=None)
         def plan_job(job_id: str) -> None:
-            self._work(job_id, self._advance_plan)
+            self._work(job_id, self._plan_work)
 
         @DBOS.workflow(name=STUDY_WORKFLOW, max_recovery_attempts=None)
         def study_job(job_id: str) -> None:
-            self._work(job_id, self._studies.advance)
+            self._work(job_id, lambda _: self._studies)
 
         @DBOS.workflow(name=WEBHOOK_WORKFLOW)
         def call_webhook(job_id: str, failures: int) -> None:
@@ -178,10 +195,10 @@ class Worker:
         return {"schedule_name": EXPIRY_WORKFLOW, "schedule": EXPIRY_TIMES,
                 "workflow_fn": expire_jobs}
 
-    def _work(self, job_id: str, advance: Callable[[str], Slice]) -> None:
+    def _work(self, job_id: str, work_on: Callable[[str], Work]) -> None:
         """Work on a job, slice by slice, each a checkpoint. In place."""
         def slice_of_work(job_id: str) -> dict[str, Any]:
-            return asdict(advance(job_id))
+            return asdict(self._advance(job_id, work_on(job_id)))
 
         slicing: StepOptions = {**self._step, "name": SLICE_STEP}
         try:
@@ -196,13 +213,37 @@ class Worker:
             self._studies.drop(job_id)
             self._store.finish(job_id, None, "failed", error=NOT_COMPUTED)
 
-    def _advance_plan(self, job_id: str) -> Slice:
-        """Work on a plan job for a slice, whole or by regions. In place."""
+    def _advance(self, job_id: str, work: Work) -> Slice:
+        """Work on a job for a slice; one that may have ended a process, alone. In place.
+
+        Raises
+        ------
+        Stopping
+            If it is to begin elsewhere, or this process ends.
+        """
+        if not work.holds(job_id):
+            self._suspects.discard(job_id)
+            row = self._store.find(job_id)
+            if row is not None and row.crashes > 0 and not row.is_over:
+                if not self._queues.is_in(job_id, SUSPECTS):
+                    self._queues.put(job_id, SUSPECTS)
+                    raise Stopping
+                self._suspects.add(job_id)
+        done = work.advance(job_id)
+        if job_id in self._suspects and work.holds(job_id):
+            row = self._store.find(job_id)
+            if row is not None and row.crashes == 0:
+                # It came further than what ended the process: others may begin.
+                work.leave(job_id)
+        return done
+
+    def _plan_work(self, job_id: str) -> Work:
+        """Return who works on a plan job: whole, or by regions."""
         is_divided = self._divided.holds(job_id)
         if not is_divided and not self._plans.holds(job_id):
             row = self._store.find(job_id)
             is_divided = row is not None and row.divided
-        return (self._divided if is_divided else self._plans).advance(job_id)
+        return self._divided if is_divided else self._plans
 
     def _call_webhook(self, job_id: str, failures: int) -> None:
         """Call a job's webhook, or enqueue a later call. In place."""

@@ -98,6 +98,11 @@ class Metrics:
         self._plans_refused = Counter(
             "tandem_plans_refused", "Plans found that broke a rule; others stood for them.",
             registry=self.registry)
+        self._deaths = Counter(
+            "tandem_process_deaths", "Processes that planned and ended unexpectedly, by what they "
+            "were doing.", ("during",), registry=self.registry)
+        for during in ("request", "job", "nothing"):
+            self._deaths.labels(during)
 
     def _add_jobs(self) -> None:
         self._submitted = Counter(
@@ -145,6 +150,10 @@ class Metrics:
         self.observe_stage("validate", times["loading"] / 1000)
         self.observe_stage("search", times["solving"] / 1000)
         self._unassigned.inc(len(reply["unassigned"]))
+
+    def count_death(self, during: str) -> None:
+        """Count a process that planned and died, by what it was doing."""
+        self._deaths.labels(during).inc()
 
     def observe_stage(self, stage: Stage, seconds: float) -> None:
         """Note how long a stage of planning took."""
@@ -199,6 +208,20 @@ class Metrics:
         if self._jobs is not None:
             readable.register(self._jobs)
         return readable
+
+
+def countable(reply: Mapping[str, Any]) -> dict[str, Any]:
+    """Return of a plan, told as its reply, what `count_plan` looks at."""
+    return {"status": reply["status"], "solver": reply["solver"],
+            "unassigned": [None] * len(reply["unassigned"]),
+            "routes": [{"trips": [{"load_rate": trip["load_rate"]} for trip in route["trips"]]}
+                       for route in reply["routes"]]}
+
+
+def countable_vroom(reply: Mapping[str, Any]) -> dict[str, Any]:
+    """Return of a plan of `POST /vroom`, told as its reply, what `count_vroom_plan` looks at."""
+    return {"summary": {"computing_times": reply["summary"]["computing_times"]},
+            "unassigned": [None] * len(reply["unassigned"])}
 
 
 class _JobCollector(Collector):

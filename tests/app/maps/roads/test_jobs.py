@@ -29,6 +29,7 @@ from tests.app.maps.roads.faults import Fault, proxied
 from tests.app.maps.roads.test_legs import DURATIONS, request
 from tests.app.maps.roads.test_serving import helsinki_request
 from tests.app.records.jobs.conftest import serving
+from tests.app.records.jobs.elsewhere import planned_by
 from tests.app.records.jobs.stepping import WHOLE, ended, read, submit
 from tests.conftest import eventually
 
@@ -50,8 +51,8 @@ class Office:
         self.queue: list[str] = []
         asking = Asking(lambda row: reader.plan_request(self.store, row), 1, roads)
         returning = Returning(*(partial(self._queued, where) for where in ("back", "off", "out")))
-        self.work = PlanWork(planner, self.store, asking, returning, lambda _: None,
-                             WHOLE)
+        self.work = PlanWork(planned_by(planner, settings, roads).begin, self.store, asking,
+                             returning, lambda _: None, WHOLE)
         stated = to_json(request(options={"time_limit": 5}))
         assert self.store.add([NewJob("j", "plan", "me", "f", stated)], lambda *_: None)
 

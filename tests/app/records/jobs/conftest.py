@@ -16,7 +16,7 @@ import uvicorn
 from sqlalchemy import create_engine, text
 
 from app.main import create_app
-from app.records.jobs import planning, studies, webhook
+from app.records.jobs import order, planning, studies, webhook
 from app.serving.settings import Settings
 from tests.app.records.jobs.stepping import SteppingPlanner
 from tests.conftest import eventually, free_port
@@ -123,7 +123,7 @@ def jobs(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
                         max_scenarios=8, drain_seconds=0,
                         webhook_secret="whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE=")
     with pytest.MonkeyPatch.context() as patch, serving(settings) as client:
-        for module in (planning, studies):
+        for module in (order, planning, studies):
             patch.setattr(module, "SLICE", 0.25)
         patch.setattr(webhook, "FIRST_WAIT", 0.25)
         yield client

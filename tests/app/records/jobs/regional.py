@@ -25,6 +25,7 @@ from model.planner import ALONE, Elapsed, Listener, PlanOptions, PlanResult
 from model.problem import Problem
 from model.search.improve import Progress
 from model.solution import Solution
+from tests.app.records.jobs.elsewhere import planned_by
 from tests.app.records.jobs.stepping import request_of
 
 NUM_CUSTOMERS = 12
@@ -94,7 +95,8 @@ class Office:
         reader = JobReader(self.planner.policies, self.settings)
         asking = Asking(lambda row: reader.plan_request(self.store, row), 1)
         returning = Returning(self.queue.append, self.queue.append, self.aside.append)
-        plans = PlanWork(self.planner, self.store, asking, returning, self.tell, TERMS)
+        begin = planned_by(self.planner, self.settings).begin
+        plans = PlanWork(begin, self.store, asking, returning, self.tell, TERMS)
         watching = DividedWork(self.store, asking, TERMS, self.add, self.stop_jobs, returning,
                                lambda job: job in self.aside, self.tell, self.clock)
         return plans, watching
@@ -106,7 +108,7 @@ class Office:
 
     def tell(self, reply: dict[str, Any]) -> None:
         """Hear of a plan."""
-        self.told.append(reply["cost"]["total"])
+        self.told.append(reply["solver"]["final_cost"])
 
     def stop_jobs(self, rows: Sequence[JobRow]) -> None:
         """Stop jobs as the service does."""

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from app.database.durable import connect
-from app.records.jobs import divided, planning, rounds
+from app.records.jobs import divided, order, planning, rounds
 from app.records.jobs.asked import Asking
 from app.records.jobs.errors import UnknownJobError
 from app.records.jobs.incumbent import Incumbent
@@ -34,7 +34,8 @@ pytestmark = pytest.mark.slow
 @pytest.fixture
 def office(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Office]:
     """Return an empty office, in which slices are short and time passes with each look."""
-    monkeypatch.setattr(planning, "SLICE", 0.1)
+    for module in (planning, order):
+        monkeypatch.setattr(module, "SLICE", 0.1)
     monkeypatch.setattr(divided, "SLICE", 0.02)
     monkeypatch.setattr(divided, "LOOKING", 0.01)
     monkeypatch.setattr(divided, "LAST_PATIENCE", 0.0)
@@ -206,7 +207,7 @@ def test_regions_are_seen_by_no_client(office: Office) -> None:
     watching.advance("job")
     reader = JobReader(office.planner.policies, office.settings)
     service = JobService(office.store, Queues(office.engine), reader, OpenLimits(1, 1),
-                         lambda _: None)
+                         lambda _: None, lambda *_: 1)
     with pytest.raises(UnknownJobError):
         service.find(office.queue[0], "me")
     assert [row.id for row in service.page("me", 10, None, None)] == ["job"]

@@ -11,9 +11,11 @@ from app.database.durable import connect
 from app.database.settings import DatabaseSettings
 from app.records.jobs.housekeeping import LOST, PATIENCE, Housekeeper
 from app.records.jobs.queues import Queues
+from app.records.jobs.reading import JobReader
 from app.records.jobs.rows import JobRow, NewJob, Standing
 from app.records.jobs.service import JobService, OpenLimits, Submission
 from app.records.jobs.store import JobStore
+from app.serving.settings import Settings
 
 pytestmark = pytest.mark.slow
 
@@ -147,8 +149,8 @@ def test_key_may_be_used_again_once_its_job_expired(
     def submit() -> tuple[JobRow, bool]:
         return service.submit(Submission("plan", b"{}", "me", "me", "key", None))
 
-    service = JobService(office.store, office.queues, OnePlan(), OpenLimits(10, 10),
-                         lambda _: None)
+    service = JobService(office.store, office.queues, JobReader((), Settings()), OpenLimits(10, 10),
+                         lambda _: None, lambda *_: 1)
     job, is_new = submit()
     assert is_new
     assert submit() == (job, False)
@@ -165,13 +167,6 @@ def test_key_may_be_used_again_once_its_job_expired(
     housekeeper.reconcile()
     assert office.row(again.id).state == "queued"
     assert office.queues.alive([again.id]) == {again.id}
-
-
-class OnePlan:
-    """A reader to whom every request is valid."""
-
-    def validate(self, *_: object) -> int:
-        return 1
 
 
 def test_queues_forget_what_ended_long_ago(office: Office) -> None:

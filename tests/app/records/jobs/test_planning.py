@@ -10,7 +10,7 @@ from pydantic_core import from_json, to_json
 from app.database.durable import connect
 from app.maps.roads.roads import Roads
 from app.plans.task import Task, task_of
-from app.records.jobs import asked, planning, running
+from app.records.jobs import asked, order, planning
 from app.records.jobs.asked import Asking
 from app.records.jobs.planning import PlanWork
 from app.records.jobs.reading import JobReader
@@ -23,7 +23,9 @@ from app.requests.conversion import travels
 from app.requests.conversion.preparing import Preparing
 from app.schemas.request import PlanRequest
 from app.serving.settings import Settings
+from tests.app.records.jobs.elsewhere import planned_by
 from tests.app.records.jobs.stepping import NUM_CUSTOMERS, WHOLE, SteppingPlanner, request_of
+from tests.conftest import eventually
 
 pytestmark = pytest.mark.slow
 
@@ -56,7 +58,8 @@ class Desk:
         reader = JobReader(planner.policies, self.settings)
         asking = Asking(lambda row: reader.plan_request(self.store, row), 1)
         returning = Returning(self.put_back.append, self.put_off.append, self.shared_out.append)
-        return PlanWork(planner, self.store, asking, returning, lambda _: None, WHOLE)
+        begin = planned_by(planner, self.settings).begin
+        return PlanWork(begin, self.store, asking, returning, lambda _: None, WHOLE)
 
     def row(self, job: str) -> JobRow:
         """Return a job."""
@@ -68,7 +71,8 @@ class Desk:
 @pytest.fixture
 def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Desk]:
     """Return an empty store, and have slices be short."""
-    monkeypatch.setattr(planning, "SLICE", 0.1)
+    for module in (planning, order):
+        monkeypatch.setattr(module, "SLICE", 0.1)
     settings = Settings(data_dir=tmp_path)
     engine = connect(settings.database)
     store = JobStore(engine, 1000, lambda *_: None, lambda *_: None)
@@ -237,7 +241,6 @@ def test_job_may_go_on_from_a_plan(desk: Desk) -> None:
 def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.MonkeyPatch,
                                               where: str) -> None:
     process, job = desk.process(), desk.job(seconds=60.0)
-    monkeypatch.setattr(running, "SLICE", 0.0)
 
     def cancel_meanwhile(request: PlanRequest, preparing: Preparing, roads: Roads) -> None:
         assert not preparing.should_stop()
@@ -245,10 +248,11 @@ def test_job_cancelled_before_its_search_ends(desk: Desk, monkeypatch: pytest.Mo
             process.cancel(job)
         else:
             desk.store.request_cancel([job])
+        eventually(preparing.should_stop)
         replace(preparing, began=-1e9).pause()
 
     monkeypatch.setattr(asked, "task_of", cancel_meanwhile)
-    assert process.advance(job).over
+    until(lambda: process.advance(job), lambda now: now.over)
     assert process.is_idle
     assert desk.row(job).state == "cancelled"
 
@@ -271,6 +275,7 @@ def test_job_that_has_not_begun_to_search_is_left_to_others(
 
     def stop_meanwhile(request: PlanRequest, preparing: Preparing, roads: Roads) -> None:
         process.stop()
+        eventually(preparing.should_stop)
         replace(preparing, began=-1e9).pause()
 
     monkeypatch.setattr(asked, "task_of", stop_meanwhile)
