@@ -104,6 +104,11 @@ class Service:
             self._process.send_signal(signal.SIGKILL)
             self._process.wait()
 
+    @property
+    def is_running(self) -> bool:
+        """Tell whether the process that was started last is there."""
+        return self._process is not None and self._process.poll() is None
+
     def _is_ready(self) -> bool:
         try:
             return self.client.get("/health/ready").status_code == 200

@@ -1,13 +1,14 @@
 """Plans before anybody waits for one."""
 
-from collections.abc import Callable
-from pathlib import Path
+from multiprocessing import Pipe
 
-import httpx
 import pytest
 
-import app.main
+from app.maps.roads.asked import KnownRoads
+from app.maps.roads.roads import NO_ROADS
+from app.plans import workplace
 from app.schemas.limits import DEFAULT_POLICY
+from app.serving.children.line import Line
 from app.serving.settings import Settings
 from model.planner import ALONE, Listener, PlanOptions, PlanResult
 from model.problem import Problem
@@ -28,13 +29,11 @@ class NotingPlanner(FirstFitPlanner):
         return super().plan(problem, options, received_at, listener, start)
 
 
-def test_service_has_planned_by_each_policy_when_it_is_ready(
-        serve: Callable[..., httpx.Client], monkeypatch: pytest.MonkeyPatch,
-        tmp_path: Path) -> None:
-    planner = NotingPlanner()
-    monkeypatch.setattr(app.main, "load_planner", lambda weights, names: planner)
-    client = serve(None, Settings(data_dir=tmp_path))
-    assert client.get("/health/live").status_code == 200
+def test_who_plans_has_planned_by_each_policy_before(monkeypatch: pytest.MonkeyPatch) -> None:
+    planner, (ours, theirs) = NotingPlanner(), Pipe()
+    monkeypatch.setattr(workplace, "load_planner", lambda weights, names: planner)
+    place = workplace.opened(Settings(), KnownRoads.of(NO_ROADS), Line(theirs))
+    assert place.service.planner is planner
     assert planner.asked == [*planner.policies]
-    # Nobody asked for them.
-    assert "tandem_plans_total{" not in client.get("/metrics").text
+    # Nobody asked for them, so they are not counted.
+    assert not ours.poll()

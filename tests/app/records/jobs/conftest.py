@@ -98,9 +98,9 @@ def settings(request: pytest.FixtureRequest, tmp_path: Path) -> Settings:
 
 
 @contextmanager
-def serving(settings: Settings) -> Iterator[httpx.Client]:
+def serving(settings: Settings, planner: SteppingPlanner | None = None) -> Iterator[httpx.Client]:
     """Serve on loopback and work on jobs in this process."""
-    server = uvicorn.Server(uvicorn.Config(create_app(settings, SteppingPlanner()),
+    server = uvicorn.Server(uvicorn.Config(create_app(settings, planner or SteppingPlanner()),
                                            log_config=None))
     with socket.create_server(("127.0.0.1", 0)) as listener:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
