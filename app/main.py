@@ -59,9 +59,8 @@ PACKAGE = "tandem-planner"
 
 RETRY_SECONDS = 5
 
-PRELOADED = ("app.plans.answers", "app.plans.flights.answering", "app.formats.vroom.answering",
-             "app.records.jobs.order")
-"""All that those need that plan."""
+READY_AT_START = 8
+"""How many get ready at the start at most; where there are many cores, others do when needed."""
 
 BESIDE = 2
 """How many may plan beside what settings count: jobs' requests are checked, suspects begin alone.
@@ -139,14 +138,14 @@ def _planning(settings: Settings, planner: Planner | None, roads: Roads,
     known = KnownRoads.of(roads)
     if planner is None:
         logs = log_config(settings.log_format, settings.log_level)
-        start = processes(partial(opened, settings, known), logs, PRELOADED)
+        start = processes(partial(opened, settings, known), logs)
     else:
         start = threads(partial(opened_with, planner, settings, known))
     at_once = settings.max_concurrent_plans if settings.role != "worker" else 0
     slots = settings.job_slots if settings.role != "api" else 0
     pool = Pool(start, at_once + slots + BESIDE, answers_of(roads), observer.metrics.count_death)
     try:
-        pool.warm(at_once or slots)
+        pool.warm(min(at_once or slots, READY_AT_START))
         yield PlanDesk(pool, settings.policies if planner is None else planner.policies,
                        Bounds.of_plans(settings), roads, observer.metrics, observer.record_plan)
     finally:

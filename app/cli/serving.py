@@ -13,9 +13,9 @@ from fastapi import FastAPI
 from app.cli.file_errors import EXIT_BAD_INPUT
 from app.cli.opening import roads_of
 from app.database.files import FolderError, check_folder
-from app.main import create_app
 from app.serving.access.setup import ExposedError, check_exposure
-from app.serving.load.memory import collect_seldom, keep_memory
+from app.serving.children.starting import have_server
+from app.serving.load.memory import collect_seldom, keep_memory, loading
 from app.serving.load.protocol import HttpProtocol
 from app.serving.observe.logs import log_config
 from app.serving.observe.metrics import MULTIPROCESS_DIR
@@ -64,7 +64,7 @@ def run_server(settings: Settings, host: str, port: int, workers: int) -> None:
     }
     if workers == 1:
         keep_memory()
-        uvicorn.run(create_app(settings), **options)
+        uvicorn.run(_application(settings), **options)
         return
     with _shared_by_workers(settings, workers):
         uvicorn.run("app.cli.serving:worker_app", factory=True, workers=workers,
@@ -75,7 +75,17 @@ def worker_app() -> FastAPI:
     """Return the application of one of several processes, which reads the environment."""
     keep_memory()
     collect_seldom()
-    return create_app()
+    return _application(Settings())
+
+
+def _application(settings: Settings) -> FastAPI:
+    """Return the application, imported while the server of those who plan imports what they need.
+    """
+    have_server()
+    with loading():
+        from app.main import create_app
+
+    return create_app(settings)
 
 
 @contextmanager

@@ -8,6 +8,7 @@ import sys
 import threading
 from collections.abc import Callable, Sequence
 from contextlib import suppress
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
@@ -23,23 +24,35 @@ KILLED_FIRST = 500
 """By how much sooner than others Linux ends a process that plans where memory lacks: of 1,000."""
 
 
-def processes(open_place: OpenPlace, logs: dict[str, Any],
-              preloaded: Sequence[str]) -> Callable[[], Child]:
-    """Return what starts a process that plans.
+PRELOADED = ("app.plans.answers", "app.plans.flights.answering", "app.formats.vroom.answering",
+             "app.records.jobs.order")
+"""All that those need that plan."""
 
-    They are forked from a server that has imported all they need, which is why they are there in
-    milliseconds and have most of their memory in common. That server has no threads and knows
-    nothing of this process, whose threads could not be forked.
+
+def have_server(preloaded: Sequence[str] = PRELOADED) -> None:
+    """Have a server begin to import what those need that plan, while this process goes on.
+
+    They are forked from it, which is why they are there in milliseconds and have most of their
+    memory in common. It has no threads and knows nothing of this process, whose threads could not
+    be forked.
+    """
+    multiprocessing.get_context("forkserver").set_forkserver_preload([*preloaded])
+    forkserver.ensure_running()
+
+
+def processes(open_place: OpenPlace, logs: dict[str, Any],
+              preloaded: Sequence[str] = PRELOADED) -> Callable[[], Child]:
+    """Return what starts a process that plans.
 
     Parameters
     ----------
     logs
         Configuration of loggers.
     preloaded
-        Modules that the server imports.
+        Modules that all of them need.
     """
+    have_server(preloaded)
     context = multiprocessing.get_context("forkserver")
-    context.set_forkserver_preload([*preloaded])
 
     def start() -> Child:
         ours, theirs = context.Pipe()
