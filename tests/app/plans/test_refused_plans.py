@@ -7,6 +7,8 @@ from typing import Any
 import httpx
 import pytest
 
+from app import main
+from app.serving.children.starting import threads
 from app.serving.settings import Settings
 from model import planner as planning
 from model.search import improve as searching
@@ -31,6 +33,8 @@ def careless(monkeypatch: pytest.MonkeyPatch) -> None:
         return replace(found, solution=replace(found.solution, routes=(again, *routes[1:])))
 
     monkeypatch.setattr(planning, "improve", twice)
+    # In this process, which alone is careless.
+    monkeypatch.setattr(main, "processes", lambda open_place, logs: threads(open_place))
 
 
 def refusals(client: httpx.Client) -> float:

@@ -9,6 +9,7 @@ from app.plans.workplace import opened_with
 from app.requests.bounds import Bounds
 from app.serving.children.pool import Pool
 from app.serving.children.starting import threads
+from app.serving.observe.metrics import Metrics
 from app.serving.settings import Settings
 from model.planner import Planner
 
@@ -19,4 +20,4 @@ def planned_by(planner: Planner, settings: Settings, roads: Roads = NO_ROADS) ->
     """Return who has plans made by a planner."""
     start = threads(partial(opened_with, planner, settings, KnownRoads.of(roads)))
     return PlanDesk(Pool(start, MOST, answers_of(roads)), planner.policies,
-                    Bounds.of_plans(settings), roads, lambda _: None, lambda _: None)
+                    Bounds.of_plans(settings), roads, Metrics("test"), lambda _: None)
