@@ -31,7 +31,7 @@ class NotingPlanner(FirstFitPlanner):
 
 def test_who_plans_has_planned_by_each_policy_before(monkeypatch: pytest.MonkeyPatch) -> None:
     planner, (ours, theirs) = NotingPlanner(), Pipe()
-    monkeypatch.setattr(workplace, "load_planner", lambda weights, names: planner)
+    monkeypatch.setattr(workplace, "load_planner", lambda *_: planner)
     place = workplace.opened(Settings(), KnownRoads.of(NO_ROADS), Line(theirs))
     assert place.service.planner is planner
     assert planner.asked == [*planner.policies]
