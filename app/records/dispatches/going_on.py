@@ -66,7 +66,8 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float,
     replan = {"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now}
     if broken or grounded:
         replan["unavailable"] = [*broken, *grounded]
-    replan["doubtful"] = [doubt.customer for doubt in doubtful if doubt.is_served]
+    replan["doubtful"] = [doubt.customer for doubt in doubtful
+                          if doubt.is_served and doubt.customer not in answers.served]
     return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed,
                         doubtful=doubtful)
 

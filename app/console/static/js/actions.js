@@ -37,30 +37,41 @@ export function editedTo({ request: former, past }, request) {
 
 /** Bring back the problem as it was before the last edit since it was opened. */
 export function undo() {
-  store.set(({ request, past, ahead }) =>
-    past.length
-      ? {
-          request: past[past.length - 1],
-          past: past.slice(0, -1),
-          ahead: [...ahead, request],
-          errors: [],
-        }
-      : {},
-  );
+  store.set((state) => {
+    const { request, past, ahead } = state;
+    if (!past.length) return {};
+    const before = {
+      request: past[past.length - 1],
+      past: past.slice(0, -1),
+      ahead: [...ahead, request],
+    };
+    return { ...before, errors: [], ...formerPlan(state, before) };
+  });
+}
+
+/** Return the plan to look at once a day that went on goes on no more: the last that lasts. */
+function formerPlan(state, { request, past, ahead }) {
+  const entry = shownPlan(state);
+  if (!entry?.request.replan || !ahead.includes(entry.request)) return {};
+  const lasting = new Set([...past, request]);
+  const former = state.plans.filter((other) => lasting.has(other.request)).pop();
+  return former ? { shown: former.number } : {};
 }
 
 /** Make the edit again that was undone last. */
 export function redo() {
-  store.set(({ request, past, ahead }) =>
-    ahead.length
-      ? {
-          request: ahead[ahead.length - 1],
-          past: [...past, request],
-          ahead: ahead.slice(0, -1),
-          errors: [],
-        }
-      : {},
-  );
+  store.set(({ request, past, ahead, plans }) => {
+    if (!ahead.length) return {};
+    const next = ahead[ahead.length - 1];
+    const made = next.replan && plans.filter((entry) => entry.request === next).pop();
+    return {
+      request: next,
+      past: [...past, request],
+      ahead: ahead.slice(0, -1),
+      errors: [],
+      ...(made && { shown: made.number }),
+    };
+  });
 }
 
 /**

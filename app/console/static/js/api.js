@@ -183,7 +183,12 @@ export const getDispatches = async () => (await json('dispatches')).dispatches;
 export const getDispatch = (id) => json(`dispatches/${id}`);
 
 /** Return what to plan on from, by what drivers told. */
-export const getGoingOn = (id) => json(`dispatches/${id}/replan`);
+export const getGoingOn = (id, answers) => {
+  const asked = Object.entries(answers ?? {}).flatMap(([name, value]) =>
+    [value].flat().map((each) => [name, String(each)]),
+  );
+  return json(`dispatches/${id}/replan?${new URLSearchParams(asked)}`);
+};
 
 /** End a plan's day. */
 export const endDispatch = (id) => json(`dispatches/${id}`, { method: 'DELETE' });

@@ -73,13 +73,20 @@ export function endDay() {
 /** Leave what is on the road alone, so that another plan can be sent out. */
 export function leaveDispatch() {
   sessionStorage.removeItem(KEPT);
-  store.set({ dispatch: null });
+  store.set({ dispatch: null, untold: null });
 }
 
-/** Plan on from what drivers told. */
-export function goOnFromDrivers() {
+/**
+ * Plan on from what drivers told.
+ *
+ * @param answers `{now, served, unserved}`: whom nobody told of; where they lack, they are asked
+ */
+export function goOnFromDrivers(answers) {
   return attempt(async () => {
-    const told = await api.getGoingOn(store.get().dispatch.reply.id);
+    const told = await api.getGoingOn(store.get().dispatch.reply.id, answers);
+    const isAsked = !answers && told.doubtful.length > 0;
+    store.set({ untold: isAsked ? told : null });
+    if (isAsked) return;
     const former = shownPlan(store.get())?.request;
     goOnWith((request) => goOnAsTold(request, told), former);
     openTab('replan');

@@ -2172,6 +2172,16 @@ export default {
     renew: 'Neuer Link',
     failed: 'Was gescheitert ist',
   },
+  untold: {
+    title: 'Wurden sie bedient?',
+    help:
+      'Nach dem Plan sind sie schon bedient, gemeldet hat es niemand. ' +
+      'Nehmen Sie den Haken bei allen weg, die es nicht sind.',
+    all: 'Alle',
+    served: '{{customer}}, geplant um {{at}}',
+    goOn: 'So weiter',
+    cancel: 'Abbrechen',
+  },
   standing: {
     sentOut: '{{day}}, gesendet {{when}}',
     revoked: 'widerrufen',

@@ -2121,6 +2121,14 @@ export default {
     renew: 'New link',
     failed: 'What failed',
   },
+  untold: {
+    title: 'Were they served?',
+    help: 'The plan has them as served by now, and nobody told. Untick whoever was not.',
+    all: 'All of them',
+    served: '{{customer}}, planned for {{at}}',
+    goOn: 'Go on so',
+    cancel: 'Cancel',
+  },
   standing: {
     sentOut: '{{day}}, sent out {{when}}',
     revoked: 'revoked',

@@ -18,6 +18,7 @@ import { html, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { printSheets } from './driver-sheets.js';
 import { Badge } from './parts.js';
+import { UntoldOrders } from './untold-orders.js';
 import { t } from '../texts.js';
 
 /** The tab. */
@@ -47,6 +48,7 @@ function Others() {
 
 function OnTheRoad({ dispatch }) {
   const request = useStore((state) => state.request);
+  const untold = useStore((state) => state.untold);
   const entry = useStore(shownPlan);
   const index = indexOf(entry);
   const vehicles = new Map(index?.vehicles.map((vehicle) => [vehicle.name, vehicle]));
@@ -55,7 +57,7 @@ function OnTheRoad({ dispatch }) {
   const isGeographic = entry?.request.coordinate_system === 'geographic';
   return html`<section class="section"><h3>${t('drivers.road')}</h3>
       <div class="buttons">
-        <button type="button" class="primary" onClick=${goOnFromDrivers}>
+        <button type="button" class="primary" onClick=${() => goOnFromDrivers()}>
           ${t('drivers.replan')}</button>
         <button type="button" disabled=${!index} onClick=${() =>
           printSheets(index.vehicles, settledOf(entry, request), isGeographic, links)}>
@@ -67,6 +69,7 @@ function OnTheRoad({ dispatch }) {
           : html`<button type="button" onClick=${leaveDispatch}>
             ${t('drivers.anew')}</button>`}
       </div>
+      ${untold && html`<${UntoldOrders} key=${untold.replan.freeze_before} told=${untold} />`}
       <ul class="links">${[...links.values()].map(
         (link) => html`<${Link} key=${link.id} link=${link}
           vehicle=${vehicles.get(link.vehicle)} />`,
