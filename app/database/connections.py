@@ -28,6 +28,11 @@ CONNECT_SECONDS = 5
 """How long PostgreSQL may take to accept a connection."""
 
 
+KEPT_OPEN = 20
+"""Connections that stay open: for all threads that wait for the database, as those beyond are
+opened anew each time, one after another."""
+
+
 class Purpose(Enum):
     """What one process does at a time, by the key of PostgreSQL's advisory lock for it.
 
@@ -67,12 +72,12 @@ def make_engine(settings: DatabaseSettings) -> Engine:
     if url.get_backend_name() == "sqlite":
         _keep_to_owner(Path(url.database or ""), is_ours=settings.url is None)
         file = DatabaseFile(Path(url.database or ""))
-        engine = create_engine(url, creator=file.connect)
+        engine = create_engine(url, creator=file.connect, pool_size=KEPT_OPEN)
         folder = Path(url.database or "").parent
         event.listen(engine, "connect", partial(_set_up_sqlite, folder))
         file.watch(engine)
         return engine
-    return create_engine(url, pool_pre_ping=True,
+    return create_engine(url, pool_pre_ping=True, pool_size=KEPT_OPEN,
                          connect_args={"connect_timeout": CONNECT_SECONDS})
 
 

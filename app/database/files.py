@@ -50,6 +50,26 @@ def file_of(engine: Engine) -> Identity:
     return _identity(Path(engine.url.database or ""))
 
 
+ROOM = 2**20
+"""Bytes that have to be free beside an engine's file, for what is written next."""
+
+
+def no_room(engine: Engine) -> str | None:
+    """Return in words why nothing more can be written beside an engine's file; None: it can."""
+    if engine.dialect.name != "sqlite":
+        return None
+    folder = Path(engine.url.database or "").absolute().parent
+    try:
+        with tempfile.TemporaryFile(dir=folder) as file:
+            # Full disks, quotas and limits of a process are all told by trying.
+            file.write(bytes(ROOM))
+            file.flush()
+    except OSError as error:
+        return (f"Nothing can be written to the database's folder ({error.strerror}): make room "
+                "on its disk.")
+    return None
+
+
 def why_unreachable(engine: Engine) -> str:
     """Return in words why a database isn't reached."""
     return ("The database can't be reached: try again soon." if file_of(engine) is not None

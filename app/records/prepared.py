@@ -7,11 +7,12 @@ from contextlib import suppress
 from functools import partial
 from typing import Annotated, TypeVar
 
+from anyio import to_thread
 from fastapi import Depends, Request
 from sqlalchemy import Engine
 from sqlalchemy.exc import SQLAlchemyError
 
-from app.database.files import GONE, Identity, file_of
+from app.database.files import GONE, Identity, file_of, no_room
 from app.database.migrations.running import SchemaError
 from app.records.threads import DatabaseThreads
 
@@ -67,7 +68,10 @@ class PreparedDatabase:
         return not self._has_tried.is_set()
 
     async def misfit(self) -> str | None:
-        """Return why the tables can't be used, if they were found not to fit, and still don't."""
+        """Return why the tables can't be used, if they were found not to fit, and still don't.
+
+        Or why nothing can be written.
+        """
         if not self.is_prepared:
             return self._misfit
         file = file_of(self._threads.engine)
@@ -76,7 +80,7 @@ class PreparedDatabase:
         if self._misfit is not None or file != self._file:
             await self._threads.run(self._look_at_tables, self._changed)
             self._file = file
-        return self._misfit
+        return self._misfit or await to_thread.run_sync(no_room, self._threads.engine)
 
     async def reach(self, work: Callable[[Engine], Result]) -> Result:
         """Do `work` in a thread, as the database has to be waited for.

@@ -4,9 +4,9 @@ from contextlib import closing
 from typing import Any
 
 import pytest
-from sqlalchemy import text
+from sqlalchemy import event, text
 
-from app.database.connections import close_for_good, make_engine
+from app.database.connections import KEPT_OPEN, close_for_good, make_engine
 from app.serving.settings import Settings
 
 
@@ -30,3 +30,14 @@ def test_connection_given_back_too_late_is_closed(settings: Settings, begun: str
     late.close()
     with pytest.raises(Exception, match="closed"):
         ask(driver)
+
+
+def test_connections_of_all_threads_stay_open(settings: Settings) -> None:
+    engine, opened = make_engine(settings.database), list[Any]()
+    event.listen(engine, "connect", lambda connection, _: opened.append(connection))
+    for _ in range(3):
+        connections = [engine.connect() for _ in range(KEPT_OPEN)]
+        for connection in connections:
+            connection.close()
+    assert len(opened) == KEPT_OPEN
+    engine.dispose()

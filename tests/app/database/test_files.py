@@ -1,6 +1,8 @@
 """SQLite's file under a running service: deleted, put back, replaced, or not to be written."""
 
-from collections.abc import Callable
+import resource
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -57,6 +59,26 @@ def test_nothing_is_accepted_once_the_file_is_gone(serve: Serve, tmp_path: Path)
     put_back()
     assert asked(client) == {"job": 202, "plan": 200, "ready": 200}
     assert len(client.get("/jobs").json()["jobs"]) == 2
+
+
+@contextmanager
+def short_files(most: int) -> Iterator[None]:
+    """Let no file of this process grow beyond so many bytes, as on a disk without room."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (most, before[1]))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+
+
+def test_a_disk_without_room_is_told(serve: Serve, tmp_path: Path) -> None:
+    client = ready(serve(FirstFitPlanner(), Settings(data_dir=tmp_path, role="api")))
+    with short_files(2**16):
+        told = client.get("/health/ready")
+    assert (told.status_code, told.json()["status"]) == (503, "unavailable")
+    assert "Nothing can be written to the database's folder" in told.json()["detail"]
+    assert client.get("/health/ready").status_code == 200
 
 
 def test_an_empty_file_in_its_place_is_told(serve: Serve, tmp_path: Path) -> None:
