@@ -18,8 +18,20 @@ const SCHEMAS = {
     type: 'object',
     properties: {
       plan_start: { type: 'string' },
+      breaks: { type: 'array', items: { $ref: '#/components/schemas/BreakInput' } },
       customers: { type: 'array', items: { $ref: '#/components/schemas/CustomerInput' } },
     },
+  },
+  BreakInput: {
+    type: 'object',
+    properties: {
+      start: { $ref: '#/components/schemas/BreakStartInput' },
+      after_departure: { type: 'boolean' },
+    },
+  },
+  BreakStartInput: {
+    type: 'object',
+    properties: { earliest: time('OpeningOrLength'), latest: optional('InstantOrLength') },
   },
   CustomerInput: {
     type: 'object',
@@ -55,6 +67,18 @@ test('instants are those that the service reads', () => {
   for (const [start, zone] of [['2026-05-04T06:00'], ['soon', 'UTC'], ['2026-05-04T06:00', 'X/Y']]) {
     assert.equal(day(start, zone), null);
   }
+});
+
+test('what counts from a departure is a length on any day', () => {
+  const breaks = [
+    { start: { latest: 'PT5H30M' }, after_departure: true },
+    { start: { latest: '06:00' }, after_departure: false },
+  ];
+  const request = { plan_start: '2026-05-04T05:00Z', breaks };
+  const read = inSeconds(SCHEMAS, request);
+  assert.deepEqual(read.breaks.map(({ start }) => start.latest), [5.5 * HOUR, HOUR]);
+  const moved = onDay(SCHEMAS, read, { plan_start: '2026-05-05T04:00Z' });
+  assert.deepEqual(moved.breaks.map(({ start }) => start.latest), [5.5 * HOUR, 2 * HOUR]);
 });
 
 test('instants are told by the day that is open', () => {

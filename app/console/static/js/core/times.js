@@ -5,34 +5,51 @@ import { hours, parseHours } from './format.js';
 import { getIn } from './paths.js';
 import { resolve } from './schema.js';
 
-const KINDS = { Instant: 'instant', Opening: 'opening', Duration: 'duration' };
+const KINDS = {
+  Instant: 'instant',
+  InstantOrLength: 'instant',
+  Opening: 'opening',
+  OpeningOrLength: 'opening',
+  Duration: 'duration',
+};
 
 /** What was found out of schemas, which each of many thousand customers asks for anew. */
-const kinds = new WeakMap();
+const titles = new WeakMap();
 const shapes = new WeakMap();
 
 /** Return `instant`, `opening` or `duration` if a schema is of one, else null. */
 export function timeKind(schema) {
-  if (!schema) return null;
-  if (!kinds.has(schema)) kinds.set(schema, kindOf(schema));
-  return kinds.get(schema);
+  return KINDS[titleOf(schema)] ?? null;
 }
 
-function kindOf(schema) {
-  const texts = (schema.anyOf ?? []).flatMap((one) => one.anyOf ?? [one]);
-  return KINDS[texts.find(({ type }) => type === 'string')?.title] ?? null;
+/** Likewise of what a request states at `keys`: what counts from a departure is a length. */
+export function timeKindAt(schema, request, keys) {
+  const mayBeLength = titleOf(schema)?.endsWith('OrLength');
+  return mayBeLength && getIn(request, [...keys.slice(0, -2), 'after_departure'])
+    ? 'duration'
+    : timeKind(schema);
+}
+
+function titleOf(schema) {
+  if (!schema) return undefined;
+  if (!titles.has(schema)) {
+    const texts = (schema.anyOf ?? []).flatMap((one) => one.anyOf ?? [one]);
+    titles.set(schema, texts.find(({ type }) => type === 'string')?.title);
+  }
+  return titles.get(schema);
 }
 
 /** Yield `{keys, kind, value}` of every instant and length that a request states. */
 export function* timesIn(schemas, request) {
-  yield* within(schemas, schemas.PlanRequest, request, []);
+  for (const { keys, schema, value } of within(schemas, schemas.PlanRequest, request, [])) {
+    yield { keys, kind: timeKindAt(schema, request, keys), value };
+  }
 }
 
 function* within(schemas, schema, value, keys) {
   if (value === null || value === undefined) return;
-  const kind = timeKind(schema);
-  if (kind) {
-    yield { keys, kind, value };
+  if (timeKind(schema)) {
+    yield { keys, schema, value };
   } else if (typeof value === 'object') {
     const found = shapeOf(schemas, schema, value);
     if (Array.isArray(value)) {

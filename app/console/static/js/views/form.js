@@ -9,7 +9,7 @@ import {
   wordLines, wordsOf,
 } from '../core/schema.js';
 import { needlessIn } from '../core/relations.js';
-import { durationText, readDuration, timeKind } from '../core/times.js';
+import { durationText, readDuration, timeKind, timeKindAt } from '../core/times.js';
 import { html, useLayoutEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { t } from '../texts.js';
@@ -68,7 +68,7 @@ export function Field({
       === keyOf(keys),
   );
   if (kind === 'other') return null;
-  const time = timeKind(schema);
+  const time = timeKindAt(schema, request, keys);
   const help = html`<${Help} id=${`${idOf(keys)}-help`} keys=${keys} schema=${found.schema}
     text=${helpOf(owner, name, found.schema)} />`;
   const shared = { name, keys, request, onChange, errors, schema: found.schema, choices, help };
