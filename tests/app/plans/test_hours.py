@@ -80,7 +80,7 @@ def test_who_would_leave_after_the_depot_closes_is_told(client: httpx.Client,
     (6000, {"max_duration": 600, "cost_per_hour": 1}, "fits if hub closed 47.5 minutes later")])
 def test_a_depot_is_named_once_by_how_much_suffices_there_and_back(
         client: httpx.Client, shift: int, overtime: Request | None, remedy: str) -> None:
-    request = {
+    request: Request = {
         "planar_unit": 1000,
         "depots": [{"id": "hub", "location": [0, 0], "time_window": {"latest": 3600}}],
         "customers": [{"id": "a", "location": [5, 0], "demand": [1],
