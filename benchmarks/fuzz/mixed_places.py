@@ -159,6 +159,12 @@ def fly_from_hubs(rng: random.Random, request: Data) -> None:
     if rng.random() < 0.3:
         request["fleet"][-1] |= {"energy": _battery(rng), "turnaround": {"charge_w": 200}}
         request["depots"][0]["chargers"] = rng.choice((0, 1, 1, 2))
+    elif rng.random() < 0.4:
+        request["depots"][0]["batteries"] = rng.choice((0, 1, 3))
+    if rng.random() < 0.5:
+        request["fleet"][-1]["reload_depots"] = [depot["id"] for depot in request["depots"]]
+    if rng.random() < 0.3:
+        request["fleet"][-1]["max_range"] = rng.choice((1000, 2500, 5000))
 
 
 def _battery(rng: random.Random) -> Data:

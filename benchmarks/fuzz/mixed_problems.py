@@ -112,7 +112,8 @@ def keep_driving_rules(rng: random.Random, request: Data) -> None:
              "break_duration": rng.choice((300, 900)),
              "split": rng.choice((None, [120, 300], [300, 600])),
              "max_driving_per_day": rng.choice((None, 5400, 9000)),
-             "max_work_before_break": rng.choice((None, 3600)),
+             "max_work_before_break": rng.choice((None, 2700, 3600)),
+             "other_work_interrupts": rng.random() < 0.3,
              "driven_before": rng.choice((0, 300)), "while_drones_fly": rng.random() < 0.8}))
 
 
