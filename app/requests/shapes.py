@@ -34,6 +34,12 @@ class LooseList(Loose):
     """An array of that."""
 
 
+class LooseMap(Loose):
+    """An object of that, with few entries."""
+
+    most: int
+
+
 class Row:
     """An array of numbers, of which there may be very many: each is read, looked at and let go."""
 
@@ -73,7 +79,12 @@ def _look_at(kind: type, value: object) -> object:
             raise ValueError(str(error).partition(" - at ")[0]) from None
     elif kind is LooseList and not isinstance(value, list):
         raise ValueError("Expected `array`")
-    elif isinstance(value, dict | list) and _size(value) > MAX_LOOSE:
+    elif issubclass(kind, LooseMap):
+        if not isinstance(value, dict):
+            raise ValueError("Expected `object`")
+        if len(value) > kind.most:
+            raise ValueError(f"Expected `object` of length <= {kind.most}")
+    if issubclass(kind, Loose) and isinstance(value, dict | list) and _size(value) > MAX_LOOSE:
         raise ValueError(f"There are more than {MAX_LOOSE} values")
     return kind()
 
@@ -126,7 +137,7 @@ class _Builder:
                        if ("number" if each["type"] in _NUMBERS else each["type"]) == kind]
             if of_kind:
                 parts.append(getattr(self, f"_{kind}")(of_kind))
-        if Loose in parts or (LooseList in parts and len(set(parts) - {None}) > 1):
+        if Loose in parts or (len(set(parts) - {None}) > 1 and any(map(_is_loose, parts))):
             return Loose
         if len(set(parts) - {None}) > 1:
             # To msgspec, rows are something of their own, which may be that or nothing.
@@ -146,10 +157,12 @@ class _Builder:
         free = [each.get("additionalProperties", True) for each in some]
         if not fields:
             entries = [each for each in free if isinstance(each, Mapping)]
-            most = [each.get("maxProperties") for each in some]
+            most = _largest([each.get("maxProperties") for each in some])
             entry = self.shape({"anyOf": entries}) if len(entries) == len(free) else Loose
+            if entry is Loose and most is not None:
+                return type("FewEntries", (LooseMap,), {"most": most})
             return Annotated[dict[str, entry],  # type: ignore[valid-type]
-                             Meta(max_length=_largest(most))]
+                             Meta(max_length=most)]
         required = frozenset.intersection(*(frozenset(each.get("required", ())) for each in some))
         return self._struct({name: self.shape({"anyOf": inner}) for name, inner in fields.items()},
                             required, closed=not any(free))
@@ -200,6 +213,10 @@ class _Builder:
 
     def _null(self, _: list[Schema]) -> Any:
         return None
+
+
+def _is_loose(part: Any) -> bool:
+    return isinstance(part, type) and issubclass(part, Loose)
 
 
 def _is_row(part: Any) -> bool:

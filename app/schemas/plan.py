@@ -42,7 +42,10 @@ Loads = Annotated[
 VISIT_KIND_TEXT = "`pickup`, `delivery`: of a shipment. Left out where it is a customer."
 Line = Annotated[str | None, Field(
     description="Encoded polyline, which pictures draw where it leads from place to place.")]
-Details = Annotated[dict[str, Any] | None, Field(description=NOT_READ)]
+MAX_DETAILS = 1000
+"""Most entries of an object that is not read."""
+
+Details = Annotated[dict[str, Any] | None, Field(max_length=MAX_DETAILS, description=NOT_READ)]
 
 
 class _Plan(BaseModel):
