@@ -40,9 +40,26 @@ def crowded_request(rng: random.Random) -> Data:
             add_launch_sites(rng, request)
     else:
         request = wild_request(rng, number, tables=number <= WITH_TABLES)
+    _mend(request)
     _leave_few_vehicles(rng, request)
     request["options"] |= {"time_limit": rng.choice((0.05, 0.1, 0.3)), "search_iterations": None}
     return request
+
+
+def _mend(request: Data) -> None:
+    """Take out what is wrong of few customers, but of nearly all crowds. In place."""
+    request.get("fairness", {}).pop("min_vehicles", None)
+    for customer in request["customers"]:
+        for name in {"demand", "pickup"} & customer.keys():
+            customer[name] = [min(1000, round(amount)) for amount in customer[name]]
+        for place in (customer, *customer.get("alternatives", ())):
+            windows = place.get("time_windows") or [place.get("time_window", {})]
+            times = [time for window in windows
+                     for time in (window.get("earliest", 0), window.get("latest"))
+                     if time is not None]
+            if times != sorted(times):
+                place.pop("time_windows", None)
+                place.pop("time_window", None)
 
 
 def _leave_few_vehicles(rng: random.Random, request: Data) -> None:
