@@ -241,6 +241,17 @@ def test_page_is_small_and_is_kept_whole() -> None:
             and f"'{path.relative_to(STATIC).as_posix()}'" not in worker] == []
 
 
+def replan_as_told(page: Page) -> None:
+    """Go on from what drivers told, and from the plan for whom nobody told by this time of day."""
+    page.get_by_role("button", name="Replan from what drivers told").click()
+    asked = page.get_by_role("button", name="Go on so")  # of whom nobody told by this time of day
+    going_on = page.get_by_role("heading", name="Go on from the plan that came")
+    expect(asked.or_(going_on)).to_be_visible()
+    if asked.is_visible():
+        asked.click()
+    expect(going_on).to_be_visible()
+
+
 def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
     open_example(page, "drones")
     open_tab(page, "drivers")
@@ -274,13 +285,7 @@ def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
     open_tab(page, "drivers")
     page.get_by_role("button", name="to their phones").click()
     expect(page.get_by_role("button", name="to their phones")).to_have_count(0)
-    page.get_by_role("button", name="Replan from what drivers told").click()
-    asked = page.get_by_role("button", name="Go on so")  # of whom nobody told by this time of day
-    going_on = page.get_by_role("heading", name="Go on from the plan that came")
-    expect(asked.or_(going_on)).to_be_visible()
-    if asked.is_visible():
-        asked.click()
-    expect(going_on).to_be_visible()
+    replan_as_told(page)
     open_tab(page, "drivers")
     card.get_by_role("button", name="Revoke").click()
     expect(card).to_contain_text("revoked")
