@@ -59,6 +59,55 @@ def test_zones_of_a_file_are_seen_planned_around_and_told(page: Page) -> None:
     assert state(page, "state.request.airspace.zones") == []
 
 
+DRAWN = """() => [...document.querySelectorAll('.leaflet-overlay-pane canvas')].map((canvas) => {
+  const copy = Object.assign(document.createElement('canvas'),
+    { width: canvas.width, height: canvas.height });
+  const context = copy.getContext('2d', { willReadFrequently: true });
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, copy.width, copy.height);
+  return data.filter((value, at) => at % 4 === 3 && value > 0).length;
+}).reduce((sum, count) => sum + count, 0)"""
+
+
+def drawn(page: Page, buffer: str) -> int:
+    """Return how many pixels the map draws on with a distance that flights keep."""
+    page.get_by_label("Distance kept").fill(buffer)
+    page.keyboard.press("Tab")
+    page.evaluate("async () => { for (let frames = 3; frames; frames -= 1) await new Promise("
+                  "requestAnimationFrame); }")
+    return int(page.evaluate(DRAWN))
+
+
+def test_flights_keep_a_distance_that_is_proposed_stated_and_drawn(page: Page) -> None:
+    open_example(page, "city_day")
+    customer = state(page, "state.request.customers.0")
+    longitude, latitude = customer["location"]
+    open_file(page, "zones.json", zones(longitude + 350 / 1000 / DEGREE_KM / 0.497, latitude))
+    assert state(page, "state.request.airspace.buffer") == 30
+    open_tab(page, "fleet")
+    widths = [drawn(page, buffer) for buffer in ("0", "100", "800")]
+    assert widths == sorted(set(widths))
+    page.get_by_label("Distance kept").fill("120")
+    page.keyboard.press("Tab")
+    assert state(page, "state.request.airspace.buffer") == 120
+    page.evaluate("""async () => {
+      const { edit } = await loaded(`actions.js`);
+      edit((request) => ({ ...request, customers: request.customers.map((customer) =>
+        ({ ...customer, served_by: 'drone' })).slice(0, 1) }));
+    }""")
+    page.get_by_role("button", name="Plan", exact=True).click()
+    planned(page, "0 of 1 served")
+    open_tab(page, "unassigned")
+    panel = page.locator(".panel")
+    expect(panel).to_contain_text("m from the zone Harbour (FIN1)")
+    expect(panel).to_contain_text("Flights keep 120 m from it")
+    open_tab(page, "fleet")
+    page.get_by_label("Distance kept").fill("")
+    page.keyboard.press("Tab")
+    page.get_by_role("button", name="Keep 30 m away").click()
+    assert state(page, "state.request.airspace.buffer") == 30
+
+
 def beside_hub(east_km: float, north_km: float) -> list[float]:
     """Return a place so far from the hub."""
     return [HUB[0] + east_km / DEGREE_KM / math.cos(math.radians(HUB[1])),

@@ -3,6 +3,7 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
+import { setArea } from '../../../app/console/static/js/core/changes.js';
 import {
   addZones, countZones, zoneAreas, zonesOf, zonesOfKml,
 } from '../../../app/console/static/js/core/zones.js';
@@ -80,6 +81,17 @@ test('zones are added beside others', () => {
   assert.deepEqual(two.airspace.wind, {});
 });
 
+test('flights keep 30 m from the first area or zone on the globe, unless it is stated', () => {
+  const globe = { coordinate_system: 'geographic' };
+  assert.equal(addZones(globe, zonesOf(ED269)).airspace.buffer, 30);
+  assert.equal(addZones({ ...globe, airspace: { buffer: 0 } }, zonesOf(ED269)).airspace.buffer, 0);
+  const ring = [[24, 60], [25, 60], [25, 61]];
+  assert.equal(setArea(globe, ring).airspace.buffer, 30);
+  assert.equal(setArea({ airspace: {} }, ring).airspace.buffer, undefined);
+  const stated = { ...globe, airspace: { no_fly: [ring] } };
+  assert.equal(setArea(stated, ring, 0).airspace.buffer, undefined);
+});
+
 const AGL = (value) => ({ value, unit: 'M', reference: 'AGL' });
 
 test('areas have names, limits and authorities', () => {
@@ -108,6 +120,12 @@ test('zones are told with what they ask for, where they reach and whose they are
   assert.equal(closureInWords({ ...unlimited, authority: null, name: null, holds: 'way' }),
     'No flight leads there from the depot around the zone FIN1, where flying is prohibited '
     + 'from an unstated height up.');
+  const near = { ...unlimited, authority: 'Port', name: null, holds: 'customer' };
+  assert.equal(closureInWords({ ...near, metres: 12, buffer: 30 }),
+    'It lies 12 m from the zone FIN1, where flying is prohibited from an unstated height up. '
+    + 'Its authority: Port. Flights keep 30 m from it.');
+  assert.match(zoneInWords({ ...near, times: [{ begin: 3600, end: 7200 }] }),
+    /It is closed from .*1:00.* to .*2:00.*\.$/);
 });
 
 test('areas of plain GeoJSON and KML are drawn', () => {

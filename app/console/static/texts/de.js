@@ -525,6 +525,7 @@ export default {
     other: {
       areas: 'andere Flugverbotszonen',
       wind: 'anderer Wind',
+      buffer: 'anderer Abstand zu Zonen',
       depots: 'andere Depots',
       matrices: 'andere Matrizen',
       drones: 'andere Drohnen',
@@ -632,10 +633,16 @@ export default {
     unnamed: 'ohne Namen',
     told: 'der Zone {{title}}: {{asks}}, {{reach}}.',
     authority: 'Zuständig: {{authority}}.',
+    closed: 'Sie ist von {{begin}} bis {{end}} geschlossen.',
+    closedFrom: 'Sie ist ab {{begin}} geschlossen.',
     holds: {
       customer: 'Der Ort liegt in {{zone}}',
       depot: 'Das Depot liegt in {{zone}}',
       way: 'Vom Depot führt kein Flug dorthin, vorbei an {{zone}}',
+    },
+    beside: {
+      customer: 'Der Ort liegt {{metres}} m von {{zone}} Flüge halten {{buffer}} m Abstand.',
+      depot: 'Das Depot liegt {{metres}} m von {{zone}} Flüge halten {{buffer}} m Abstand.',
     },
     asks: {
       PROHIBITED: 'Fliegen ist verboten',
@@ -1175,6 +1182,8 @@ export default {
     zones: 'Veröffentlichte Zonen',
     no_fly: 'Flugverbotszonen',
     wind: 'Wind',
+    airspace: 'Abstand zu Gebieten und Zonen',
+    buffer: 'Abstand',
     freeze_before: 'Jetzt',
     parcels_back: 'Pakete zurück',
     pin_all: 'Alle festgehalten',
@@ -1515,6 +1524,9 @@ export default {
       down_w: 'Leistung im Sinkflug, leer.',
       down_w_per_kg: 'Mehr davon je kg an Bord.',
     },
+    AirspaceInput: {
+      buffer: 'Wie weit Flüge von Flugverbotsgebieten und Zonen wegbleiben. Leer: sie dürfen daran entlang.',
+    },
     WindInput: {
       speed_kmh: 'Windgeschwindigkeit.',
       direction_deg: 'Woher der Wind kommt, im Uhrzeigersinn ab Norden: 90 ist Osten.',
@@ -1812,7 +1824,8 @@ export default {
       'Die Hälfte der Wege einer Tabelle hätte ein unwahrscheinliches Tempo: Prüfen ' +
       'Sie die Einheiten.',
     VEHICLE: 'Kein Fahrzeug dieses Typs darf ihn bedienen.',
-    AIRSPACE: 'Es liegt in einer Zone oder hinter einer, durch die Drohnen nicht fliegen dürfen.',
+    AIRSPACE:
+      'Es liegt in einer Zone, zu nah an einer oder hinter einer, durch die Drohnen nicht fliegen dürfen.',
     CAPACITY: 'Die Ladekapazität reicht nicht.',
     PAYLOAD: 'Für eine Drohne ist es zu viel.',
     TIME_WINDOW: 'Das Zeitfenster wird verpasst.',
@@ -2020,6 +2033,7 @@ export default {
     zones_one: 'Datei {{number}}: {{count}} Zone ({{format}})',
     zones_other: 'Datei {{number}}: {{count}} Zonen ({{format}})',
     removeZones: 'Datei {{number}} entfernen',
+    keepAway: '{{count}} m Abstand halten',
     dropZones: 'Ziehen Sie eine Datei auf die Seite: ED-269, ED-318, GeoJSON oder KML.',
     moveAreas: 'Ecken werden auf der Karte verschoben: „Zeichnen“, dann „Verschieben“.',
     drawAreas: 'Keine. Sie werden auf der Karte gezeichnet: „Zeichnen“, dann „Flugverbotszone“.',
@@ -2250,6 +2264,7 @@ export default {
     droneCapacity: 'passt, wenn die Nutzlast der Drohne mindestens {{number}} wäre',
     pickups: 'passt, wenn {{name}} jederzeit abholen darf',
     wind: 'passt ohne Grenze für den Wind',
+    buffer: 'liegt weit genug weg, wenn Flüge {{number}} m Abstand zu Zonen halten',
     range: 'passt, wenn Kunden {{number}} km weiter entfernt liegen dürften',
     endurance: 'passt, wenn die Flugdauer {{time}} länger wäre',
     battery: 'passt mit einem um {{number}} Wh größeren Akku',

@@ -511,6 +511,7 @@ export default {
     other: {
       areas: 'other no-fly areas',
       wind: 'other wind',
+      buffer: 'another distance to zones',
       depots: 'other depots',
       matrices: 'other matrices',
       drones: 'other drones',
@@ -618,10 +619,16 @@ export default {
     unnamed: 'without a name',
     told: 'the zone {{title}}, where {{asks}} {{reach}}.',
     authority: 'Its authority: {{authority}}.',
+    closed: 'It is closed from {{begin}} to {{end}}.',
+    closedFrom: 'It is closed from {{begin}} on.',
     holds: {
       customer: 'It lies in {{zone}}',
       depot: 'The depot lies in {{zone}}',
       way: 'No flight leads there from the depot around {{zone}}',
+    },
+    beside: {
+      customer: 'It lies {{metres}} m from {{zone}} Flights keep {{buffer}} m from it.',
+      depot: 'The depot lies {{metres}} m from {{zone}} Flights keep {{buffer}} m from it.',
     },
     asks: {
       PROHIBITED: 'flying is prohibited',
@@ -1161,6 +1168,8 @@ export default {
     zones: 'Zones as published',
     no_fly: 'No-fly areas',
     wind: 'Wind',
+    airspace: 'Distance to areas and zones',
+    buffer: 'Distance kept',
     freeze_before: 'Now',
     parcels_back: 'Parcels back',
     pin_all: 'All pinned',
@@ -1493,6 +1502,9 @@ export default {
       down_w: 'Power of the descent, empty.',
       down_w_per_kg: 'More of it for each kg aboard.',
     },
+    AirspaceInput: {
+      buffer: 'How far flights keep from no-fly areas and zones. Empty: they may pass along them.',
+    },
     WindInput: {
       speed_kmh: 'Speed of the wind.',
       direction_deg: 'Where the wind comes from, clockwise from north: 90 is east.',
@@ -1766,7 +1778,7 @@ export default {
     SPEED_UNLIKELY: 'Hardly any vehicle is this slow or fast.',
     MATRIX_UNITS: 'Half of the legs in a table are driven at an unlikely speed: check its units.',
     VEHICLE: 'No vehicle of this type may serve it.',
-    AIRSPACE: 'It lies in a zone, or behind one, that drones may not fly through.',
+    AIRSPACE: 'It lies in a zone, too near to one, or behind one, that drones may not fly through.',
     CAPACITY: 'It holds too little.',
     PAYLOAD: 'It is too much for a drone.',
     TIME_WINDOW: 'The window is missed.',
@@ -1973,6 +1985,7 @@ export default {
     zones_one: 'File {{number}}: {{count}} zone ({{format}})',
     zones_other: 'File {{number}}: {{count}} zones ({{format}})',
     removeZones: 'Remove file {{number}}',
+    keepAway: 'Keep {{count}} m away',
     dropZones: 'Drop a file onto the page: ED-269, ED-318, GeoJSON or KML.',
     moveAreas: 'Corners are moved on the map: Draw, then Move.',
     drawAreas: 'None. They are drawn on the map: Draw, then No-fly area.',
@@ -2195,6 +2208,7 @@ export default {
     droneCapacity: 'fits if the drone capacity were at least {{number}}',
     pickups: 'fits if {{name}} may pick up at any time',
     wind: 'fits without a limit of the wind',
+    buffer: 'lies far enough away if flights keep {{number}} m from zones',
     range: 'fits if customers could lie {{number}} km farther away',
     endurance: 'fits if endurance were {{time}} longer',
     battery: 'fits with a battery of {{number}} Wh more',

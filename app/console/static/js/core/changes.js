@@ -5,6 +5,7 @@ import { removeIn, setIn } from './paths.js';
 import { assumedDrones } from './presets.js';
 import { windowsOf, withWindows } from './windows.js';
 import { withoutNamed } from './relations.js';
+import { proposed } from './zones.js';
 
 const DECIMALS = { planar: 3, geographic: 6 };
 
@@ -135,11 +136,9 @@ export function moveCustomer(request, id, location) {
 /** Add a no-fly area, or replace the one at a position. */
 export function setArea(request, ring, position = request.airspace?.no_fly?.length ?? 0) {
   const corners = ring.map((corner) => rounded(request, corner));
-  return setIn(
-    request,
-    ['airspace', 'no_fly'],
-    setIn(request.airspace?.no_fly ?? [], [position], corners),
-  );
+  const rings = request.airspace?.no_fly ?? [];
+  const changed = setIn(request, ['airspace', 'no_fly'], setIn(rings, [position], corners));
+  return position < rings.length ? changed : proposed(changed);
 }
 
 /** Remove the no-fly areas at a point. */

@@ -17,6 +17,7 @@ const LARGEST_WORD = 6;
 const SECTIONS = {
   'airspace.no_fly': 'areas',
   'airspace.wind': 'wind',
+  'airspace.buffer': 'buffer',
   depots: 'depots',
   matrices: 'matrices',
 };

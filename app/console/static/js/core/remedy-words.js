@@ -26,6 +26,7 @@ const SAID = [
   ['endurance', `fits if endurance(?: of .+)? were ${TIME} longer`],
   ['range', `fits if max_range(?: of .+)? were ${NUMBER} km longer`],
   ['wind', 'fits without max_wind_kmh(?: of .+)?'],
+  ['buffer', `lies far enough away with airspace.buffer ${NUMBER}`],
   ['battery', `fits with a battery(?: of .+)? of ${NUMBER} Wh more`],
   ['km', `fits if trips could be ${NUMBER} km longer`],
   ['lastWindow', `fits if its last window closed ${TIME} later`],

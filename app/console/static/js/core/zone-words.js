@@ -1,6 +1,6 @@
 /** Published zones of the airspace in words: what they ask for, where they reach, and whose. */
 
-import { number } from './format.js';
+import { clock, number } from './format.js';
 import { t } from '../texts.js';
 
 /** Return what a zone is called. */
@@ -28,7 +28,10 @@ export function reachOf({ lower, upper }) {
 
 /** Return why a zone keeps drones away, as the service's reply tells it. */
 export function closureInWords(zone) {
-  return t(`zone.holds.${zone.holds}`, { zone: zoneInWords(zone) });
+  const { holds, metres, buffer } = zone;
+  return t(`zone.${metres ? 'beside' : 'holds'}.${holds}`, {
+    zone: zoneInWords(zone), metres: number(metres ?? 0), buffer: number(buffer ?? 0),
+  });
 }
 
 /** Return all that is told of a zone. */
@@ -36,7 +39,13 @@ export function zoneInWords(zone) {
   const told = t('zone.told', {
     title: titleOfZone(zone), asks: asksOf(zone), reach: reachOf(zone),
   });
-  return zone.authority ? `${told} ${t('zone.authority', { authority: zone.authority })}` : told;
+  const whose = zone.authority ? t('zone.authority', { authority: zone.authority }) : '';
+  const closed = (zone.times ?? []).map(({ begin, end }) =>
+    end === null
+      ? t('zone.closedFrom', { begin: clock(begin) })
+      : t('zone.closed', { begin: clock(begin), end: clock(end) }),
+  );
+  return [told, whose, ...closed].filter(Boolean).join(' ');
 }
 
 function kindOf({ value, reference }) {

@@ -44,9 +44,25 @@ export function zonesOfKml(text) {
   return marks.some(isArea) && !marks.some(isPlace) ? { format: 'kml', data: text } : null;
 }
 
+/** Metres that flights keep from areas and zones, unless somebody says otherwise. */
+export const PROPOSED_BUFFER_M = 30;
+
+/** Return a request in which flights keep the distance that is proposed. */
+export function withBuffer(request) {
+  return setIn(request, ['airspace', 'buffer'], PROPOSED_BUFFER_M);
+}
+
+/** Return a request with the proposed distance, unless it states one or lies on a plane. */
+export function proposed(request) {
+  const { coordinate_system: system, airspace } = request;
+  const isOpen = system === 'geographic' && airspace?.buffer === undefined;
+  return isOpen ? withBuffer(request) : request;
+}
+
 /** Return a request with more zones. */
 export function addZones(request, stated) {
-  return setIn(request, ['airspace', 'zones'], [...(request.airspace?.zones ?? []), stated]);
+  const more = setIn(request, ['airspace', 'zones'], [...(request.airspace?.zones ?? []), stated]);
+  return proposed(more);
 }
 
 const drawn = new WeakMap();

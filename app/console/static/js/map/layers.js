@@ -182,6 +182,45 @@ export function labelIcon(className, text, style = {}) {
   return L.divIcon({ className: `map-label ${className}`, html: element, iconSize: null });
 }
 
+/** A line as wide as twice a distance on the ground: what flights keep from a polygon's edge. */
+const Band = L.Polygon.extend({
+  _project() {
+    const { lat, lng } = this.getBounds().getCenter();
+    const y = (latitude) => this._map.latLngToLayerPoint([latitude, lng]).y;
+    this.options.weight = 2 * Math.abs(y(lat + this.options.reach) - y(lat));
+    L.Polygon.prototype._project.call(this);
+  },
+});
+
+const METRES_PER_DEGREE = 111195;
+
+/** Return what flights keep clear of around areas and zones, as shapes; none without a buffer. */
+export function bufferShapes(request, dark) {
+  const { no_fly: areas = [], buffer = 0 } = request.airspace ?? {};
+  if (!(buffer > 0)) return [];
+  const isGeographic = request.coordinate_system === 'geographic';
+  const reach = buffer / (isGeographic ? METRES_PER_DEGREE : request.planar_unit ?? 1);
+  const color = dark ? '#ff9d94' : '#a8321f';
+  const around = {
+    color, reach, opacity: 0.15, lineJoin: 'round', fill: false, interactive: false,
+  };
+  const band = (rings) => new Band(rings.map((ring) => ring.map(latLng)), around);
+  return [
+    ...areas.map((ring) => band([ring])),
+    ...zoneAreas(request).map(({ rings, center, radius }) =>
+      rings
+        ? band(rings)
+        : L.circle(latLng(center), {
+          radius: radius + buffer,
+          stroke: false,
+          fillColor: color,
+          fillOpacity: 0.15,
+          interactive: false,
+        }),
+    ),
+  ];
+}
+
 /** Return the no-fly areas' shapes, in the order of the request. */
 export function noFlyShapes(request, dark) {
   const colour = dark ? '#ff9d94' : '#a8321f';

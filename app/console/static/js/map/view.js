@@ -7,6 +7,7 @@ import { standsOf } from '../core/stands.js';
 import { visitsOf } from '../core/visits.js';
 import { leaflet } from '../libraries.js';
 import {
+  bufferShapes,
   customerMarks,
   doubtMarks,
   labelIcon,
@@ -135,7 +136,10 @@ export class MapView {
     Object.assign(this, { request, index, dark });
     [this.areas, this.shapes, this.labels, this.numbers].forEach((group) => group.clearLayers());
     this.noFly = noFlyShapes(request, dark);
-    [...zoneShapes(request, dark), ...this.noFly].forEach((shape) => this.areas.addLayer(shape));
+    this.buffers = bufferShapes(request, dark);
+    [...this.buffers, ...zoneShapes(request, dark), ...this.noFly].forEach((shape) =>
+      this.areas.addLayer(shape),
+    );
     const lines = index ? planLines(index, parts, dark) : [];
     this.entries = [...lines, ...customerMarks(request, index, parts, dark)];
     this.byKey = new Map();

@@ -5,7 +5,7 @@ import { freeName } from '../core/changes.js';
 import { droneCount, needlessFields } from '../core/drones.js';
 import { amounts } from '../core/format.js';
 import { removeIn } from '../core/paths.js';
-import { countZones } from '../core/zones.js';
+import { countZones, PROPOSED_BUFFER_M, withBuffer } from '../core/zones.js';
 import { html, useEffect, useState } from '../libraries.js';
 import { useStore } from '../store.js';
 import { Field, Fields } from './form.js';
@@ -75,6 +75,7 @@ export function FleetTab() {
       )}
       <p class="help">${t('fleet.dropZones')}</p>
     </fieldset>
+    <${Buffer} request=${request} schema=${schemas.AirspaceInput.properties.buffer} />
     <fieldset class="group"><legend>${t('fleet.leftOut')}</legend>
       <${Field} name="unassigned_cost" schema=${properties.unassigned_cost}
         keys=${['unassigned_cost']}
@@ -82,6 +83,18 @@ export function FleetTab() {
     <${Field} name="fairness" schema=${properties.fairness} keys=${['fairness']}
       request=${request} onChange=${edit} />
   </div>`;
+}
+
+/** How far flights keep from areas and zones; a distance is proposed where there are any. */
+function Buffer({ request, schema }) {
+  const { no_fly: areas = [], zones = [], buffer } = request.airspace ?? {};
+  return html`<fieldset class="group"><legend>${t('field.airspace')}</legend>
+    <${Field} name="buffer" schema=${schema} keys=${['airspace', 'buffer']} request=${request}
+      owner="AirspaceInput" onChange=${edit} />
+    ${areas.length + zones.length > 0 && buffer === undefined && html`<div class="buttons">
+      <button type="button" onClick=${() => edit(withBuffer(request))}>
+        ${t('fleet.keepAway', { count: PROPOSED_BUFFER_M })}</button></div>`}
+  </fieldset>`;
 }
 
 function VehicleType({ type, position, request, isNew }) {
