@@ -8,11 +8,14 @@ from typing import NamedTuple
 
 from app.maps.airspace.zone import Limit
 from app.plans.replies import Data
+from app.plans.storms import HELD_BACK
+from app.requests.conversion.closings import Times
 from app.requests.conversion.ground import Ground
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.zones import Part
 from app.schemas.request import PlanRequest
-from model.judge.flight_diagnoses import NO_FLIGHT
+from model.judge.flight_diagnoses import CLOSED, NO_FLIGHT
+from model.problem import UNLIMITED
 from model.travel.zones import WIDER_M
 
 CODE = "AIRSPACE"
@@ -41,6 +44,7 @@ class Hindrance(NamedTuple):
     holds: str
     part: Part
     metres: float = 0.0  # that lie between, where the buffer alone holds it
+    times: Times = ()  # when it is closed, if that isn't always
 
     def told(self, buffer: float) -> str:
         """Return all of it in words, with the buffer that is kept."""
@@ -75,6 +79,8 @@ class Closures:
     def name(self, customer: str, reasons: Iterable[Data]) -> None:
         """Have reasons that no flight leads to a customer name the zone. In place."""
         for reason in reasons:
+            if reason["message"] == CLOSED or reason["code"] in HELD_BACK:
+                self._name_hours(customer, reason)
             if reason["message"] != NO_FLIGHT:
                 continue
             found = self._why(customer, reason["vehicle_type"]) if self.ground.zones else None
@@ -85,6 +91,20 @@ class Closures:
                 _add_remedy(reason, found.metres)
             elif self.buffer:
                 self._name_area(customer, reason)
+
+    def _name_hours(self, customer: str, reason: Data) -> None:
+        """Have a reason why flights are held back too long tell when zones are closed. In place."""
+        kind, said = reason["vehicle_type"], dict[str, Hindrance]()
+        for holds, node in (("customer", self.nodes[customer]), ("depot", self._depot_of(kind))):
+            for altitude in self._altitudes(kind) if self.ground.zones else ():
+                for part in self.ground.zones_at(node, altitude):
+                    found = self._hindrance(holds, part, node)
+                    if found.times:
+                        said.setdefault(hours_of(found), found)
+        if said and reason["code"] == CODE:
+            reason["zone"] = zone_reply(next(iter(said.values())), self.buffer)
+        if said:
+            reason["message"] = " ".join([reason["message"], *said])
 
     def _name_area(self, customer: str, reason: Data) -> None:
         """Have a reason name the area that somebody lies too near to. In place."""
@@ -129,7 +149,7 @@ class Closures:
 
     def _hindrance(self, holds: str, part: Part, node: int) -> Hindrance:
         between = 0.0 if holds == "way" else self.ground.metres_between(node, part)
-        return Hindrance(holds, part, between)
+        return Hindrance(holds, part, between, self.ground.times_of(part))
 
     @property
     def buffer(self) -> float:
@@ -150,6 +170,13 @@ def _add_remedy(reason: Data, metres: float) -> None:
         reason["remedy" if reason["remedy"] is None else "other_remedy"] = remedy
 
 
+def hours_of(found: Hindrance) -> str:
+    """Return when a zone is closed, in words."""
+    told = [f"from {begin / 1000:g} s" + ("" if end >= UNLIMITED else f" until {end / 1000:g} s")
+            for begin, end in found.times]
+    return f"The zone {found.part.zone.title} is closed to flights {', '.join(told)}."
+
+
 def words_of(part: Part) -> str:
     """Return which zone it is, what it asks for, where it reaches, and who decides."""
     zone = part.zone
@@ -161,11 +188,16 @@ def words_of(part: Part) -> str:
 def zone_reply(found: Hindrance, buffer: float) -> Data:
     """Return a volume of a zone, and what of the way to a customer it holds."""
     zone, volume = found.part
-    told = {"holds": found.holds, "name": zone.name, "identifier": zone.identifier,
+    told: Data = {"holds": found.holds, "name": zone.name, "identifier": zone.identifier,
             "restriction": zone.restriction, "lower": _height_reply(volume.lower),
             "upper": _height_reply(volume.upper), "authority": zone.authority,
             "message": words_of(found.part)}
-    return told | ({"metres": ceil(found.metres), "buffer": buffer} if found.metres else {})
+    if found.metres:
+        told |= {"metres": ceil(found.metres), "buffer": buffer}
+    if found.times:
+        told["times"] = [{"begin": begin / 1000, "end": None if end >= UNLIMITED else end / 1000}
+                         for begin, end in found.times]
+    return told
 
 
 def _height_reply(limit: Limit | None) -> Data | None:

@@ -111,7 +111,7 @@ class Geometry:
         winds = self._winds.flown(kind, drones)
         speed = drones.speed_kmh or DEFAULT_DRONE_SPEED_KMH
         for start, end in pairwise(nodes):
-            if not detours.ways.blocked[start, end]:
+            if not detours.are_blocked(start, end):
                 yield self._line(start, end)
             elif time.perf_counter() < until:
                 yield self._line(start, end, detours.bends(start, end, speed, winds))

@@ -6,8 +6,7 @@ from typing import NamedTuple
 
 from app.requests.draft import Errors, error_at
 from app.schemas.errors import InputError
-from app.schemas.airspace import Ed269Zones, KmlZones, Zones
-from app.schemas.airspace import AirspaceInput
+from app.schemas.airspace import AirspaceInput, Ed269Zones, KmlZones, Zones
 from app.schemas.zones.geojson import GeometryCollection, MultiPolygon, Point
 
 MOST_AREAS, MOST_KML_AREAS = 4000, 2000

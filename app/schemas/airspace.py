@@ -94,8 +94,8 @@ class AirspaceInput(Input):
     )
     buffer: Annotated[float, Field(ge=0, le=MAX_BUFFER_M)] = Field(
         0.0,
-        description="Metres that flights keep from `no_fly` areas and from zones that block, "
-        "take-offs and landings among them.",
+        description="Distance in metres that flights keep from `no_fly` areas and from zones that "
+        "block, take-offs and landings among them.",
     )
     zones: Annotated[list[Zones], Field(max_length=MAX_ZONE_FILES)] = Field(
         [],

@@ -26,6 +26,13 @@ class HeightReply(_Reply):
         description="Above the ground, the sea or the ellipsoid.")
 
 
+class ClosedReply(_Reply):
+    """When a zone is closed to flights."""
+
+    begin: InstantReply = Field(description="From when.")
+    end: InstantReply | None = Field(description="Until when. Null: ever after.")
+
+
 class ZoneReply(_Reply):
     """A volume of a published zone, which keeps drones from a customer."""
 
@@ -42,6 +49,8 @@ class ZoneReply(_Reply):
         None, description="How far it lies from the zone, where `buffer` alone holds it; left out "
         "in the zone, so the next.")
     buffer: float | None = Field(None, description="`airspace.buffer`, which flights keep.")
+    times: list[ClosedReply] | None = Field(
+        None, description="When it is closed to flights; left out where it always is.")
     message: str = Field(description="All of it in words.")
 
 

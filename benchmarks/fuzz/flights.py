@@ -68,6 +68,7 @@ def random_city(rng: random.Random) -> Data:
         "airspace": {"no_fly": [zone for zone in zones[1:] if not _holds([zone], hub)],
                      "zones": [_published(rng, zone) for zone in zones[:1]
                                if not _holds([zone], hub)],
+                     "buffer": rng.choice((0, 0, 30)),
                      "wind": {"speed_kmh": rng.choice((0, 0, 15)),
                               "direction_deg": rng.randint(0, 360)}},
         "unassigned_cost": 100, "options": {"time_limit": 0.1, "seed": rng.randint(0, 99)}}

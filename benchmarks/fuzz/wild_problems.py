@@ -270,11 +270,12 @@ def _airspace(rng: random.Random, place: Callable[[], Point], system: str) -> Da
         areas.append([[x + size * math.cos(math.tau * corner / corners),
                        y + size * math.sin(math.tau * corner / corners)]
                       for corner in range(corners)])
+    kept = _maybe(rng, 0.3, buffer=rng.choice((0, 1, 30, 10_000)))
     if rng.random() < 0.8:
-        return {"no_fly": areas, "wind": _wind(rng)}
+        return {"no_fly": areas, "wind": _wind(rng), **kept}
     times = sorted(rng.sample((0, 1, 59.9, 600, 3600, 7200, 30000, 1e6, LONGEST),
                               rng.randint(1, 5)))
-    return {"no_fly": areas, "wind": [
+    return {"no_fly": areas, **kept, "wind": [
         {"from": time, **_wind(rng), **_maybe(rng, 0.5, gust_kmh=rng.choice((0, 30, 500)))}
         for time in times]}
 

@@ -110,7 +110,8 @@ typedef struct tandem_plugging {
    drones' powers are known at so many `points`, by weight; none if no battery limits them; aboard
    they gain a `charge`, from what each has at first. It picks up in any order, or after all that a
    trip delivers, which is something, or was before the trip begins here; what else it carries in
-   the first dimension. No drone, nor who flies by itself, is in the air while it storms.
+   the first dimension. No drone, nor who flies by itself, is in the air while it storms, nor on a
+   flight to or from a zone in its hours, which are storms for those flights.
    `rules/drone_types.h` says which rows tell of which drones. Of one that flies by itself, what is
    said of drones holds for its trips; its legs hold launches and recoveries. Each of its trips
    takes a battery of the depot where it begins, or it is charged there, where it may have to wait
@@ -176,8 +177,9 @@ typedef struct tandem_vehicle_type {
     int64_t descent[24];
     int64_t first_charge[256];
     int64_t storms;
-    int64_t storm_from[16];
-    int64_t storm_until[16];
+    int64_t storm_from[32];
+    int64_t storm_until[32];
+    int64_t storm_zones[32]; /* bits of the zones whose hours it is; 0: for all that flies */
     int64_t breaks;
     int64_t breaks_since;
     int64_t break_earliest[8];
@@ -579,6 +581,7 @@ typedef struct tandem_sortie {
     int64_t kept;
     int64_t since;
     int64_t follows;
+    int64_t zones; /* with hours, that hold any of its places */
     int64_t nodes[8];
     int64_t arrivals[8]; /* at the customers */
 } tandem_sortie;
@@ -1088,6 +1091,8 @@ typedef struct tandem_instance {
                                       else, or (problem, 0, 0) if nobody states any */
     tandem_bool_2d no_launch;      /* (problem, node) no drone takes off or is recovered there, or
                                       (problem, 0) where any may */
+    tandem_i64_2d zones;           /* (problem, node) bits of the zones with hours that hold it, or
+                                      (problem, 0) where there are none */
     tandem_hub_2d hub;             /* (problem, depot), or (problem, 0) where all have enough */
     tandem_vehicle_type_2d type;   /* (problem, row); trucks first, as many as `size` says */
     tandem_rate_2d rate;           /* (problem, row) */
@@ -1220,7 +1225,8 @@ typedef struct tandem_problem_data {
                                     and how many in the last row; none where nobody waits */
     tandem_f64_2d vehicle_cost;  /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
-        no_launch;     /* (node,) no drone takes off or is recovered there; none where any may */
+        no_launch; /* (node,) no drone takes off or is recovered there; none where any may */
+    tandem_i64_1d zones; /* (node,) bits of the zones with hours that hold it; none likewise */
     tandem_hub_1d hub; /* (depot,) none where all have enough */
     tandem_bool_2d
         halts; /* (type, depot) launch sites where it may stop; (0, 0) if there are none */

@@ -73,9 +73,11 @@ struct Instance {
                                          // (problem, 0, 0) if nobody states any
     View<const bool, 2> no_launch;  // (problem, node) no drone takes off or is recovered there, or
                                     // (problem, 0) where any may
-    View<const Hub, 2> hub;         // (problem, depot), or (problem, 0) where all have enough
-    View<const VehicleType, 2> type;  // (problem, row); trucks first, as many as `size` says
-    View<const Rate, 2> rate;         // (problem, row)
+    View<const std::int64_t, 2> zones;  // (problem, node) with hours that hold it, as bits, or
+                                        // (problem, 0) where there are none
+    View<const Hub, 2> hub;             // (problem, depot), or (problem, 0) where all have enough
+    View<const VehicleType, 2> type;    // (problem, row); trucks first, as many as `size` says
+    View<const Rate, 2> rate;           // (problem, row)
     View<const bool, 3> reload;  // (problem, type, node) where a trip may end and the next begin
     View<const bool, 3>
         can_drive;  // (problem, type, node) table, kind, skills and capacity allow a truck
@@ -105,6 +107,7 @@ inline Instance instance_of(const tandem_instance& from) {
             from.across,
             from.vehicle_cost,
             from.no_launch,
+            from.zones,
             from.hub,
             from.type,
             from.rate,

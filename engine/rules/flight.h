@@ -31,26 +31,38 @@ inline bool limits_airborne(const VehicleType& type) { return type.max_airborne 
 // Whether a truck stands still while any of its drones is out.
 inline bool waits_for_drones(const VehicleType& type) { return type.truck_waits != 0; }
 
-// Whether there are hours in which no drone may be in the air.
+// Whether there are hours in which no drone may be in the air, or none that comes to some zones.
 inline bool storms_sometime(const VehicleType& type) { return type.storms > 0; }
 
-// The first storm that isn't over at an instant, none behind the last.
-inline Int storm_behind(const VehicleType& type, Int time) {
+// The zones with hours that hold a node, as bits. `zones` has a row for each node, and none where
+// there are no such zones.
+inline Int zones_at(View<const Int, 1> zones, Int node) { return zones.empty() ? 0 : zones[node]; }
+
+// Whether a storm counts for a flight that comes to these zones: one of the wind for any.
+inline bool storm_counts(const VehicleType& type, Int storm, Int zones) {
+    return type.storm_zones[storm] == 0 || (type.storm_zones[storm] & zones) != 0;
+}
+
+// The first storm for a flight that isn't over at an instant, none behind the last.
+inline Int storm_behind(const VehicleType& type, Int time, Int zones) {
     Int storm = 0;
-    while (storm < type.storms && type.storm_until[storm] <= time) ++storm;
+    while (storm < type.storms &&
+           (type.storm_until[storm] <= time || !storm_counts(type, storm, zones))) {
+        ++storm;
+    }
     return storm;
 }
 
 // Until when a drone must be recovered that takes off at `takeoff`: when it storms next.
-inline Int calm_until(const VehicleType& type, Int takeoff) {
-    const Int storm = storm_behind(type, takeoff);
+inline Int calm_until(const VehicleType& type, Int takeoff, Int zones) {
+    const Int storm = storm_behind(type, takeoff, zones);
     return storm < type.storms ? type.storm_from[storm] : far;
 }
 
 // When a drone takes off for calm that can at `takeoff`, and is back at `back` then: at once, or as
 // the next storm is over, if ever.
-inline Int calm_takeoff(const VehicleType& type, Int takeoff, Int back) {
-    const Int storm = storm_behind(type, takeoff);
+inline Int calm_takeoff(const VehicleType& type, Int takeoff, Int back, Int zones) {
+    const Int storm = storm_behind(type, takeoff, zones);
     if (storm == type.storms || back <= type.storm_from[storm]) return takeoff;
     return type.storm_until[storm] < unlimited ? type.storm_until[storm] : takeoff;
 }
@@ -126,6 +138,7 @@ struct Flight {
     const VehicleType& type;
     Windows place;
     Int out, home;
+    Int zones = 0;  // with hours, that hold where it begins, whom it serves, or where it ends
 
     // How long it takes if nothing waits.
     Int duration() const { return out + place.service_duration() + home; }
@@ -150,7 +163,8 @@ struct Flight {
         while (true) {
             Int held = held_until(earliest_back(place, takeoff + out, home), limit);
             if (held <= takeoff && storms_sometime(type)) {
-                held = calm_takeoff(type, takeoff, place.end_of_service(takeoff + out) + home);
+                held =
+                    calm_takeoff(type, takeoff, place.end_of_service(takeoff + out) + home, zones);
             }
             if (held <= takeoff) return takeoff;
             takeoff = held;

@@ -35,18 +35,18 @@ inline Int longest_in_air(const VehicleType& type) {
     return recovery_end(type, take_off(type, endurance_of(type), 0));
 }
 
-// By when a trip has to be over whose launch begins at `start`: when it storms next.
-inline Int calm_trip_until(const VehicleType& type, Int start) {
-    const Int calm = calm_until(type, take_off(type, start, 0));
+// By when a trip to some zones has to be over whose launch begins at `start`: when it storms next.
+inline Int calm_trip_until(const VehicleType& type, Int start, Int zones) {
+    const Int calm = calm_until(type, take_off(type, start, 0), zones);
     return calm < far ? recovery_end(type, calm) : far;
 }
 
 // How much later a trip from `start` to `end` has to begin for calm, if the vehicle flies by
 // itself: as the next storm is over; `far` if it never is.
-inline Int wait_for_calm(const VehicleType& type, Int start, Int end) {
-    if (!flies(type) || end <= calm_trip_until(type, start)) return 0;
+inline Int wait_for_calm(const VehicleType& type, Int start, Int end, Int zones) {
+    if (!flies(type) || end <= calm_trip_until(type, start, zones)) return 0;
     const Int takeoff = take_off(type, start, 0);
-    const Int held = calm_takeoff(type, takeoff, far);
+    const Int held = calm_takeoff(type, takeoff, far, zones);
     return held > takeoff ? held - takeoff : far;
 }
 

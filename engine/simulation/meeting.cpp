@@ -137,11 +137,12 @@ Int next_back(View<const Drone, 1> drones, Recovery place) {
     return chosen;
 }
 
-// Recover a drone launched at `here` from `free` on; return the end, -1 if it can't last.
-Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int free) {
+// Recover a drone launched at `here` from `free` on, at `to`; return the end, -1 if it can't last.
+Int bring_aboard(const Setting& setting, Drone& drone, Int here, Int to, Int free) {
     const DroneKind drone_kind = drone_kind_of(setting, drone.row);
     const Int begin = std::max(free, drone.back);
-    if (unreachable(drone.back) || begin > calm_until(drone_kind.type, drone.takeoff) ||
+    const Int zones = drone_kind.zones_of(here, drone.node, to);
+    if (unreachable(drone.back) || begin > calm_until(drone_kind.type, drone.takeoff, zones) ||
         !within_endurance(drone_kind.type, drone.takeoff, drone.back, begin)) {
         return -1;
     }
@@ -177,7 +178,7 @@ Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drone
         const Int landed = looping > 0 ? next_back(drones, Recovery::loop) : -1;
         if (landed >= 0 &&
             (launched < 0 || (begin > free && std::max(free, drones[landed].back) <= begin))) {
-            free = bring_aboard(setting, drones[landed], here, free);
+            free = bring_aboard(setting, drones[landed], here, here, free);
             if (free < 0) return -1;
             --looping;
         } else {
@@ -191,15 +192,15 @@ Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drone
     return free;
 }
 
-// Recover the drones, launched at `here`, that the truck meets where it arrives.
+// Recover the drones, launched at `here`, that the truck meets at `to` where it arrives.
 //
 // Returns when all are recovered. Where one can't be within its endurance: -1, and it is marked to
 // loop instead.
-Int meet(const Setting& setting, View<Drone, 1> drones, Int here, Int arrival) {
+Int meet(const Setting& setting, View<Drone, 1> drones, Int here, Int to, Int arrival) {
     Int free = arrival;
     for (Int landed = next_back(drones, Recovery::meet); landed >= 0;
          landed = next_back(drones, Recovery::meet)) {
-        free = bring_aboard(setting, drones[landed], here, free);
+        free = bring_aboard(setting, drones[landed], here, to, free);
         if (free < 0) {
             drones[landed].place = static_cast<Int>(Recovery::loop);
             return -1;
@@ -351,7 +352,7 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
         if (arrival < 0) return impossible;
         const bool is_depot = to < setting.num_depots;
         const Int there = is_depot ? let_in(setting.type, setting.node, to, arrival) : arrival;
-        const Int free = meet(setting, drones, here, there);
+        const Int free = meet(setting, drones, here, to, there);
         if (free < 0) continue;
         return any_late(setting, here, drones) ? impossible : Leaving{left, arrival, free, rests};
     }

@@ -55,6 +55,7 @@ struct Setting {
     View<const Lag, 2> across;           // (node, rank) none likewise, of any vehicles
     View<const Int, 1> starts;           // (node,) when vehicles closed begin to serve, or `none`
     View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
+    View<const Int, 1> zones;            // (node,) with hours that hold it, none where none do
     const VehicleType& type;
     View<const Int, 2> drive;           // (node, node) ms
     View<const Int, 2> fly;             // (node, node) ms
@@ -76,15 +77,22 @@ struct DroneKind {
     View<const Int, 2> out;       // (node, node) ms
     View<const Int, 2> home;      // (node, node) ms, to where the truck is
     View<const Int, 2> straight;  // (node, node) mm
+    View<const Int, 1> zones;     // (node,) with hours that hold it, none where none do
 
     // Whether it may serve a customer that is launched or recovered at a node.
     bool in_range(Int here, Int customer) const {
         return !limits_range(type) || within_range(type, straight(here, customer));
     }
 
+    // The zones with hours to which a flight comes that is launched and recovered at these nodes.
+    Int zones_of(Int from, Int customer, Int to) const {
+        return zones_at(zones, from) | zones_at(zones, customer) | zones_at(zones, to);
+    }
+
     // The flight to a customer, launched and recovered at these nodes.
     Flight flight(Int from, Int customer, Int to) const {
-        return {type, node[customer], out(from, customer), home(customer, to)};
+        return {type, node[customer], out(from, customer), home(customer, to),
+                zones_of(from, customer, to)};
     }
 };
 

@@ -65,6 +65,17 @@ Stops stops_of(const VehicleLog& log, Int trip) {
     return {log.trip[trip].first_stop, is_last ? log.count.stops : log.trip[trip + 1].first_stop};
 }
 
+// The zones with hours that hold any stop of a trip.
+Int zones_of_trip(const Setting& setting, const VehicleLog& log, Int trip) {
+    Int zones = 0;
+    if (setting.zones.empty()) return zones;
+    const auto [first, behind] = stops_of(log, trip);
+    for (Int index = first; index < behind; ++index) {
+        zones |= setting.zones[log.stop[index].node];
+    }
+    return zones;
+}
+
 // How long a vehicle waits at a stop, for a window or for others, by the log.
 Int waiting_at(const VehicleLog& log, Int index) {
     return log.stop[index].start - log.stop[index].arrival;
@@ -196,7 +207,7 @@ private:
         const Int known = writes ? start : log_.trip[trip].start;
         bool done = leave_ - start <= longest_in_air(type) &&
                     (!is_limited(type) || flown.left() >= 0) &&
-                    leave_ <= calm_trip_until(type, known);
+                    leave_ <= calm_trip_until(type, known, zones_of_trip(setting_, log_, trip));
         if (charges_between_trips(type)) {
             if (trip == 0 || !charge_) charge_ = charge_before(setting_, log_, trip);
             const Int there = charged(type, charge_->kept, charge_->since, start);
@@ -386,13 +397,13 @@ private:
             sortie.recovery_start = begin;
             sortie.recovery_end = end;
             if (left < 0 || !within_endurance(drone_kind.type, takeoff, back, begin) ||
-                begin > calm_until(drone_kind.type, takeoff)) {
+                begin > calm_until(drone_kind.type, takeoff, flight.zones)) {
                 lasting_ = false;
             }
         } else {
             // In the same calm, so that all between is allowed as well.
             const bool lasts = begin - takeoff <= sortie.recovery_start - sortie.takeoff &&
-                               begin <= calm_until(drone_kind.type, sortie.takeoff);
+                               begin <= calm_until(drone_kind.type, sortie.takeoff, flight.zones);
             if (left < 0 || !lasts) return std::nullopt;
         }
         return end;
@@ -555,7 +566,8 @@ bool has_rested(const Setting& setting, const VehicleLog& log) {
 
 Int waits_for_calm(const Setting& setting, const VehicleLog& log) {
     const auto [first, behind] = stops_of(log, log.count.trips - 1);
-    return wait_for_calm(setting.type, log.stop[first].leave, log.stop[behind - 1].leave);
+    return wait_for_calm(setting.type, log.stop[first].leave, log.stop[behind - 1].leave,
+                         zones_of_trip(setting, log, log.count.trips - 1));
 }
 
 Int most_excess(const Setting& setting, const VehicleLog& log) {

@@ -36,6 +36,7 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
         .across = instance.across[b],
         .starts = {},
         .no_launch = instance.no_launch[b],
+        .zones = instance.zones[b],
         .type = type,
         .drive = durations[type.travel],
         .fly = durations[type.drone_travel],
@@ -54,8 +55,12 @@ inline Setting setting_of(const Instance& instance, Int b, Int k) {
 // What drones meet whose type is at a row.
 inline DroneKind drone_kind_of(const Setting& setting, Int row) {
     const VehicleType& type = setting.types[row];
-    return {type, setting.nodes.by_air(type), setting.durations[type.drone_travel],
-            setting.durations[type.home_travel], setting.distances[type.straight_travel]};
+    return {type,
+            setting.nodes.by_air(type),
+            setting.durations[type.drone_travel],
+            setting.durations[type.home_travel],
+            setting.distances[type.straight_travel],
+            setting.zones};
 }
 
 // When a truck that leaves at `leave` arrives, by its speed at the time of day, and is set up.

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "rules/flight.h"
 
 namespace tandem {
@@ -80,6 +82,23 @@ TEST_CASE("a drone is held back until its window lets it be back in time") {
     CHECK(Flight{endurant(30), place(), 10, 20}.held_takeoff(0) == 45);
     CHECK(Flight{endurant(80), place(), 10, 20}.held_takeoff(0) == 0);
     CHECK(Flight{endurant(30), place(), 10, 20}.held_takeoff(48) == 48);
+}
+
+TEST_CASE("a drone is held back while it storms, or while a zone is closed to which it flies") {
+    VehicleType type = endurant(80);
+    type.storms = 3;
+    const Int begins[] = {30, 60, 200}, ends[] = {100, 70, unlimited}, zones[] = {2, 0, 4};
+    std::copy_n(begins, 3, type.storm_from);
+    std::copy_n(ends, 3, type.storm_until);
+    std::copy_n(zones, 3, type.storm_zones);
+    // There and back in 10 + 5 + 20, no sooner than the window allows that opens at 50.
+    CHECK(Flight{type, place(), 10, 20}.held_takeoff(0) == 70);
+    CHECK(Flight{type, place(), 10, 20, 2}.held_takeoff(0) == 100);
+    CHECK(Flight{type, place(), 10, 20, 1 + 4}.held_takeoff(0) == 70);
+    CHECK(Flight{type, place(), 10, 20, 4}.held_takeoff(190) == 190);  // it stays closed
+    CHECK(calm_until(type, 100, 2) == far);
+    CHECK(calm_until(type, 100, 4) == 200);
+    CHECK(calm_until(type, 0, 0) == 60);
 }
 
 TEST_CASE("where it hovers, its battery lets it wait no longer") {

@@ -42,6 +42,7 @@ def _with_most(kind: VehicleType) -> VehicleType:
         capacity=tuple([max(amounts) for amounts in zip(*(drones.capacity for drones in types),
                                                         strict=True)]),
         endurance=max(drones.endurance for drones in types), energy=None, batteries=None, storms=(),
+        closings=(),
         service_duration=None, service_durations={},
         swap_duration=max(drones.swap_duration for drones in types),
         recovery_duration=max(drones.recovery_duration for drones in types),

@@ -31,7 +31,7 @@ from model.engine.variants import (
     Variant, Way, durations_of, variant_of, ways_of, weighed_variant_of, write_legs,
 )
 from model.problem import (
-    BoolArray, Customer, FloatArray, IntArray, Problem, shares_chargers,
+    BoolArray, Customer, FloatArray, IntArray, Problem, has_timed_zones, shares_chargers,
 )
 
 MAX_NEIGHBOURS = 24
@@ -60,6 +60,7 @@ class Instance(NamedTuple):
     across: Records  # (problem, node, rank) behind or before them by any vehicle, likewise
     vehicle_cost: FloatArray  # (problem, type, node) of being served by it, or (problem, 0, 0)
     no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
+    zones: IntArray  # (problem, node) with hours that hold it, as bits, or (problem, 0)
     hub: Records  # (problem, depot), or (problem, 0) where all have enough
     type: Records  # (problem, row); trucks first, as many as `size` says
     rate: Records  # (problem, row)
@@ -126,6 +127,7 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
         **lag_rows(problems, nodes),
         vehicle_cost=vehicle_costs(problems, types, nodes),
         no_launch=np.zeros((rows, nodes if forbidden else 0), np.bool_),
+        zones=_zones(problems, nodes),
         hub=np.zeros((rows, depots if any(problem.limits_hubs for problem in problems) else 0),
                      dtype_of("tandem_hub")),
         type=np.zeros((rows, types), dtype_of("tandem_vehicle_type")),
@@ -144,6 +146,17 @@ def _empty(problems: Sequence[Problem], types: int, variants: int, travels: int,
     instance.node["arrival_limit"] = FAR
     instance.node[..., 1:]["window_latest"] = FAR
     return instance
+
+
+def _zones(problems: Sequence[Problem], nodes: int) -> IntArray:
+    """Return the (problem, node) zones with hours that hold each node, or (problem, 0)."""
+    if not any(map(has_timed_zones, problems)):
+        return np.zeros((len(problems), 0), np.int64)
+    held = np.zeros((len(problems), nodes), np.int64)
+    for row, problem in zip(held, problems, strict=True):
+        row[:problem.num_nodes] = [problem.place_at(node).zones
+                                   for node in range(problem.num_nodes)]
+    return held
 
 
 def _num_changes(problems: Sequence[Problem]) -> int:

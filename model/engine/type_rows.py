@@ -17,6 +17,9 @@ MOST_DRONES = 256
 
 ANY, LAST, BEGUN = range(3)
 
+ANY_FLIGHT = 0
+"""What storms of the wind bar, in place of the bits of zones."""
+
 NO_PROFILE = -1
 
 WORK_RATES = "time", "overtime"
@@ -145,7 +148,9 @@ def _battery(energy: Energy | None) -> Fields:
 
 
 def _storms(flyer: DroneType | VehicleType | None) -> Fields:
-    """Return how often it storms, from when, and until when."""
-    storms = () if flyer is None else flyer.storms
-    return {"storms": len(storms), "storm_from": [begin for begin, _ in storms],
-            "storm_until": [end for _, end in storms]}
+    """Return how often it storms, from when, until when, and for flights to which zones."""
+    storms = [] if flyer is None else sorted(
+        [*((begin, end, ANY_FLIGHT) for begin, end in flyer.storms), *flyer.closings])
+    return {"storms": len(storms), "storm_from": [begin for begin, *_ in storms],
+            "storm_until": [end for _, end, _ in storms],
+            "storm_zones": [zones for *_, zones in storms]}

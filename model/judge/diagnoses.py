@@ -10,7 +10,8 @@ from model.judge.diagnosis import (
     Diagnosis, drones_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_type,
 )
 from model.judge.flight_diagnoses import (
-    endurance_broken, energy_broken, max_range_broken, unreachable_broken, wind_broken,
+    endurance_broken, energy_broken, hours_broken, max_range_broken, unreachable_broken,
+    wind_broken,
 )
 from model.judge.driving import excesses, travel_duration
 from model.judge.freshness import excess_aboard
@@ -352,6 +353,7 @@ DIAGNOSES: dict[str, Callable[[Attempt], Diagnosis]] = {
     "UNREACHABLE": _unreachable,
     "MAX_RANGE": max_range_broken,
     "WIND": wind_broken,
+    "AIRSPACE": hours_broken,
     "ENDURANCE": endurance_broken,
     "ENERGY": energy_broken,
     "TRIP_DISTANCE": _trip_distance,

@@ -18,6 +18,8 @@ from model.problem import (
     VehicleType,
 )
 
+CLOSED = "No flight there and back is over before a zone is closed, or begins behind."
+
 NO_FLIGHT = "No flight leads there from the depot and back."
 
 
@@ -72,6 +74,11 @@ def wind_broken(attempt: Attempt) -> Diagnosis:
     return Diagnosis("WIND", f"The wind is too strong for a flight there and back, by {limit}.",
                      f"fits without {limit}",
                      with_flyer(attempt, calm))
+
+
+def hours_broken(attempt: Attempt) -> Diagnosis:
+    """Say that zones are closed."""
+    return Diagnosis("AIRSPACE", CLOSED)
 
 
 def energy_broken(attempt: Attempt) -> Diagnosis:

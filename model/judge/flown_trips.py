@@ -10,7 +10,7 @@ from model.judge.energy import (
 from model.judge.freshness import most_excess
 from model.judge.lags import excess_of_lags
 from model.judge.takeoff import storm_met
-from model.problem import UNLIMITED, Energy, Problem, VehicleType
+from model.problem import UNLIMITED, Energy, Problem, VehicleType, zones_of
 from model.solution import Trip
 
 
@@ -94,15 +94,19 @@ def excess_in_air(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     return max(excess, -(-over // most)) if most else excess
 
 
-def storm_of(kind: VehicleType, trip: Trip) -> tuple[int, int] | None:
-    """Return from and until when it first storms while a trip is in the air, if ever."""
-    return storm_met(kind, trip.stops[0].departure, trip.stops[-1].arrival)
+def storm_of(problem: Problem, kind: VehicleType, trip: Trip) -> tuple[int, int] | None:
+    """Return from and until when it first storms while a trip is in the air, if ever.
+
+    A zone to which it flies and that is closed counts as a storm.
+    """
+    zones = zones_of(problem, [stop.node for stop in trip.stops])
+    return storm_met(kind, zones, trip.stops[0].departure, trip.stops[-1].arrival)
 
 
-def wait_for_calm(kind: VehicleType, trip: Trip) -> int:
+def wait_for_calm(problem: Problem, kind: VehicleType, trip: Trip) -> int:
     """Return how much later a trip would have to begin that meets a storm; 0: that doesn't help.
     """
-    storm = storm_of(kind, trip)
+    storm = storm_of(problem, kind, trip)
     return 0 if storm is None or storm[1] >= UNLIMITED else storm[1] - trip.stops[0].departure
 
 

@@ -29,7 +29,7 @@ def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[
         Returns by how much a trip would have to begin later, at least.
     """
     trip, excess = soonest, max(0, excess_of(soonest))
-    wait, best = excess or wait_for_calm(kind, trip), trip
+    wait, best = excess or wait_for_calm(problem, kind, trip), trip
     for _ in range(max(FEWEST_TIMES, MOST_TIMED_STOPS // len(trip.stops))):
         if not wait:
             return trip, True
@@ -42,7 +42,7 @@ def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[
             if turn == UNLIMITED:
                 return best, False
             wait = max(excess, turn - trip.stops[0].arrival)
-        wait = wait or wait_for_calm(kind, trip)
+        wait = wait or wait_for_calm(problem, kind, trip)
     return best, False
 
 

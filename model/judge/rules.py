@@ -7,14 +7,14 @@ from operator import gt
 from model.judge.breaks import broken_breaks
 from model.judge.driving import broken_driving, travel_duration
 from model.judge.energy import charges, sortie_energy
-from model.judge.flown_trips import airborne, storm_of, trip_charges
+from model.judge.flown_trips import airborne, trip_charges
 from model.judge.freshness import excess_aboard
 from model.judge.loads import highest, picks_up_early, sortie_loads
 from model.judge.metrics import RouteMetrics, TripMetrics, allowed_overtime
-from model.judge.takeoff import storm_met
+from model.judge.takeoff import closing_met, storm_met
 from model.judge.timing import TripDecision, latest_release
 from model.problem import (
-    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType,
+    MICROJOULES_PER_WH, UNLIMITED, USUAL_DECIMALS, DroneType, Problem, VehicleType, zones_of,
 )
 from model.solution import Sortie, Stop, Trip, Visit
 
@@ -112,8 +112,8 @@ def _flown_violations(problem: Problem, kind: VehicleType, trip: Trip,
     """What a trip breaks of who flies by itself."""
     if airborne(trip) > kind.endurance:
         yield _endurance_violation(airborne(trip), kind.endurance, path)
-    if storm_of(kind, trip) is not None:
-        yield _wind_violation(path)
+    zones = zones_of(problem, [stop.node for stop in trip.stops])
+    yield from _storm_violations(kind, zones, trip.stops[0].departure, trip.stops[-1].arrival, path)
     if kind.max_range is not None:
         ends = (trip.stops[0].node, trip.stops[-1].node)
         yield from _range_violations(problem, kind, ends, trip.stops[1:-1], f"{path}.stops", 1)
@@ -254,8 +254,9 @@ def _sortie_violations(
     flight = airborne_duration(problem, drones, trip, sortie)
     if flight > drones.endurance:
         yield _endurance_violation(flight, drones.endurance, path)
-    if storm_met(drones, sortie.launch_time, sortie.recovery_start) is not None:
-        yield _wind_violation(path)
+    zones = zones_of(problem, [trip.stops[sortie.launch_stop].node, *(
+        visit.node for visit in sortie.visits), trip.stops[sortie.recovery_stop].node])
+    yield from _storm_violations(drones, zones, sortie.launch_time, sortie.recovery_start, path)
     if drones.max_range is not None:
         ends = [trip.stops[stop].node for stop in (sortie.launch_stop, sortie.recovery_stop)]
         yield from _range_violations(problem, drones, ends, sortie.visits, f"{path}.visits", 0)
@@ -285,8 +286,14 @@ def _endurance_violation(flight: int, endurance: int, path: str) -> Violation:
                      f"{seconds(endurance)}", path)
 
 
-def _wind_violation(path: str) -> Violation:
-    return Violation("WIND", "flies while the wind is too strong for it", path)
+def _storm_violations(flyer: DroneType | VehicleType, zones: int, takeoff: int, end: int,
+                      path: str) -> Iterator[Violation]:
+    """Whether it is in the air while it storms, or while a zone is closed to which it flies."""
+    if storm_met(flyer, 0, takeoff, end) is not None:
+        yield Violation("WIND", "flies while the wind is too strong for it", path)
+    if closing_met(flyer, zones, takeoff, end):
+        yield Violation("AIRSPACE", "flies to or from a zone in the hours in which that is closed",
+                        path)
 
 
 def _energy_violation(taken: int, charge: int, path: str) -> Violation:

@@ -10,7 +10,7 @@ from model.judge.clock import opening
 from model.judge.energy import (
     Rest, charge_after, flight_energies, least_energy, longest_hold, time_charged,
 )
-from model.problem import UNLIMITED, DroneType, Problem, VehicleType
+from model.problem import UNLIMITED, DroneType, Problem, VehicleType, barred, zones_of
 from model.solution import Visit
 
 Path = tuple[int, ...]
@@ -29,8 +29,8 @@ def held_takeoff(problem: Problem, drones: DroneType, path: Path, soonest: int) 
     """Return when a drone takes off that can from `soonest` on.
 
     As early as the windows that it then meets let it be back within its endurance, and a full
-    battery if it hovers before them, with no storm meanwhile; at once where the flight is too long
-    in any case, or a storm doesn't end, since holding it back wouldn't help.
+    battery if it hovers before them, with no storm and no zone closed meanwhile; at once where the
+    flight is too long in any case, or a storm doesn't end, since holding it back wouldn't help.
     """
     takeoff, held = soonest, _held_until(problem, drones, path, soonest)
     while held > takeoff:
@@ -52,13 +52,24 @@ def _held_until(problem: Problem, drones: DroneType, path: Path, takeoff: int) -
         limit = limit if hold is None else min(limit, hold)
     if sum(legs) + sum(services) <= limit and back + legs[-1] - limit > takeoff:
         return back + legs[-1] - limit
-    storm = storm_met(drones, takeoff, time + legs[-1])
+    storm = storm_met(drones, zones_of(problem, path), takeoff, time + legs[-1])
     return takeoff if storm is None or storm[1] >= UNLIMITED else storm[1]
 
 
-def storm_met(flyer: DroneType | VehicleType, takeoff: int, end: int) -> tuple[int, int] | None:
-    """Return from and until when it first storms while one is in the air, if ever."""
-    return next((storm for storm in flyer.storms if takeoff < storm[1] and storm[0] < end), None)
+def storm_met(flyer: DroneType | VehicleType, zones: int, takeoff: int,
+              end: int) -> tuple[int, int] | None:
+    """Return from and until when it first storms, or a zone is closed, while one is in the air.
+
+    `zones` are those with hours to which it flies; None if it meets none.
+    """
+    return next((storm for storm in barred(flyer.storms, flyer.closings, zones)
+                 if takeoff < storm[1] and storm[0] < end), None)
+
+
+def closing_met(flyer: DroneType | VehicleType, zones: int, takeoff: int, end: int) -> bool:
+    """Tell whether one is in the air while any of the zones to which it flies is closed."""
+    return any(closed & zones and takeoff < until and begin < end
+               for begin, until, closed in flyer.closings)
 
 
 def charged_launch(problem: Problem, drones: DroneType, path: Path, rest: Rest | None) -> int:

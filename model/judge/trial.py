@@ -237,7 +237,8 @@ def try_truck(problem: Problem) -> Iterator[Attempt]:
 def _judge_in_calm(problem: Problem, decision: TripDecision, start: int) -> Attempt:
     """Return a trip that begins so, or later where who flies meets a storm."""
     attempt = _judge(problem, decision)
-    while wait := wait_for_calm(problem.vehicle_types[0], attempt.solution.routes[0].trips[0]):
+    while wait := wait_for_calm(problem, problem.vehicle_types[0],
+                                attempt.solution.routes[0].trips[0]):
         start += wait
         attempt = _judge(problem, replace(decision, start=start))
     return attempt

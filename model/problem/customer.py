@@ -20,6 +20,7 @@ class Depot:
     """Where vehicles of type `id` start or end; nowhere: at a customer, which no drone flies to."""
     site: int | None = None  # places with equal numbers are one place
     launch: bool = True  # drones may take off, and be recovered, there
+    zones: int = 0  # with hours, in which it lies, as bits
     earliest: Milliseconds = 0  # no trip begins or ends there before; at a launch site no flight
     latest: TimeLimit = UNLIMITED  # last departure and return; at a launch site last arrival
     stop_cost: Money = 0.0  # of each stop there
@@ -60,6 +61,7 @@ class Customer:
     """Between several windows: last arrival in one, first start of service in the next."""
     pickup: tuple[Parts, ...] = ()  # (dimension,) taken in, to where the trip ends; (): nothing
     launch: bool = True  # drones may take off, and be recovered, from a truck there
+    zones: int = 0  # with hours, in which it lies, as bits
     late_cost: Money = 0.0  # once, of coming late at all; where the window is soft
     span: tuple[int, int] | None = None
     """From when to when service begins, by who was served before; trucks wait, at no price."""

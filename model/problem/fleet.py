@@ -13,7 +13,7 @@ from model.problem.quantities import (
     FULL_SPEED, UNLIMITED, Count, Microjoules, Millimetres, Milliseconds, Money, MoneyPerHour,
     MoneyPerKm, MoneyPerLoadKm, Parts, Rate, TimeLimit, require, require_units,
 )
-from model.problem.storms import Storms, require_storms
+from model.problem.storms import Closings, Storms, require_closings, require_storms
 
 Pickups = Literal["any", "last"]
 
@@ -52,6 +52,7 @@ class DroneType:
     max_range: Millimetres | None = None  # to customers from where it is launched, and recovered
     straight: int = 0  # index into Problem.travel, whose distances tell that
     storms: Storms = ()  # no flight may be in the air then
+    closings: Closings = ()  # nor any to or from these zones
     cost_per_km: MoneyPerKm = 0.0
     cost_per_hour: MoneyPerHour = 0.0
     energy: Energy | None = None  # what a sortie may take of the battery; None: any
@@ -66,6 +67,7 @@ class DroneType:
                  self.max_customers_per_sortie)
         require_units(self, "drone")
         require_storms("drone storms", self.storms)
+        require_closings("drone closings", self.closings)
 
     def service_at(self, customer: Customer) -> int:
         """Return how long it serves a customer."""
@@ -125,6 +127,7 @@ class VehicleType:
     energy: Energy | None = None  # of one that flies: what a trip may take of the battery
     max_range: Millimetres | None = None  # of one that flies: to customers from a trip's ends
     storms: Storms = ()  # of one that flies: no trip may be in the air then
+    closings: Closings = ()  # of one that flies: nor any to or from these zones
     straight: int = 0  # index into Problem.travel, whose distances tell that
     breaks: tuple[Break, ...] = ()  # of each driver, in the order in which they are taken
     driving: DrivingRules | None = None  # None: drivers need no rest beside their breaks
@@ -155,8 +158,9 @@ class VehicleType:
         name = f"vehicle type {self.id}"
         is_said = (self.endurance != UNLIMITED or self.launch_duration > 0
                    or self.recovery_duration > 0 or self.energy is not None
-                   or self.max_range is not None or bool(self.storms))
+                   or self.max_range is not None or bool(self.storms or self.closings))
         require_storms(f"{name} storms", self.storms)
+        require_closings(f"{name} closings", self.closings)
         require(self.flies or not is_said, f"{name} flies", self.flies)
         if self.flies:
             require(self.drones is None, f"{name} drones", self.drones)

@@ -5,7 +5,7 @@ no-fly areas with one `LocalProjection`; edges of areas and flights are straight
 and north is the centre's.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
@@ -14,7 +14,7 @@ import shapely
 from shapely import Polygon
 
 from model.engine.pausing import Pause, go_on, matrix_blocks
-from model.problem import FloatArray
+from model.problem import FloatArray, IntArray
 from model.travel.matrices import planar_distances
 from model.travel.obstacles import Obstacles, obstacles_of
 from model.travel.ways import Legs, Ways, find_ways
@@ -177,4 +177,32 @@ class Flights:
             legs.distance[rows][np.isinf(legs.duration[rows])] = np.inf
         if not self.airspace.is_free:
             self.ways.replace_blocked(legs, wind, self._pause)
+        return legs
+
+
+class OpenFlights:
+    """Flights between all points, some of which lie in areas that are closed at some hours alone.
+
+    A flight leads through those in which its ends lie, and around all others.
+
+    Parameters
+    ----------
+    by_areas
+        The flights if some of these areas are open, as bits.
+    areas
+        (node,) in which each point lies, as bits.
+    """
+
+    def __init__(self, by_areas: Mapping[int, Flights], areas: IntArray) -> None:
+        self._by_areas = by_areas
+        self._areas = areas
+
+    def legs(self, airspeed_kmh: float, winds: Sequence[Breeze] = ()) -> Legs:
+        """Return the flights of drones of one speed as `Flights.legs` does."""
+        legs = Legs(*(each.copy() for each in self._by_areas[0].legs(airspeed_kmh, winds)))
+        entered = self._areas[:, None] | self._areas
+        for areas, flights in self._by_areas.items():
+            if areas:
+                for each, through in zip(legs, flights.legs(airspeed_kmh, winds), strict=True):
+                    np.copyto(each, through, where=entered == areas)
         return legs

@@ -18,18 +18,23 @@ ELLIPSOID = 1.006
 FARTHEST = 2.5
 """Radians from the centre beyond which no plane is true enough to plan on."""
 
+LEAST_REACH_M, REACH = 1e5, 4.0
+"""How far from the centre flights may lead at least, and by how much farther than places lie."""
 
-def planar_buffers(areas: Sequence[Polygon], buffer: float, on_globe: bool) -> FloatArray:
+
+def planar_buffers(areas: Sequence[Polygon], buffer: float, farthest: float | None) -> FloatArray:
     """Return how many metres each area grows by on the plane, for a buffer on the ground.
 
     Never less than the buffer: at an angle c from its centre, `LocalProjection` stretches lengths
-    by up to c / sin c.
+    by up to c / sin c. `farthest` is how far from the centre places lie; None on a plane.
     """
-    if not on_globe or not len(areas):
+    if farthest is None or not len(areas):
         return np.full(len(areas), buffer)
     west, south, east, north = shapely.bounds(np.array(areas, dtype=object)).T
     away = np.hypot(np.maximum(-west, east), np.maximum(-south, north))
-    angle = np.clip(away / EARTH_RADIUS_M, 1e-9, FARTHEST)
+    # Empty areas, which are nowhere near, have no bounds.
+    met = np.minimum(np.nan_to_num(away), max(LEAST_REACH_M, REACH * farthest))
+    angle = np.clip(met / EARTH_RADIUS_M, 1e-9, FARTHEST)
     return buffer * ELLIPSOID * angle / np.sin(angle)
 
 

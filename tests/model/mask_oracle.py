@@ -289,7 +289,7 @@ def costs_nothing(problem: Problem, soon: Route, late: Route) -> bool:
         for sortie, flown in zip(trip.sorties, other.sorties, strict=True):
             longer = (flown.recovery_start - flown.launch_time
                       > sortie.recovery_start - sortie.launch_time)
-            if longer or in_storm(kind, sortie, flown) or not all(
+            if longer or in_storm(problem, kind, trip, sortie, flown) or not all(
                     map(may_be, sortie.visits, flown.visits)):
                 return False
     return True

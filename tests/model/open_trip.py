@@ -16,7 +16,7 @@ from model.judge.takeoff import storm_met
 from model.judge.timing import (
     Operation, SortieDecision, TripDecision, latest_release, schedule_trip,
 )
-from model.problem import DroneType, Problem, VehicleType
+from model.problem import DroneType, Problem, VehicleType, zones_of
 from model.solution import Route, Sortie, Stop, Trip
 
 MOST_TIMED = 1000
@@ -215,10 +215,16 @@ def excess_of_charge(problem: Problem, kind: VehicleType, before: tuple[Trip, ..
     return -((there - needed) // (energy.charge + hover))
 
 
-def in_storm(kind: VehicleType, launched: Sortie, recovered: Sortie) -> bool:
-    """Tell whether it storms from the take-off of a sortie to the recovery of another."""
+def in_storm(problem: Problem, kind: VehicleType, trip: Trip, launched: Sortie,
+             recovered: Sortie) -> bool:
+    """Tell whether it storms from the take-off of a sortie to its recovery, as another says when.
+
+    Or a zone is closed to which the sortie flies.
+    """
     drones = kind.drone_type(launched.drone)
-    return storm_met(drones, launched.launch_time, recovered.recovery_start) is not None
+    ends = [trip.stops[stop].node for stop in (launched.launch_stop, launched.recovery_stop)]
+    zones = zones_of(problem, [*ends, *(visit.node for visit in launched.visits)])
+    return storm_met(drones, zones, launched.launch_time, recovered.recovery_start) is not None
 
 
 def cannot_be_flown(problem: Problem, kind: VehicleType, trip: Trip, index: int) -> bool:
@@ -226,6 +232,6 @@ def cannot_be_flown(problem: Problem, kind: VehicleType, trip: Trip, index: int)
     sortie = trip.sorties[index]
     drones = kind.drone_type(sortie.drone)
     return (drones.endurance < airborne_duration(problem, drones, trip, sortie)
-            or drained(problem, kind, trip, index) or in_storm(kind, sortie, sortie)
+            or drained(problem, kind, trip, index) or in_storm(problem, kind, trip, sortie, sortie)
             or not in_range(problem, drones, trip.stops[sortie.launch_stop].node,
                             sortie.visits[0].node))

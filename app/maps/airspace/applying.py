@@ -1,6 +1,6 @@
 """When zones apply: always, in an interval, or at times of days of the week."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, time, timedelta, tzinfo
 
@@ -66,7 +66,41 @@ class Period:
                    for hours in self.hours for day in days)
 
 
+    def within(self, span: Span) -> Iterator[tuple[datetime, datetime]]:
+        """Yield from when until when it applies in a span no longer than can be looked through."""
+        if not self.hours:
+            yield self.begin, self.end
+            return
+        first = span.begin.astimezone(UTC).date()
+        for number in range(-2, (span.end - span.begin).days + 3):
+            day = first + number * DAY
+            for hours in self.hours:
+                if day.weekday() in hours.days:
+                    begin, end = hours.on(day)
+                    yield max(begin, self.begin), min(end, self.end)
+
+
 ALWAYS = Period()
+
+
+def closed_times(periods: Iterable[Period], span: Span) -> list[tuple[datetime, datetime]]:
+    """Return from when until when a zone with these periods applies, as far as a span meets it.
+
+    Ascending and apart. Beyond `LONGEST_LOOK` days the last goes on for ever.
+    """
+    looked = min(span.end, span.begin + LONGEST_LOOK * DAY)
+    found: list[tuple[datetime, datetime]] = []
+    for begin, end in sorted([each for period in periods
+                              for each in period.within(Span(span.begin, looked))]):
+        if begin >= end or end <= span.begin:
+            continue
+        if found and begin <= found[-1][1]:
+            found[-1] = (found[-1][0], max(end, found[-1][1]))
+        elif begin < looked:
+            found.append((begin, end))
+    if found and (looked < span.end or found[-1][1] > looked + DAY):
+        found[-1] = (found[-1][0], NEVER_ENDS)
+    return found
 
 
 def applies(periods: Iterable[Period], span: Span | None) -> bool:

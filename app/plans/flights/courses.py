@@ -103,7 +103,7 @@ class _Courses:
         self._detours: dict[float, Detours] = {
             altitude: ground.detours_among(flown, altitude) for altitude in altitudes
             if ground.has_areas(altitude)}
-        self._zones = {altitude: _Zones(ground.closed_areas(altitude)) for altitude in altitudes}
+        self._zones: dict[tuple[float, int], _Zones] = {}
         day = self._request.day
         self._plan_start: datetime | None = None if day is None else day.start.astimezone(UTC)
 
@@ -115,8 +115,17 @@ class _Courses:
         return Flight(
             vehicle=flown.vehicle, drone=flown.drone, number=flown.number, altitude=altitude,
             lands=energy is None or energy.lands, way_points=way_points,
-            recovery_time=flown.recovery_time, zones=self._zones[altitude].near(line),
+            recovery_time=flown.recovery_time, zones=self._closed_to(flown).near(line),
             plan_start=self._plan_start, buffer=self._request.airspace.buffer)
+
+    def _closed_to(self, flown: Flown) -> _Zones:
+        """Return the zones but those with hours that a flight leads to while they are open."""
+        altitude = flown.flyer.altitude
+        held = self._ground.closed(altitude).zones[[*flown.nodes]]
+        key = altitude, int(np.bitwise_or.reduce(held))
+        if key not in self._zones:
+            self._zones[key] = _Zones(self._ground.closed_areas(*key))
+        return self._zones[key]
 
     def _way_points(self, flown: Flown) -> Iterator[WayPoint]:
         nodes, leaving = flown.nodes, flown.launch_time
@@ -175,7 +184,7 @@ class _Courses:
         """Return the (corner, 2) planar metres where a flight bends."""
         a, b = self._at[start], self._at[end]
         detours, speed = self._detours.get(flyer.altitude), _airspeed(flyer)
-        if detours is None or not detours.ways.blocked[a, b]:
+        if detours is None or not detours.are_blocked(a, b):
             return np.empty((0, 2))
         bends = self._ground.planar(detours.bends(a, b, speed, breeze))
         if len(bends) == 0:

@@ -1,6 +1,6 @@
 """Where a request's places are, and how far it is between them."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from functools import cached_property
 from typing import NamedTuple
 
@@ -10,6 +10,9 @@ from shapely import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from app.maps.airspace.zone import Zone
+from app.requests.conversion.closings import (
+    Closed, Hours, Times, most_holding, times_closed,
+)
 from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.preparing import UNHURRIED, Preparing
 from app.requests.conversion.rounding import ROUNDINGS
@@ -17,9 +20,9 @@ from app.requests.conversion.work import merging_seconds, sights_seconds
 from app.requests.conversion.zones import Met, Part, ZonesMet, span_of
 from app.schemas.fields import point_of
 from app.schemas.wind import WindInput
-from model.problem import FloatArray, Points
+from model.problem import MAX_TIMED_ZONES, FloatArray, IntArray, Points
 from model.problem.distances import EXACT
-from model.travel.airspace import Airspace, Flights
+from model.travel.airspace import Airspace, Flights, OpenFlights
 from model.travel.buffers import grown, planar_buffers
 from model.travel.matrices import (
     LocalProjection,
@@ -39,12 +42,26 @@ QUARTER_M = 1e7
 """A quarter of the way around the globe."""
 
 
-class Detours(NamedTuple):
+class Detour(NamedTuple):
     """Where flights bend around no-fly areas."""
 
     ways: Ways
     corners: FloatArray  # (corner, 2) as the request states places
     airspace: Airspace
+
+
+class Detours(NamedTuple):
+    """Where flights bend, by the zones with hours that their ends lie in."""
+
+    by_zones: Mapping[int, Detour]
+    zones: IntArray  # (place,) as bits
+
+    def _between(self, start: int, end: int) -> Detour:
+        return self.by_zones[int(self.zones[start] | self.zones[end])]
+
+    def are_blocked(self, start: int, end: int) -> bool:
+        """Tell whether no straight flight leads from place to place."""
+        return bool(self._between(start, end).ways.blocked[start, end])
 
     def bends(self, start: int, end: int, airspeed_kmh: float,
               winds: Sequence[Breeze] = ()) -> FloatArray:
@@ -52,12 +69,13 @@ class Detours(NamedTuple):
 
         Of several winds, in that in which it takes longest.
         """
-        if not self.ways.blocked[start, end]:
-            return self.corners[:0]
+        ways, corners, airspace = self._between(start, end)
+        if not ways.blocked[start, end]:
+            return corners[:0]
         felt = [Wind.blowing(*breeze, airspeed_kmh) for breeze in winds]
-        felt = felt or [self.airspace.wind(airspeed_kmh)]
-        worst = max(felt, key=lambda wind: self.ways.quickest(start, end, wind)[0])
-        return self.corners[self.ways.bends(start, end, worst)]
+        felt = felt or [airspace.wind(airspeed_kmh)]
+        worst = max(felt, key=lambda wind: ways.quickest(start, end, wind)[0])
+        return corners[ways.bends(start, end, worst)]
 
 
 class Ground:
@@ -72,6 +90,7 @@ class Ground:
         self._airspaces: dict[Met, Airspace] = {}
         self._flights: dict[Met, Flights] = {}
         self._has_areas: dict[Met, bool] = {}
+        self._closed: dict[Met, Closed] = {}
 
     def is_that_of(self, placed: PlacedRequest) -> bool:
         """Tell whether a request has its places and areas at the same points."""
@@ -139,11 +158,56 @@ class Ground:
                 or len(holding(over, self.points_m, self._apart(over))) > 0)
         return self._has_areas[met]
 
-    def flights(self, altitude: float) -> Flights:
-        """Return the flights of drones of any speed at an altitude."""
+    def closed(self, altitude: float) -> Closed:
+        """Return what drones at an altitude meet, and which of it they don't meet at some hours."""
         met = self.zones.at(altitude)
+        if met not in self._closed:
+            first_bit = sum([len(closed.hours) for closed in self._closed.values()])
+            self._closed[met] = self._closed_by(met, first_bit)
+        return self._closed[met]
+
+    def _closed_by(self, met: Met, first_bit: int) -> Closed:
+        by_times: dict[Times, set[Part]] = {}
+        for part in (*met.around, *met.over):
+            times = times_closed(part, self._request.day, self.zones.span)
+            if times:
+                by_times.setdefault(times, set()).add(part)
+        held = [(self._holding(parts), Hours(times, frozenset(parts)))
+                for times, parts in by_times.items()]
+        found = most_holding([(len(nodes), hours) for nodes, hours in held if len(nodes)])
+        if first_bit + len(found) > MAX_TIMED_ZONES:
+            found = ()
+        zones = np.zeros(len(self.places), np.int64)
+        for nodes, hours in held:
+            if hours in found:
+                zones[nodes] |= 1 << found.index(hours)
+        return Closed(met, found, first_bit, zones)
+
+    def _holding(self, parts: Collection[Part]) -> IntArray:
+        """Return the places that lie in any of some zones, or too near to one."""
+        areas = self._projected([*parts])
+        found, _ = shapely.STRtree(areas).query(
+            shapely.points(self.points_m), predicate="dwithin",
+            distance=WIDER_M + self._apart(areas))
+        return np.unique(found)
+
+    def zones_with_hours(self, altitudes: Iterable[float]) -> IntArray:
+        """Return the (place,) zones with hours that hold each, as bits, at any of some altitudes.
+        """
+        closed = [self.closed(altitude) for altitude in altitudes]
+        return np.bitwise_or.reduce(
+            [np.zeros(len(self.places), np.int64),
+             *(each.zones << each.first_bit for each in closed)])
+
+    def flights(self, altitude: float) -> Flights | OpenFlights:
+        """Return the flights of drones of any speed at an altitude."""
+        closed = self.closed(altitude)
+        found = {zones: self._flights_by(closed.open_to(zones)) for zones in closed.together()}
+        return OpenFlights(found, closed.zones) if closed.hours else found[0]
+
+    def _flights_by(self, met: Met) -> Flights:
         if met not in self._flights:
-            airspace = self.airspace(altitude)
+            airspace = self._airspace_by(met)
             obstacles = airspace.obstacles
             self._preparing.expect(sights_seconds(
                 len(self.places), len(obstacles.corners.place), len(obstacles.edges)))
@@ -155,25 +219,35 @@ class Ground:
         """Return where flights bend; None: they are straight."""
         if not self.has_areas(altitude):
             return None
-        flights = self.flights(altitude)
-        return Detours(flights.ways, self.stated(flights.airspace.obstacles.corners.place),
-                       flights.airspace)
+        closed, found = self.closed(altitude), {}
+        for zones in closed.together():
+            flights = self._flights_by(closed.open_to(zones))
+            found[zones] = self._detour(flights.ways, flights.airspace)
+        return Detours(found, closed.zones)
 
     def detours_among(self, nodes: Sequence[int], altitude: float) -> Detours:
         """Return where flights between a few of the places bend, numbered as they are listed."""
-        airspace = self.airspace(altitude)
-        ways = find_ways(self.points_m[nodes], airspace.obstacles, self._preparing.pause)
-        return Detours(ways, self.stated(airspace.obstacles.corners.place), airspace)
+        closed, found = self.closed(altitude), {}
+        for zones in closed.together():
+            airspace = self._airspace_by(closed.open_to(zones))
+            ways = find_ways(self.points_m[nodes], airspace.obstacles, self._preparing.pause)
+            found[zones] = self._detour(ways, airspace)
+        return Detours(found, closed.zones[nodes])
 
-    def closed_areas(self, altitude: float) -> list[tuple[Polygon, FloatArray]]:
+    def _detour(self, ways: Ways, airspace: Airspace) -> Detour:
+        return Detour(ways, self.stated(airspace.obstacles.corners.place), airspace)
+
+    def closed_areas(self, altitude: float, zones: int = 0) -> list[tuple[Polygon, FloatArray]]:
         """Return all that may not be flown through, in planar metres as it was published.
+
+        But for `zones` with hours, as bits, to which it is flown while they are open.
 
         With each, the (corner, 2) ring around it as the request states places. What has holes
         comes in pieces without.
         """
         rings = [np.array(ring, dtype=np.float64) for ring in self._request.airspace.no_fly]
         rings += [shapely.get_coordinates(piece.exterior)
-                  for part in self.zones.at(altitude).around
+                  for part in self.closed(altitude).open_to(zones).around
                   for piece in without_holes(part.volume.area)]
         return [(Polygon(self.planar(ring)), ring) for ring in rings]
 
@@ -196,6 +270,11 @@ class Ground:
         area, = self._projected([part])
         metres = area.distance(shapely.Point(self.points_m[node]))
         return metres if metres > WIDER_M else 0.0
+
+    def times_of(self, part: Part) -> Times:
+        """Return when a zone with hours is closed that holds places; none of others."""
+        return next((hours.times for closed in self._closed.values() for hours in closed.hours
+                     if part in hours.parts), ())
 
     def areas_near(self, node: int) -> dict[int, float]:
         """Return how far a place lies from the request's own areas that it is too near to."""
@@ -223,7 +302,9 @@ class Ground:
 
     def airspace(self, altitude: float) -> Airspace:
         """Return what bends or slows flights at an altitude, in planar metres."""
-        met = self.zones.at(altitude)
+        return self._airspace_by(self.zones.at(altitude))
+
+    def _airspace_by(self, met: Met) -> Airspace:
         if met not in self._airspaces:
             self._airspaces[met] = self._airspace_with(met)
         return self._airspaces[met]
@@ -252,13 +333,16 @@ class Ground:
 
     def _grown(self, areas: Sequence[Polygon]) -> list[Polygon]:
         """Return areas on the plane with the distance that flights keep from them."""
-        buffer = self._request.airspace.buffer
-        return grown(areas, planar_buffers(areas, buffer, self.is_geographic))
+        return grown(areas, self._buffers(areas))
 
     def _apart(self, areas: Sequence[Polygon]) -> float:
         """Return how far flights keep at most from any of some areas, in planar metres."""
-        buffer = self._request.airspace.buffer
-        return float(planar_buffers(areas, buffer, self.is_geographic).max(initial=0.0))
+        return float(self._buffers(areas).max(initial=0.0))
+
+    def _buffers(self, areas: Sequence[Polygon]) -> FloatArray:
+        """Return how far flights keep from each of some areas, in planar metres."""
+        farthest = float(np.hypot(*self.points_m.T).max()) if self.is_geographic else None
+        return planar_buffers(areas, self._request.airspace.buffer, farthest)
 
     def _projected(self, parts: Sequence[Part]) -> list[Polygon]:
         """Return the areas of zones on the plane; nothing of those on the other side of the globe.

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,9 +21,12 @@ from app.schemas.customer import place_name
 from app.schemas.relation import RelationInput
 from app.schemas.request import PlanRequest
 from model.problem import (
-    Balance, Customer, Fairness, FloatArray, IncompatibleGoods, Part, Problem, Relation,
-    Shipment,
+    Balance, Customer, Depot, Fairness, FloatArray, IncompatibleGoods, IntArray, Part, Problem,
+    Relation, Shipment,
 )
+
+
+Place = TypeVar("Place", Depot, Customer)
 
 
 def to_problem(request: PlanRequest, preparing: Preparing = UNHURRIED,
@@ -55,10 +59,11 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
     fairness = _fairness(request)
     unassigned_cost, fairness = _large_prices(request, fairness, lambda: default_unassigned_cost(
         customers, vehicle_types, travels.built(), decimals, fairness, relations) + _dearest(costs))
+    zones = travels.zones()
     return Problem(
-        depots=tuple([replace(depot, site=site)
-                      for depot, site in zip(depots, sites, strict=False)]),
-        customers=customers,
+        depots=_in_zones([replace(depot, site=site)
+                          for depot, site in zip(depots, sites, strict=False)], zones),
+        customers=_in_zones(customers, None if zones is None else zones[len(depots):]),
         vehicle_types=vehicle_types,
         travel=travels.built(),
         coordinates=travels.coordinates(),
@@ -73,6 +78,14 @@ def problem_of(placed: PlacedRequest, travels: Travels) -> Problem:
         shipments=shipments, choices=_choices(request, len(depots)),
         fairness=fairness,
     )
+
+
+def _in_zones(places: Sequence[Place], zones: IntArray | None) -> tuple[Place, ...]:
+    """Return places with the zones with hours that hold them, if there are any."""
+    if zones is None:
+        return tuple(places)
+    return tuple([replace(place, zones=held) if held else place
+                  for place, held in zip(places, zones.tolist(), strict=False)])
 
 
 def _serving_costs(request: PlanRequest, groups: Sequence[Group],

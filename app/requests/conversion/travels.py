@@ -24,7 +24,8 @@ from app.schemas.request import MatrixInput, RoadsInput
 from app.schemas.rows import Row
 from app.schemas.vehicle import DEFAULT_TRUCK_SPEED_KMH, VehicleTypeInput
 from model.problem import (
-    MAX_QUANTITY, UNREACHABLE, FloatArray, Points, SpeedProfile, StraightLegs, Travel,
+    MAX_QUANTITY, UNREACHABLE, Closings, FloatArray, IntArray, Points, SpeedProfile, StraightLegs,
+    Travel,
 )
 from model.problem.straight import fits
 from model.travel.matrices import (
@@ -163,6 +164,25 @@ class Travels:
     def fly(self, kind: VehicleTypeInput, drones: DronesInput) -> int:
         """Return the index of the matrices of a type's drones."""
         return self._at(self._flying(kind, drones))
+
+    def closings(self, flyer: Flyer) -> Closings:
+        """Return when nothing may fly to or from zones with hours."""
+        if not self._meets_zones(flyer):
+            return ()
+        return self._ground.closed(flyer.altitude).closings()
+
+    def zones(self) -> IntArray | None:
+        """Return the (node,) zones with hours that hold each node, as bits; None: there are none.
+        """
+        altitudes = sorted({flyer.altitude for kind in self._request.fleet
+                            for flyer in _all_flyers(kind) if self._meets_zones(flyer)})
+        found = self._ground.zones_with_hours(altitudes) if altitudes else None
+        if found is None or self._nowhere is None:
+            return found
+        return np.insert(found, self._nowhere, 0)
+
+    def _meets_zones(self, flyer: Flyer) -> bool:
+        return bool(self._ground.zones) and self._matrix(flyer.profile) is None
 
     def straight(self) -> int:
         """Return the index of matrices whose distances are straight."""

@@ -69,7 +69,7 @@ def _flying(kind: VehicleType, stated: VehicleTypeInput, travels: Travels, decim
     turnaround = stated.turnaround or TurnaroundInput()
     return replace(
         kind, straight=0 if stated.max_range is None else travels.straight(),
-        storms=_storms(stated, stated, travels),
+        storms=_storms(stated, stated, travels), closings=travels.closings(stated),
         reload_duration=kind.reload_duration + thousandths(turnaround.swap_duration),
         energy=(None if stated.energy is None
                 else to_energy(stated, stated.energy, decimals, amounts)))
@@ -108,7 +108,7 @@ def _drones(kind: VehicleTypeInput, stated: DronesInput, travels: Travels, decim
         id=stated.id,
         capacity=counted(stated.capacity, decimals),
         travel=travels.fly(kind, stated),
-        storms=_storms(kind, stated, travels),
+        storms=_storms(kind, stated, travels), closings=travels.closings(stated),
         straight=0 if stated.max_range is None else travels.straight(),
         energy=(None if stated.energy is None
                 else to_energy(stated, stated.energy, decimals, amounts)),

@@ -112,18 +112,20 @@ Int delay_as_one(const ProblemData& data, const Chains& chains, const Joint& joi
     const auto behind = [&](Int node) { return node == joint.a ? joint.b : chain[node].behind; };
     FlownTrip trip(type, weight);
     Int here = type.begins_at, time = start;
+    Int zones = zones_at(data.zones, type.begins_at) | zones_at(data.zones, type.ends_at);
     for (Int node = joint.head; node != nowhere; node = behind(node)) {
         const Int way = leg(legs, here, node).duration;
         if (places[node].too_late(time + way)) return far;
         trip.fly_to(weighed[node], way, node == joint.head, weighed[node].waiting(time + way));
         time = places[node].end_of_service(time + way);
+        zones |= zones_at(data.zones, node);
         here = node;
     }
     const Int home = leg(legs, here, type.ends_at).duration;
     trip.fly_home(home, false);
     const bool done = may_end(type, time + home) && time + home - start <= longest_in_air(type) &&
                       (!is_limited(type) || trip.left() >= 0);
-    return done ? wait_for_calm(type, start, time + home) : far;
+    return done ? wait_for_calm(type, start, time + home, zones) : far;
 }
 
 // Tells whether who flies by itself may fly two routes as one trip, as soon as all parcels are

@@ -52,8 +52,8 @@ Int soonest_takeoff(const DroneData& drone_data, const Sortie& sortie, Int node,
     while (true) {
         Int held = single ? none : held_by_windows(drone_data, sortie, node, takeoff);
         if (held <= takeoff && storms) {
-            held =
-                calm_takeoff(drone_data.type, takeoff, back_at(drone_data, sortie, node, takeoff));
+            held = calm_takeoff(drone_data.type, takeoff,
+                                back_at(drone_data, sortie, node, takeoff), sortie.zones);
         }
         if (held <= takeoff) return takeoff;
         takeoff = held;
@@ -148,7 +148,7 @@ bool bring_home(const DroneData& drone_data, Sortie& sortie, Int node, BlockSums
                                        {counted_until(type, back.d, begin.d),
                                         counted_until(type, back.c, begin.c)}));
     if (storms_sometime(type)) {
-        const Int calm = calm_until(type, sortie.takeoff);
+        const Int calm = calm_until(type, sortie.takeoff, sortie.zones);
         if (begin.c > calm) return false;
         sums.hi = std::min(sums.hi, calm - begin.d);
         sums.dep = std::min(sums.dep, calm - begin.d);
@@ -316,6 +316,15 @@ void note_idle(NodeTable places, View<Stop, 1> stops, Int first, Int last) {
     stops[last].idle = 0;
 }
 
+// Return the zones with hours to which a sortie comes that is launched at a node.
+Int zones_met(const ProblemData& data, const Sortie& sortie, Int node) {
+    Int zones = zones_at(data.zones, node) | zones_at(data.zones, sortie.home);
+    for (Int visit = 0; visit < sortie.count; ++visit) {
+        zones |= zones_at(data.zones, sortie.nodes[visit]);
+    }
+    return zones;
+}
+
 // Return what weighs of that which a drone brings to its recovery.
 Int weight_home(const ProblemData& data, NodeTable places, const Sortie& sortie) {
     Int weight = 0;
@@ -337,6 +346,9 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
         sortie.state = sortie_waits;
         sortie.held = none;
         sortie.limit = endurance_of(drone_data.type);
+        if (storms_sometime(drone_data.type)) {
+            sortie.zones = zones_met(truck.data, sortie, stops[sortie.launch].node);
+        }
         if (is_limited(drone_data.type)) {
             sortie.taken = weight_home(truck.data, drone_data.places, sortie);
             charge(drone_data.places, drone_data.legs, drone_data.homeward, drone_data.type, sortie,

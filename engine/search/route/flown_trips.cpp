@@ -79,7 +79,10 @@ Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 
 
 Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                    const Trip& trip) {
-    return wait_for_calm(data.type[route.type], start_of(stops, trip), stops[trip.last].leave);
+    Int zones = 0;
+    for (Int p = trip.first; p <= trip.last; ++p) zones |= zones_at(data.zones, stops[p].node);
+    return wait_for_calm(data.type[route.type], start_of(stops, trip), stops[trip.last].leave,
+                         zones);
 }
 
 Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,

@@ -89,6 +89,7 @@ struct ProblemData {
     View<tandem_plugging, 1> plugging;   // (number,) by depot and time, written likewise
     View<const double, 2> vehicle_cost;  // (type, node) of being served by it
     View<const bool, 1> no_launch;       // (node,) none where drones may take off anywhere
+    View<const std::int64_t, 1> zones;   // (node,) with hours that hold it, none where none do
     View<const Hub, 1> hub;              // (depot,) none where all have enough
     View<const bool, 2> halts;  // (type, depot) launch sites where it may stop; (0, 0) if none
     View<const std::int64_t, 1> halt_after;  // (depot,) who is served before, or `nowhere`
@@ -139,6 +140,7 @@ inline ProblemData data_of(const tandem_problem_data& from) {
             from.plugging,
             from.vehicle_cost,
             from.no_launch,
+            from.zones,
             from.hub,
             from.halts,
             from.halt_after,

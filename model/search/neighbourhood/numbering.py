@@ -42,7 +42,7 @@ def renumbered(instance: Instance, numbering: Numbering) -> Instance:
         for name, axis in (("node", 2), ("amount", 1), ("price", 1), ("reload", 2),
                            ("can_drive", 2), ("can_fly", 2), ("unassigned_more", 1))}
     by_node |= {name: np.take(table, node, 1)
-                for name in ("goods", "setup", "max_time_aboard", "no_launch")
+                for name in ("goods", "setup", "max_time_aboard", "no_launch", "zones")
                 if (table := getattr(instance, name)).shape[1]}
     if instance.pair.shape[1]:
         by_node["pair"] = pair = np.take(instance.pair, node, 1)

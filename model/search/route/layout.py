@@ -103,6 +103,7 @@ class ProblemData(NamedTuple):
     plugging: Records  # (number,) as a route is timed, none where nobody waits to be charged
     vehicle_cost: FloatArray  # (type, node) of being served by it, none where nobody states any
     no_launch: BoolArray  # (node,) no drone takes off there; none where any may
+    zones: IntArray  # (node,) with hours that hold it, as bits; none where none do
     hub: Records  # (depot,), none where all have enough
     halts: BoolArray  # (type, depot) launch sites where it may stop; (0, 0) if there are none
     halt_after: IntArray  # (depot,) who is served before a stop there, or NOWHERE

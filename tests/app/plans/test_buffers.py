@@ -18,7 +18,7 @@ from model.travel.matrices import LocalProjection
 from tests.app.maps.airspace.published import circle, ed269, ed318, geojson, kml, volume, zone
 from tests.app.plans.asking import planned, refused
 from tests.app.plans.flights.asking import files_of, sent
-from tests.app.plans.test_closures import BEHIND, asked
+from tests.app.plans.test_closures import BEHIND, asked, mask
 
 Data = dict[str, Any]
 EARTH = Geod(ellps="WGS84")
@@ -126,6 +126,17 @@ def test_random_flights_keep_their_distance(client: httpx.Client) -> None:
             close += min(nearby) < buffer + 10
     assert bent > 10
     assert close > 10
+
+
+def test_the_edge_of_a_mask_of_the_world_is_kept_from(client: httpx.Client) -> None:
+    hole = ring(BETWEEN, (-4000, -2000), (4000, -2000), (4000, 400), (0, -100), (-4000, 400))
+    request = asked(mask(hole))
+    request["airspace"]["buffer"] = 30
+    line = lines(client, request)[0]
+    inside = LocalProjection.around(np.array(hole))
+    edge = shapely.Polygon(inside.project(np.array(hole))).boundary
+    away = shapely.distance(edge, shapely.LineString(inside.project(line)))
+    assert 30 <= away <= 39
 
 
 def test_a_plan_on_a_plane_keeps_its_distance(client: httpx.Client) -> None:

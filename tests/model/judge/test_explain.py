@@ -113,6 +113,20 @@ def test_reason_of_who_flies_in_a_storm(tiny_problem, customers, truck):
     assert reason_for_d(tiny_problem(*customers, truck=over)).code == "SEARCH"
 
 
+def test_reason_of_who_lies_in_a_zone_that_stays_closed(tiny_problem, customers, truck, drones):
+    *others, d = customers
+    closed = replace(d, served_by="drone", zones=2)
+    for until, code in ((UNLIMITED, "AIRSPACE"), (30 * MINUTE, "SEARCH")):
+        carrier = replace(truck, drones=replace(drones, closings=((0, until, 2),)))
+        reason = reason_for_d(tiny_problem(*others, closed, truck=carrier))
+        assert reason.code == code
+        if code == "AIRSPACE":
+            assert reason == Reason(0, code, "No flight there and back is over before a zone is "
+                                    "closed, or begins behind.", "fits if a truck may serve it")
+    other = replace(truck, drones=replace(drones, closings=((0, UNLIMITED, 1),)))
+    assert reason_for_d(tiny_problem(*others, closed, truck=other)).code == "SEARCH"
+
+
 def test_no_drone_may_take_off(tiny_problem, customers, truck, drones):
     *others, d = [replace(customer, launch=False) for customer in customers]
     problem = tiny_problem(*others, replace(d, served_by="drone"),

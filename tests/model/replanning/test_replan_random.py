@@ -17,7 +17,7 @@ from model.replanning.rested import has_clock
 from model.solution import Route, Solution, Trip
 from tests.model.fliers import from_few_hubs, with_fliers
 from tests.model.street import served
-from tests.model.permits import with_few_airborne, with_ranges, with_storms
+from tests.model.permits import with_closings, with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_late, draw_tiny, with_charging, with_duty, with_energy, with_goods, with_limits_aboard,
     with_open_ends, with_open_reloads, with_own_durations, with_pickups, with_reloads, with_setups,
@@ -310,6 +310,7 @@ def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
 @pytest.mark.parametrize("change", [
     with_fairness, with_own_durations, with_goods, with_setups, with_limits_aboard,
     with_all_at_once, with_ranges, with_few_airborne, with_few_launch_places, with_storms,
+    with_closings,
     with_relations, with_order, with_order_across, with_choices, with_breaks, with_driving])
 @pytest.mark.parametrize("seed", range(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(

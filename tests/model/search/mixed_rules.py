@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from model.problem import Problem
+from model.problem import Problem, has_timed_zones
 from tests.model.fliers import from_few_hubs, with_fliers
-from tests.model.permits import with_few_airborne, with_ranges, with_storms
+from tests.model.permits import with_closings, with_few_airborne, with_ranges, with_storms
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_dimensions, with_drone_types, with_duty, with_energy,
     with_gaps, with_goods, with_limits_aboard, with_open_ends, with_open_reloads,
@@ -88,6 +88,16 @@ def all_rules_in_storms(rng: np.random.Generator) -> Problem:
         problem = with_storms(rng, with_fliers(rng, all_rules(rng), 0.3))
         if any(kind.storms or any(drones.storms for drones in kind.drone_types)
                for kind in problem.vehicle_types):
+            return with_gaps(rng, problem) if rng.random() < 0.3 else problem
+
+
+def all_rules_in_closed_zones(rng: np.random.Generator) -> Problem:
+    """Return problems with zones that are closed to some drones, or vehicles that fly, at times."""
+    while True:
+        problem = with_closings(rng, with_fliers(rng, all_rules(rng), 0.3))
+        if has_timed_zones(problem) and any(
+                kind.closings or any(drones.closings for drones in kind.drone_types)
+                for kind in problem.vehicle_types):
             return with_gaps(rng, problem) if rng.random() < 0.3 else problem
 
 

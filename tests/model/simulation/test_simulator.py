@@ -19,7 +19,9 @@ from model.solution import Route
 from tests.model.mask_oracle import MINUTE, Vehicle, after, judge, legal_codes
 from tests.model.rollouts import choose, legal, random_problems, roll
 from tests.model.fliers import from_few_batteries, with_fliers, without_taken
-from tests.model.permits import with_few_airborne, with_ranges, with_storms
+from tests.model.permits import (
+    fliers_in_closed_zones, with_closings, with_few_airborne, with_ranges, with_storms,
+)
 from tests.model.tiny import (
     draw_tiny, with_beginnings, with_charging, with_dimensions, with_drone_types, with_drones,
     with_duty,
@@ -186,10 +188,9 @@ def fliers_among_all(rng: np.random.Generator, problem: Problem) -> Problem:
     charging_drone_types, drone_types_among_all, with_ranges, ranges_among_all,
     with_few_airborne, few_airborne_among_all, with_few_launch_places,
     few_launch_places_among_all, with_fliers, fliers_among_all, from_few_batteries,
-    few_at_hubs_among_all, with_storms,
-    storms_among_all, fliers_in_range, fliers_in_storms, with_launch_sites, few_airborne_in_no_time,
-    with_vehicle_costs, with_relations, with_order, with_hours_apart,
-    with_closing_hubs])
+    few_at_hubs_among_all, with_storms, with_closings, fliers_in_closed_zones, storms_among_all,
+    fliers_in_range, fliers_in_storms, with_launch_sites, few_airborne_in_no_time,
+    with_vehicle_costs, with_relations, with_order, with_hours_apart, with_closing_hubs])
 def test_the_table_other_windows_and_how_vehicles_begin_decide_what_is_legal(
         change: Change) -> None:
     for seed in range(28):
