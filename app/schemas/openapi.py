@@ -45,8 +45,8 @@ ERROR_RESPONSES: dict[int | str, dict[str, Any]] = {
         (413, "The body is too large."),
         (422, "The request is not valid; every error is listed."),
         (500, "The plan found broke a rule, so it is withheld."),
-        (503, "The service is starting, stopping or busy, or its roads don't answer: try again "
-              "after `Retry-After` seconds."),
+        (503, "The service is starting, stopping or busy, the process that planned died, or roads "
+              "don't answer: try again after `Retry-After` seconds."),
     )
 }
 TAGS = [

@@ -104,6 +104,12 @@ class Service:
             self._process.send_signal(signal.SIGKILL)
             self._process.wait()
 
+    def close(self) -> None:
+        """Kill the service, and let go of what was open to it. In place."""
+        self.kill()
+        self.client.close()
+        self._log.close()
+
     @property
     def is_running(self) -> bool:
         """Tell whether the process that was started last is there."""
@@ -252,7 +258,7 @@ def run(arguments: argparse.Namespace, database_url: str | None) -> Outcome:
             study.finish()
             study.look_again()
         finally:
-            service.kill()
+            service.close()
     outcome = outcome_of(study)
     print(table(outcome, arguments.kills, "SQLite" if database_url is None else "PostgreSQL"),
           flush=True)

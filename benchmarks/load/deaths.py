@@ -114,7 +114,7 @@ def run(deaths: int, jobs: int, askers: int, seconds: float) -> dict[str, Any]:
             study = Study(service, json.loads(EXAMPLE.read_text("utf-8")), seconds)
             return _under_load(study, deaths, jobs, askers)
         finally:
-            service.kill()
+            service.close()
 
 
 def _under_load(study: Study, deaths: int, jobs: int, askers: int) -> dict[str, Any]:
