@@ -18,8 +18,8 @@ LEAST_WORK = 0.1
 """Seconds of work that are always allowed, as replies may be so late."""
 
 LEAST_TIME = 0.5
-"""Seconds that may always pass before the search: a machine that is busy for a moment answers small
-requests late, and doesn't refuse them."""
+"""Seconds of work on the way that are always allowed: beside neighbours everything takes longer,
+and what is small is answered late, not refused."""
 
 ROOM = 0.5
 """Seconds that a time limit which is advised leaves for the search, beside its share."""
@@ -38,6 +38,9 @@ class StoppedError(RequestError, status=503, name="stopping"):
 class Preparing:
     """The work on a request before its search, in parts between which it may end.
 
+    What it takes is counted in seconds of the processor of the thread that made this, so that no
+    neighbour on the machine has it refused; waiting for others alone is timed by the clock.
+
     Parameters
     ----------
     should_stop
@@ -52,8 +55,10 @@ class Preparing:
         How many seconds a request may ask for instead; 0: it can't.
     most_setting
         Where `most` comes from.
+    began
+        On `time.thread_time`.
     least_time
-        Seconds that may pass in any case; more than work of so many seconds may take.
+        Seconds that are allowed in any case; more than work that is estimated may take.
     patience
         Seconds that roads and geocoders may take on top of it all.
     """
@@ -66,7 +71,7 @@ class Preparing:
                    "corners")
     most: float = 0.0
     most_setting: str = ""
-    began: float = field(default_factory=time.perf_counter)
+    began: float = field(default_factory=time.thread_time)
     least_time: float = LEAST_TIME
     patience: float = 0.0
     _waits: list[list[float]] = field(default_factory=list)  # from when, and until when
@@ -81,7 +86,7 @@ class Preparing:
         InvalidRequestError
             If it takes too long.
         """
-        spent = time.perf_counter() - self.began
+        spent = self._spent
         if spent > PATIENCE and self.should_stop():
             raise StoppedError("The work was stopped before there was a plan: try again.")
         if spent > self._latest:
@@ -92,13 +97,13 @@ class Preparing:
         self.pause()
         if seconds > self._most_work:
             raise self._refusal(f"take about {seconds:.1f} s", seconds, self._most_work)
-        total = time.perf_counter() - self.began + seconds
+        total = self._spent + seconds
         if total > self._latest:
             raise self._refusal(f"take about {total:.1f} s", total, self._latest)
 
     def allows(self, seconds: float) -> bool:
         """Tell whether there is time enough for what may come next."""
-        return time.perf_counter() - self.began + seconds <= self._most_work + self.waited
+        return self._spent + seconds <= self._most_work + self.waited
 
     def beside_search(self, seconds: float, search: str) -> "Preparing":
         """Return the same work where it takes nothing off the search's time.
@@ -117,8 +122,9 @@ class Preparing:
     @contextmanager
     def waiting(self) -> Iterator[float]:
         """Wait for what others tell; give until when at most, on `time.perf_counter`. In place."""
-        latest = self.began + self._latest + self.patience - self.waited
-        self._waits.append([time.perf_counter(), math.inf])
+        now = time.perf_counter()
+        latest = now + self._latest - self._spent + self.patience - self.waited
+        self._waits.append([now, math.inf])
         try:
             yield latest
         finally:
@@ -127,8 +133,17 @@ class Preparing:
     @property
     def waited(self) -> float:
         """Seconds that others took so far, on top of the time for all."""
+        return min(self._away, self.patience)
+
+    @property
+    def _away(self) -> float:
+        """Seconds by the clock in which others were waited for so far."""
         now = time.perf_counter()
-        return min(sum(min(end, now) - begin for begin, end in self._waits), self.patience)
+        return sum(min(end, now) - begin for begin, end in self._waits)
+
+    @property
+    def _spent(self) -> float:
+        return time.thread_time() - self.began + self._away
 
     @property
     def _most_work(self) -> float:

@@ -92,7 +92,8 @@ def _legs_by(roads: Roads, profile: str, driving: Driving, placed: PlacedRequest
     parts = None
     if len(lon_lat) > roads.full_up_to and request.replan is None:
         parts = nearness(lon_lat, range(len(lon_lat) - len(request.customers)))
-    until = _until(latest, stated)
+    now = time.perf_counter()
+    until = _until(now, latest, stated)
     try:
         table = (roads.table(profile, lon_lat, until, preparing.should_stop, driving)
                  if parts is None else
@@ -103,7 +104,7 @@ def _legs_by(roads: Roads, profile: str, driving: Driving, placed: PlacedRequest
         raise StoppedError("The work was stopped before there was a plan: try again.") from error
     except RoadsError as error:
         if stated.fallback is None and _is_late(error):
-            raise _too_slow(profile, len(lon_lat), latest, preparing) from error
+            raise _too_slow(profile, len(lon_lat), latest - now, preparing) from error
         if stated.fallback is None:
             raise NoRoadsError(f"The roads of {profile!r}: {error} Try again, or state "
                                "roads.fallback.") from error
@@ -141,10 +142,10 @@ def _is_late(error: RoadsError) -> bool:
     return isinstance(error, RoadsUnavailableError) and error.is_late
 
 
-def _too_slow(profile: str, count: int, latest: float,
+def _too_slow(profile: str, count: int, seconds: float,
               preparing: Preparing) -> InvalidRequestError:
     message = (f"The roads of {profile!r} didn't tell the legs between {count} places within "
-               f"{latest - preparing.began:.1f} s, as long as may be spent on them by "
+               f"{seconds:.1f} s, as long as may be spent on them by "
                f"{preparing.limit}: state a longer time_limit, or submit a job (POST /jobs), whose "
                "time begins when its legs are there. Legs that were told are kept: the same "
                "places are quick from then on.")
@@ -152,8 +153,7 @@ def _too_slow(profile: str, count: int, latest: float,
                                            message=message)])
 
 
-def _until(latest: float, stated: RoadsInput) -> float:
-    now = time.perf_counter()
+def _until(now: float, latest: float, stated: RoadsInput) -> float:
     if stated.fallback is None or latest == float("inf"):
         return latest
     return now + FALLBACK_SHARE * (latest - now)

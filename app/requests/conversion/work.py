@@ -1,8 +1,8 @@
 """How long the work on a request takes before its search, by what was measured on one core.
 
 `benchmarks.speed.punctuality` tells what came before the search. The constants are what it takes on
-memory that was in use before; the first touch of new memory may take as long again, which the clock
-sees.
+memory that was in use before; the first touch of new memory may take as long again, which counts
+once it is spent.
 """
 
 from model.problem import Problem

@@ -1,7 +1,7 @@
 """What planning takes beside the search, and what may end it before there is a plan.
 
 The constants are what was measured on one core, on memory that was in use before; the first touch
-of new memory may take as long again, which the clock sees.
+of new memory may take as long again, which counts once it is spent.
 """
 
 from collections.abc import Callable

@@ -3,8 +3,10 @@
 import json
 import math
 import random
+import time
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import count
 from types import SimpleNamespace
 from typing import Any
 
@@ -124,7 +126,32 @@ def test_a_plan_to_go_on_from_that_takes_too_long_is_refused_with_an_estimate(
     assert error["message"].startswith("Legs and the plan to go on from take about")
 
 
-def test_work_ends_when_the_clock_says_so_though_the_estimate_did_not(
+def test_a_small_request_is_planned_though_the_machine_stood_for_hours(
+        serve: Callable[..., httpx.Client], monkeypatch: pytest.MonkeyPatch) -> None:
+    hours = count(0, 3600)
+    monkeypatch.setattr("app.requests.conversion.preparing.time", SimpleNamespace(
+        perf_counter=lambda: float(next(hours)), thread_time=time.thread_time))
+    client = ready(serve(FirstFitPlanner(), Settings(role="api", max_plan_seconds=1.0)))
+    request = crowd(6, [circle(50)], time_limit=0.1)
+    reply = client.post("/plan", json=request)
+    assert (reply.status_code, reply.json()["unassigned"]) == (200, [])
+    asked = {"problem": request, "plan": reply.json()}
+    assert client.post("/check", json=asked).status_code == 200
+    assert next(hours) > 0
+
+
+def test_a_large_request_is_refused_by_its_work_though_the_clock_stands(
+        client: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(travels, "legs_seconds", lambda *_: 0.0)
+    seconds = count()
+    monkeypatch.setattr("app.requests.conversion.preparing.time", SimpleNamespace(
+        perf_counter=lambda: 50.0, thread_time=lambda: 0.1 * next(seconds)))
+    [error] = client.post("/plan", json=crowd(300, [circle(100)], time_limit=1)).json()["errors"]
+    assert error["code"] == "TOO_MUCH_WORK"
+    assert "s so far" in error["message"] or "take about" in error["message"]
+
+
+def test_work_ends_when_it_takes_too_long_though_the_estimate_did_not(
         monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(travels, "legs_seconds", lambda *_: 0.0)
     request = read_request(json.dumps(crowd(300, [circle(100)])).encode(), None)
@@ -136,9 +163,9 @@ def test_work_ends_when_the_clock_says_so_though_the_estimate_did_not(
 
 @pytest.fixture
 def at(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Preparing]:
-    """Return a function that returns work that began some seconds ago, while the clock stands."""
+    """Return a function that returns work on which some seconds were spent, and no more are."""
     monkeypatch.setattr("app.requests.conversion.preparing.time",
-                        SimpleNamespace(perf_counter=lambda: 50.0))
+                        SimpleNamespace(perf_counter=lambda: 0.0, thread_time=lambda: 50.0))
     return lambda spent, limit: Preparing(seconds=limit, limit="a limit", began=50.0 - spent)
 
 
@@ -162,15 +189,15 @@ def test_work_that_does_not_fit_is_refused_before_it_is_done(
 
 @pytest.fixture
 def clock(monkeypatch: pytest.MonkeyPatch) -> list[float]:
-    """Return a list of the one time that it is."""
+    """Return a list of the one time that it is, while nothing is worked."""
     now = [50.0]
     monkeypatch.setattr("app.requests.conversion.preparing.time",
-                        SimpleNamespace(perf_counter=lambda: now[0]))
+                        SimpleNamespace(perf_counter=lambda: now[0], thread_time=lambda: 0.0))
     return now
 
 
 def test_what_roads_take_comes_on_top_of_a_limit_that_nobody_stated(clock: list[float]) -> None:
-    work = replace(preparing(OptionsInput(), Bounds(time_limit=60.0), lambda: False), began=50.0)
+    work = replace(preparing(OptionsInput(), Bounds(time_limit=60.0), lambda: False), began=0.0)
     with work.waiting() as until:
         assert until == 50.0 + 0.9 + PATIENCE_WITH_OTHERS
         clock[0] += 3.0
@@ -190,7 +217,7 @@ def test_what_roads_take_comes_on_top_of_a_limit_that_nobody_stated(clock: list[
     (OptionsInput(time_limit=1.0), 60.0, 0.9), (OptionsInput(), 5.0, 5.9)])
 def test_roads_have_no_longer_than_is_stated(clock: list[float], options: OptionsInput,
                                              bound: float, longest: float) -> None:
-    work = replace(preparing(options, Bounds(time_limit=bound), lambda: False), began=50.0)
+    work = replace(preparing(options, Bounds(time_limit=bound), lambda: False), began=0.0)
     with work.waiting() as until:
         assert until == 50.0 + longest
         clock[0] += longest + 0.1
