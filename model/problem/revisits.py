@@ -35,5 +35,5 @@ def with_revisits(problem: Problem, kinds: Collection[int]) -> Problem:
 
 def _site(problem: Problem, node: int) -> Depot:
     place = problem.place_at(node)
-    return Depot(place.id, "launch_site", site=place.site,
+    return Depot(place.id, "launch_site", site=place.site, zones=place.zones,
                  after=place.id if node >= problem.num_depots else None)

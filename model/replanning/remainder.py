@@ -194,7 +194,7 @@ def _left(stock: int | None, taken: int) -> int | None:
 def _start(problem: Problem, node: int, vehicle: str) -> Depot:
     """Return the place where a vehicle is as one where it begins."""
     place = problem.place_at(node)
-    return Depot(f"start of {vehicle}", site=place.site, launch=place.launch)
+    return Depot(f"start of {vehicle}", site=place.site, launch=place.launch, zones=place.zones)
 
 
 def _goods_table(problem: Problem, kept: Mapping[Vehicle, Kept], kinds: Sequence[int],

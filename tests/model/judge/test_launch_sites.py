@@ -122,6 +122,14 @@ def test_vehicles_of_other_types_do_not_come_back(tiny_problem, customers, truck
     assert all(again.depots[site].latest == UNLIMITED for site in again.launch_sites)
 
 
+def test_place_that_is_revisited_lies_in_the_zones_of_its_customer(
+        tiny_problem, customers, truck, drones):
+    held = (replace(customers[0], zones=2), *customers[1:])
+    again = with_revisits(tiny_problem(*held, truck=replace(truck, drones=drones)), [0])
+    assert {again.depots[site].id: again.depots[site].zones for site in again.launch_sites} == {
+        "depot-0": 0} | {customer.id: customer.zones for customer in held}
+
+
 def test_who_is_left_out_takes_stops_for_his_drone_along(street):
     problem = street(on_site={"stop_cost": 2.5})
     for trips, cost in (((D_FROM_SITE,), 1.0),

@@ -143,6 +143,18 @@ def test_idle_drone_may_be_launched_where_the_truck_stands_from_now_on(
     assert sortie.launch_time == 31 * MINUTE
 
 
+def test_drone_is_launched_in_a_zone_where_the_truck_stands_once_that_is_open(
+        planner: Planner, tiny_problem: Callable[..., Problem], customers: tuple[Customer, ...],
+        truck: VehicleType, drones: DroneType) -> None:
+    a, b, *_ = customers
+    closed = replace(drones, closings=((0, 45 * MINUTE, 1),))
+    problem = tiny_problem(replace(a, service_duration=60 * MINUTE, zones=1), b,
+                           truck=replace(truck, count=1, cost_per_km=1.0, drones=closed))
+    solution = replan(planner, problem, Terms(planned(problem, ((A, B),)), 30 * MINUTE))
+    (sortie,) = solution.routes[0].trips[0].sorties
+    assert (sortie.launch_stop, sortie.launch_time) == (1, 45 * MINUTE)
+
+
 def test_past_that_can_t_have_been_is_refused(street: Problem, drones: DroneType) -> None:
     problem, plan = _flying(street, drones)
     flights = problem.travel[1]
