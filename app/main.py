@@ -24,7 +24,7 @@ from app.maps.roads.opening import extracts_of, opened_roads
 from app.maps.roads.roads import Roads
 from app.maps.streets.gallery import Gallery
 from app.maps.streets.routes import router as streets_router
-from app.plans.desk import PlanDesk
+from app.plans.desk import CHECKED_AT_ONCE, PlanDesk
 from app.plans.flights.routes import router as flights_router
 from app.plans.routes import router as plans_router
 from app.plans.workplace import opened, opened_with
@@ -62,7 +62,7 @@ RETRY_SECONDS = 5
 READY_AT_START = 8
 """How many get ready at the start at most; where there are many cores, others do when needed."""
 
-BESIDE = 2
+BESIDE = CHECKED_AT_ONCE + 1
 """How many may plan beside what settings count: jobs' requests are checked, suspects begin alone.
 """
 

@@ -1,5 +1,6 @@
 """Where endpoints turn to for plans: those who make them work elsewhere."""
 
+import threading
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -17,6 +18,10 @@ from app.serving.children.pool import Pool
 from app.serving.load.abandoned import Turns
 from app.serving.load.received import ReceivedBody
 from app.serving.observe.metrics import Metrics
+
+
+CHECKED_AT_ONCE = 2
+"""How many jobs' requests are checked at once: plans never wait for those that do."""
 
 
 class PlanDesk:
@@ -42,6 +47,7 @@ class PlanDesk:
         self.roads = roads
         self._pool = pool
         self._bounds = bounds
+        self._checks = threading.Semaphore(CHECKED_AT_ONCE)
         self._listeners: Listeners = {PLAN: count, VROOM_PLAN: metrics.count_vroom_plan,
                                       REFUSED: lambda _: metrics.count_refused_plan()}
 
@@ -61,6 +67,12 @@ class PlanDesk:
            should_stop: Callable[[], bool]) -> Any:
         """Return the same at once, in this thread."""
         return self._pool.do(function, args, should_stop, self._listeners)
+
+    def check(self, function: Callable[..., Any], *args: Any,
+              should_stop: Callable[[], bool]) -> Any:
+        """Return the same of a job's request, of which few are checked at once."""
+        with self._checks:
+            return self.do(function, *args, should_stop=should_stop)
 
     def begin(self, function: Callable[..., Any], *args: Any, what: str,
               should_stop: Callable[[], bool],

@@ -70,7 +70,7 @@ def running_jobs(settings: Settings, planning: PlanDesk, metrics: Metrics,
     plans = PlanWork(planning.begin, store, asking, returning, on_plan, terms)
     limits = OpenLimits(settings.max_open_jobs, settings.max_open_jobs_per_client)
     service = JobService(store, queues, reader, limits, lambda job_id: stop_here(job_id),
-                         lambda kind, body, should_stop: planning.do(
+                         lambda kind, body, should_stop: planning.check(
                              validate, kind, body, should_stop=should_stop))
 
     def add(jobs: Sequence[NewJob]) -> bool:

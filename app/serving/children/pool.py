@@ -109,7 +109,11 @@ class Pool:
         child = self._free(should_stop)
         call = Call(child, self._answers, listeners,
                     lambda child, is_alive: self._give_back(child, is_alive, what))
-        call.begin(function, args)
+        try:
+            call.begin(function, args)
+        except BaseException:  # arguments that can't be sent
+            call.drop()
+            raise
         return call
 
     def close(self) -> None:
@@ -151,11 +155,14 @@ class Pool:
         try:
             child = self._start()
             child.get_ready()
-        except BaseException:
+        except BaseException as error:
             with self._changed:
                 self._count -= 1
             if child is not None:
                 child.end()
+            if isinstance(error, EOFError | OSError):
+                raise EndedUnexpectedlyError("No process that plans can be started: try again "
+                                             "soon.") from error
             raise
         return child
 

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from app.schemas.errors import InvalidRequestError
+from app.serving.children.child import Child
 from app.serving.children.errors import EndedUnexpectedlyError
 from app.serving.children.pool import Pool
 from app.serving.children.starting import processes, threads
@@ -130,4 +131,24 @@ def test_what_hinders_all_of_them_is_told_at_once() -> None:
     pool = Pool(processes(works.refused, log_config("json", "error"), [works.__name__]), 1)
     with pytest.raises(ValueError, match="no policy"):
         pool.warm(1)
+    pool.close()
+
+
+@pytest.mark.parametrize("error", [BlockingIOError("no more processes"), EOFError()])
+def test_one_that_cannot_start_now_is_to_be_asked_for_again(error: Exception) -> None:
+    def start() -> Child:
+        raise error
+
+    pool = Pool(start, 1)
+    for _ in range(2):
+        with pytest.raises(EndedUnexpectedlyError, match="can be started"):
+            pool.do(works.doubled, (1,), NEVER)
+    pool.close()
+
+
+def test_what_cannot_be_sent_takes_no_place() -> None:
+    pool = Pool(threads(works.opened), 1)
+    with pytest.raises(TypeError, match="lock"):
+        pool.do(works.doubled, (threading.Lock(),), NEVER)
+    assert pool.do(works.doubled, (2,), NEVER) == 4
     pool.close()
