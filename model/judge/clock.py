@@ -87,9 +87,9 @@ def window_of(customer: Customer, start: int) -> int | None:
 
 def with_setups(problem: Problem, node: int, visits: tuple[Visit, ...]) -> tuple[Visit, ...]:
     """Return visits that are known, the first by who comes from a node, with their setups."""
-    origins = (node, *(visit.node for visit in visits[:-1]))
+    origins = (node, *(visit.node for visit in visits))
     return tuple(replace(visit, setup=problem.setup_between(origin, visit.node))
-                 for origin, visit in zip(origins, visits, strict=True))
+                 for origin, visit in zip(origins, visits, strict=False))
 
 
 def with_all_setups(problem: Problem, solution: Solution) -> Solution:

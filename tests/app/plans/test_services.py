@@ -76,12 +76,13 @@ def test_setups_of_plans_sent_are_told_as_setups_and_not_as_waiting(client: http
     assert sortie["customers"][0]["setup"] == 15
 
 
-def test_a_sortie_that_cannot_be_is_told_though_setups_are_read(client: httpx.Client,
-                                                                street: Request) -> None:
+@pytest.mark.parametrize("launched", [0, 99])
+def test_a_sortie_that_cannot_be_is_told_though_setups_are_read(
+        client: httpx.Client, street: Request, launched: int) -> None:
     street["fleet"][0]["drones"] = {"count": 1, "capacity": [1]}
     plan = planned_and_judged(client, street)
     plan["routes"][0]["trips"][0]["sorties"] = [
-        {"drone": "van-1/drone-1", "launch_stop": 99, "recovery_stop": 1, "launch_time": 0,
+        {"drone": "van-1/drone-1", "launch_stop": launched, "recovery_stop": 1, "launch_time": 0,
          "recovery_time": 0, "customers": []}]
     told = client.post("/check", json={"problem": street, "plan": plan})
     assert told.status_code == 200, told.text
