@@ -5,7 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from model.problem import Customer, Energy, Problem, Storms, VehicleType, shares_chargers
+from model.problem import (
+    Customer, Energy, Problem, Storms, VehicleType, barred, shares_chargers, zones_of,
+)
 
 
 @dataclass(frozen=True)
@@ -16,7 +18,7 @@ class Leg:
     ready: int  # all its parcels are there
     latest: int  # start by which it is in time, if nobody waits
     busy: int  # how long its vehicle is until it may begin another
-    storms: Storms = ()  # between which starts it would meet one
+    storms: Storms = ()  # between which starts it would meet one, or a closed zone
     airborne: int = 0  # how long it takes
     charging: int = 0  # how long a battery is charged for it
 
@@ -73,8 +75,10 @@ class Timing:
         home = self._duration.item(here, kind.ends_at) + kind.recovery_duration
         latest = min(latest, kind.latest - spent - home)
         airborne = time + home - ready
+        zones = zones_of(self._problem, (kind.begins_at, kind.ends_at, *[
+            self._nodes[node] for node in trip]))
         storms = tuple([(begin + kind.recovery_duration - airborne, end - kind.launch_duration)
-                        for begin, end in kind.storms])
+                        for begin, end in barred(kind.storms, kind.closings, zones)])
         charging = self._charging(airborne)
         if self._in_turn:
             charging = self._charging_for(trip, customers, time - ready - spent)

@@ -95,6 +95,15 @@ def test_trips_are_packed_around_a_storm() -> None:
     assert trips_of(street(order("a"), order("b"), order("c", 4, 59), kind=kind), (3,)) == []
 
 
+def test_trips_are_packed_around_the_hours_of_zones_to_which_they_fly() -> None:
+    kind = replace(DRONE, closings=((5 * MINUTE, 60 * MINUTE, 1),))
+    held, other = replace(order("a", latest=100), zones=1), order("b", latest=30)
+    # While it waits for one zone to open, it flies elsewhere.
+    assert trips_of(street(held, other, kind=kind), (1,), (2,)) == [[(1,), (2,)]]
+    assert trips_of(street(replace(order("c", 4, 59), zones=1), kind=kind), (1,)) == []
+    assert trips_of(street(replace(order("c", 4, 59), zones=2), kind=kind), (1,)) == [[(1,)]]
+
+
 def test_numbers_of_the_search_are_those_of_the_problem_by_a_list() -> None:
     problem = street(order("a", latest=2), order("b"))
     routes = packed_routes(problem, 0, [(1,), (2,)], [0, 2, 1])
