@@ -16,7 +16,7 @@ MOST_CORNERS, MOST_CORNERS_OF_ONE = 50_000, 20_000
 """Corners of all areas of a request, and of one: whether a boundary crosses itself may take the
 square of them."""
 
-_COORDINATES = re.compile(r"<(?:\w+:)?coordinates[^>]*>([^<]*)")
+_COORDINATES = re.compile(r"<(?:\w+:)?coordinates[^<>]*>([^<]*)")
 
 
 class _Size(NamedTuple):

@@ -9,11 +9,10 @@ Corners = list[tuple[float, float]]
 NAMESPACE = "http://www.opengis.net/kml/2.2"
 
 _OLDER = re.compile(r"http://(?:earth\.google\.com|www\.opengis\.net)/kml/2\.\d")
-_ROOT = re.compile(r"<kml(?=[\s>])(?![^>]*\sxmlns=)")
+_ROOT = re.compile(r"<kml(?=[\s>])(?![^<>]*\sxmlns=)")
 _POLYGON = re.compile(r"<(?:\w+:)?Polygon[\s>]")
-_COORDINATES = re.compile(r"(<(?:\w+:)?coordinates(?:\s[^>]*)?>)([^<]*)")
-_COMMA = re.compile(r"\s*,\s*")
-_NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
+_COORDINATES = re.compile(r"(<(?:\w+:)?coordinates(?:\s[^<>]*)?>)([^<]*)")
+_NUMBER = r"[-+]?(?:\d+(?:\.\d*)?|\.\d+)(?:[eE][-+]?\d+)?"
 _CORNER = re.compile(rf"({_NUMBER},{_NUMBER})(?:,{_NUMBER})?")
 
 HOW_TO_INSTALL = ("KML is read by fastkml, which is not installed: install tandem-planner[geo], or "
@@ -80,7 +79,7 @@ def kml_areas(text: str) -> list[KmlArea]:
 def _plain(coordinates: re.Match[str]) -> str:
     """Return coordinates without heights, which the reader wants of all corners or none."""
     corners = []
-    for stated in _COMMA.sub(",", coordinates[2]).split():
+    for stated in ",".join(map(str.strip, coordinates[2].split(","))).split():
         corner = _CORNER.fullmatch(stated)
         if corner is None:
             raise KmlError(f"{stated[:60]!r} is no corner: write longitude,latitude with a comma "

@@ -94,3 +94,20 @@ def test_too_many_areas_or_corners_are_refused_before_they_are_made(kind: str) -
     began = time.process_time()
     assert refused(airspace) == [("WRONG_LENGTH", f"$.airspace.{where}")]
     assert time.process_time() - began < 2
+
+
+WILD = {
+    "tags without an end": "<coordinates " * 20_000,
+    "roots without an end": "<kml " * 20_000 + " xmlns=",
+    "blanks": f"<kml><coordinates>9{' ' * 200_000}</coordinates></kml>",
+    "blanks beside commas": f"<kml><coordinates>9{' , ' * 10_000}</coordinates></kml>",
+    "digits": f"<kml><coordinates>{'1' * 100_000}</coordinates></kml>",
+}
+
+
+@pytest.mark.parametrize("kind", WILD)
+def test_wild_kml_takes_no_longer_than_its_length(kind: str) -> None:
+    pytest.importorskip("fastkml")
+    began = time.process_time()
+    refused({"zones": [{"format": "kml", "data": WILD[kind]}]})
+    assert time.process_time() - began < 2
