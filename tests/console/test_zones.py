@@ -87,6 +87,10 @@ def test_flights_keep_a_distance_that_is_proposed_stated_and_drawn(page: Page) -
     open_tab(page, "fleet")
     widths = [drawn(page, buffer) for buffer in ("0", "100", "800")]
     assert widths == sorted(set(widths))
+    legend = page.locator(".map-legend")
+    expect(legend).to_contain_text("Distance that flights keep")
+    drawn(page, "0")
+    expect(legend).not_to_contain_text("Distance that flights keep")
     page.get_by_label("Distance kept").fill("120")
     page.keyboard.press("Tab")
     assert state(page, "state.request.airspace.buffer") == 120

@@ -2321,6 +2321,7 @@ export default {
     pinned: 'Beim Fahrzeug festgehalten',
     area: 'Flugverbotszone',
     zone: 'Veröffentlichte Zone',
+    kept: 'Abstand, den Flüge halten',
   },
   tool: {
     name: {

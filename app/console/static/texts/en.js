@@ -2265,6 +2265,7 @@ export default {
     pinned: 'Pinned to its vehicle',
     area: 'No-fly area',
     zone: 'Published zone',
+    kept: 'Distance that flights keep',
   },
   tool: {
     name: {

@@ -50,8 +50,13 @@ function entriesOf(request, index, parts) {
     [pinned, 'pin', 'pinned'],
     [request.airspace?.no_fly?.length > 0, 'area', 'area'],
     [request.airspace?.zones?.length > 0, 'zone', 'zone'],
+    [keepsAway(request.airspace), 'kept', 'kept'],
   ];
   return entries.filter(([there]) => there).map(([, sign, name]) => [sign, name]);
+}
+
+function keepsAway({ no_fly: areas = [], zones = [], buffer = 0 } = {}) {
+  return buffer > 0 && areas.length + zones.length > 0;
 }
 
 const SIGNS = {
@@ -72,6 +77,7 @@ const SIGNS = {
   area: html`<rect class="area" x="4" y="2" width="18" height="10" stroke-width="1.5"
     stroke-dasharray="6 3" />`,
   zone: html`<rect class="area" x="4" y="2" width="18" height="10" stroke-width="1" />`,
+  kept: html`<rect class="area" x="1" y="0" width="24" height="14" rx="6" stroke="none" />`,
 };
 
 function Sign({ sign }) {
