@@ -8,7 +8,7 @@ from model.problem import UNLIMITED, Problem, VehicleType
 from model.solution import Stop, Trip, Visit
 
 
-MOST_TIMED_STOPS, FEWEST_TIMES = 8_000, 50
+MOST_STOPS_TIMED_ANEW, FEWEST_TIMES = 8_000, 50
 """How many stops are timed anew, and how often all are in any case, until holding is given up."""
 
 
@@ -30,7 +30,7 @@ def held(problem: Problem, kind: VehicleType, soonest: Trip, begun_at: Callable[
     """
     trip, excess = soonest, max(0, excess_of(soonest))
     wait, best = excess or wait_for_calm(problem, kind, trip), trip
-    for _ in range(max(FEWEST_TIMES, MOST_TIMED_STOPS // len(trip.stops))):
+    for _ in range(max(FEWEST_TIMES, MOST_STOPS_TIMED_ANEW // len(trip.stops))):
         if not wait:
             return trip, True
         turn = time_to_turn(problem, kind, trip)

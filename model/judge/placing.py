@@ -14,7 +14,6 @@ from model.solution import BreakPlace, Route, Trip
 AT_STOPS: tuple[BreakPlace, ...] = "departure", "arrival"
 """Where a stated break is put between two stops."""
 
-
 MOST_TIMED_STOPS, LEAST_TRIES = 3000, 3
 """Stops that are timed to place a break, and how many places are tried however long a route is:
 those that are likely best."""
@@ -81,6 +80,8 @@ def _best_placed(problem: Problem, decision: RouteDecision, route: Route,
     if best is None:
         raise ValueError(f"route trips: {decision.trips!r} is not allowed")
     return best
+
+
 def _unrested(decision: RouteDecision) -> RouteDecision:
     """Return a route whose driver rests nowhere but in breaks that are stated."""
     return replace(decision, trips=tuple([

@@ -33,7 +33,7 @@ def test_holding_is_given_up_where_speeds_change_again_and_again(
     trip, helps = held(problem, kind, begun_at(0), begun_at, lambda trip: 1)
     assert not helps
     assert trip == begun_at(0)
-    assert len(begun) <= holding.MOST_TIMED_STOPS // 4 + 2
+    assert len(begun) <= holding.MOST_STOPS_TIMED_ANEW // 4 + 2
 
 
 def test_a_trip_turns_when_it_meets_the_next_speed_or_window(
