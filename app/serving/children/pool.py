@@ -20,6 +20,9 @@ logger = logging.getLogger(__name__)
 LOOK = 0.01
 """Seconds between two looks whether work is to end, or one that plans is free."""
 
+STOP_SECONDS = 30.0
+"""Seconds after which one is ended that was told to stop and goes on."""
+
 LONGEST_WAIT = 60.0
 """Seconds after which whoever waits for one that is free is refused."""
 
@@ -87,11 +90,14 @@ class Pool:
         """
         call = self.begin(function, args, should_stop, "request", listeners)
         try:
-            is_told = False
+            until: float | None = None
             while not call.wait(LOOK, should_stop):
-                if not is_told and should_stop():
-                    is_told = True
+                if until is None and should_stop():
+                    until = time.monotonic() + STOP_SECONDS
                     call.stop()
+                if until is not None and time.monotonic() > until:
+                    logger.error("a process that plans did not stop: it is ended")
+                    break
         finally:
             call.drop()
         return call.result()

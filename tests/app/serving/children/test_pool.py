@@ -86,6 +86,13 @@ def test_work_ends_when_it_is_told_to(pool: Pool) -> None:
     assert pool.do(works.doubled, (1,), NEVER) == 2
 
 
+def test_one_that_does_not_stop_is_ended(mortal: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("app.serving.children.pool.STOP_SECONDS", 0.05)
+    with pytest.raises(EndedUnexpectedlyError):
+        mortal.do(works.go_on, (), lambda: True)
+    assert mortal.do(works.doubled, (3,), NEVER) == 6
+
+
 @pytest.mark.parametrize("number", [signal.SIGABRT, signal.SIGKILL])
 def test_one_that_dies_takes_nobody_along(mortal: Pool, deaths: list[str], number: int) -> None:
     deaths.clear()

@@ -50,6 +50,11 @@ def wait(line: Line, should_stop: ShouldStop) -> str:
     return "stopped"
 
 
+def go_on(line: Line, should_stop: ShouldStop) -> None:
+    """Hear nothing of stopping."""
+    threading.Event().wait(60)
+
+
 def ask(line: Line, number: int, should_stop: ShouldStop) -> Any:
     """Ask the other process something, and tell it of the answer."""
     answer = line.ask("half", number)
