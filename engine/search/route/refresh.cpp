@@ -70,6 +70,8 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double l
     bool may_gain = has_breaks(type);
     for (Int tried = 0;; ++tried) {
         const bool possible = price_loaded(data, fleet, slot, settled);
+        // A trip that was held lasts too long from any instant in between.
+        begin = std::max(begin, stops[0].release);
         const double cost = possible ? fleet.cost[slot] : no_bar;
         if (possible && (chosen == none || cost < best || (cost == best && route.end < end))) {
             chosen = begin;

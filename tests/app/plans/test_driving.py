@@ -1,10 +1,17 @@
 """Rests that driving rules ask for, over HTTP."""
 
+import json
+import random
+import time
 from typing import Any
 
 import httpx
 import pytest
 
+from app.plans.task import task_of
+from app.requests.reading import read_request
+from model.planner import complete_plan
+from model.together.pulling import nobody_served
 from tests.app.plans.asking import planned
 from tests.app.plans.test_breaks import breaks_of
 from tests.app.plans.test_hubs import is_feasible
@@ -241,3 +248,25 @@ def test_the_first_part_of_a_rest_that_was_taken_before_counts_on_a_day_under_wa
     rests = [each["departure"] - each["service_start"] for each in breaks_of(later)
              if each["id"] == "rest"]
     assert rests == [1800]
+
+
+def test_drivers_begin_at_few_of_many_speeds_where_trips_are_held_for_what_is_aboard(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    # Each price of a place once held the trip anew from each of 200 speeds: seven seconds.
+    monkeypatch.setattr("model.planner.LEAST_UNHURRIED", 60.0)
+    rng = random.Random(1)
+    request = {
+        "planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+        "customers": [{"id": str(number), "demand": [1], "max_time_aboard": 1800,
+                       "location": [rng.uniform(-3, 3), rng.uniform(-3, 3)]}
+                      for number in range(30)],
+        "fleet": [{"id": "van", "count": 1, "capacity": [50], "speed_kmh": 30,
+                   "driving_rules": {"preset": "eu-561"},
+                   "speed_profile": [{"from": 300 * step, "speed_kmh": 20 + 7 * step % 41}
+                                     for step in range(200)]}]}
+    task = task_of(read_request(json.dumps(request).encode(), None))
+    began = time.process_time()
+    plan = complete_plan(task.problem, nobody_served(task.problem), 0, lambda: False)
+    assert time.process_time() - began < 2
+    assert task.check(plan).is_feasible
+    assert len(plan.unassigned) < 10
