@@ -61,9 +61,15 @@ PLAN: dict[str, tuple[Any, ...]] = COMMON | {
     "policy": ("attention", "pointer"),
     "decoding": ("greedy", "greedy", "sample"),
     "samples": (1, 64, 4096),
+    "aboard": (None, None, 0, 600, 3600),
+    "breaks": (0, 0, 1, 2, 8),
+    "break_at": ("stop", "anywhere"),
+    "after_departure": (False, True),
+    "driving": (None, None, "eu-561", "eu-561+2002-15", "us-hos"),
+    "zones": (0, 0, 0, 2, 20, 1000),
     "replan": ("no", "no", "no", "goes on", "under way"),
 }
-"""Genes of `POST /plan`."""
+"""Genes of `POST /plan`, and of what is asked of its plans."""
 
 VROOM: dict[str, tuple[Any, ...]] = COMMON | {
     "num_windows": (1, 2, 10, 100),
@@ -75,7 +81,7 @@ VROOM: dict[str, tuple[Any, ...]] = COMMON | {
 }
 """Genes of `POST /vroom`."""
 
-KINDS = {"/plan": PLAN, "/vroom": VROOM}
+KINDS = {"/plan": PLAN, "/vroom": VROOM, "/check": PLAN, "/fit": PLAN, "/explain": PLAN}
 
 
 def random_genes(rng: random.Random, path: str) -> dict[str, int]:
@@ -101,9 +107,10 @@ def mixed_genes(rng: random.Random, first: Genes, second: Genes) -> dict[str, in
 def request_of(path: str, genes: Genes, time_limit: float) -> Data:
     """Return the request that genes describe, cut to `LARGEST`.
 
-    A request that goes on from a plan lacks `replan`, which needs that plan: `gene` tells.
+    A request that goes on from a plan lacks `replan`, which needs that plan: `gene` tells. What is
+    asked of a plan is asked of that of the request here.
     """
-    build = _plan_request if path == "/plan" else _vroom_request
+    build = _vroom_request if path == "/vroom" else _plan_request
     share = 1.0
     while True:
         request = build(_Chosen(path, genes, share), time_limit)
@@ -122,7 +129,7 @@ class _Chosen:
     """The values that genes choose, large numbers cut to a share."""
 
     CUT = ("customers", "corners", "steps", "drone_types", "types", "depots", "areas",
-           "num_windows")
+           "num_windows", "zones")
     LARGEST_MATRIX = 200
 
     def __init__(self, path: str, genes: Genes, share: float) -> None:
@@ -189,6 +196,8 @@ def _plan_request(chosen: _Chosen, time_limit: float) -> Data:
                     "num_samples": chosen["samples"], "time_limit": time_limit, "threads": 1}}
     if chosen["coordinates"] == "geographic":
         _make_geographic(request)
+        if chosen["zones"]:
+            request["airspace"]["zones"] = [_zones(chosen)]
     if chosen["matrix"]:
         for index, place in enumerate([*depots, *customers]):
             place["location_index"] = index
@@ -205,6 +214,7 @@ def _customer(chosen: _Chosen) -> Data:
     return {
         "demand": [1] * chosen["dimensions"], "served_by": served_by,
         **({"service_duration": chosen["service"]} if chosen["service"] else {}),
+        **({} if chosen["aboard"] is None else {"max_time_aboard": chosen["aboard"]}),
         **({"release_time": chosen.rng.randrange(_day(chosen) // 2)} if chosen["release"] else {}),
         **({} if window is None else {"time_window": {
             "earliest": window[0], "latest": window[1], "late_cost_per_hour": chosen["soft"],
@@ -225,6 +235,14 @@ def _vehicle_type(chosen: _Chosen, number: int) -> Data:
         kind["speed_profile"] = [
             {"from": round(day * step / chosen["steps"], 1), "factor": rng.choice((0.5, 1, 2))}
             for step in range(chosen["steps"])]
+    if chosen["driving"] is not None:
+        kind["driving_rules"] = {"preset": chosen["driving"]}
+    if chosen["breaks"]:
+        kind["breaks"] = [
+            {"id": f"b{place}", "duration": 300, "at": chosen["break_at"],
+             "after_departure": chosen["after_departure"], "paid": bool(place % 2),
+             "start": {"earliest": 1800 * (place + 1), "latest": 1800 * (place + 1) + 2400}}
+            for place in range(chosen["breaks"])]
     if chosen["hours"] is not None:
         kind["max_working_duration"] = chosen["hours"] * HOUR
     if chosen["distance"] is not None:
@@ -254,6 +272,15 @@ def _area(chosen: _Chosen, place: Point) -> list[Point]:
              round(y + radius * share * math.sin(angle), 2))
             for index in range(number)
             for angle, share in ((math.tau * index / number, least if index % 2 else 1.0),)]
+
+
+def _zones(chosen: _Chosen) -> Data:
+    """Return zones as GeoJSON, a ring of corners each."""
+    return {"format": "geojson", "data": {"type": "FeatureCollection", "features": [
+        {"type": "Feature", "properties": {}, "geometry": {
+            "type": "Polygon", "coordinates": [[*ring, ring[0]]]}}
+        for place in _places(chosen, chosen["zones"])
+        for ring in ([_degrees(corner) for corner in _area(chosen, place)],)]}}
 
 
 def _make_geographic(request: Data) -> None:
