@@ -33,8 +33,9 @@ def is_few(num_jobs: int, num_kinds: int, num_breaks: int) -> bool:
 
     By more breaks than the planner has each set takes longer, as their square.
     """
-    longer = max(1.0, num_breaks / MAX_BREAKS)**2
-    return num_kinds * num_jobs * 2**num_jobs * longer <= MOST_SETS
+    # In whole numbers: those of a thousand jobs are beyond what a float holds.
+    longer = max(MAX_BREAKS, num_breaks)**2
+    return num_kinds * num_jobs * 2**num_jobs * longer <= MOST_SETS * MAX_BREAKS**2
 
 
 @dataclass(frozen=True)

@@ -39,6 +39,7 @@ def test_routes_are_as_good_as_those_found_by_trying_all(seed: int) -> None:
 def test_few_are_few_enough_to_be_looked_at_in_a_moment() -> None:
     assert [is_few(7, 4, 8), is_few(7, 5, 0), is_few(12, 1, 0)] == [True, False, False]
     assert [is_few(8, 1, 9), is_few(8, 1, 16), is_few(4, 3, 32)] == [True, False, True]
+    assert not is_few(5000, 1, 0)
 
 
 def test_too_many_ways_to_begin_with_are_left_to_the_planner(
