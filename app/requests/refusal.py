@@ -31,7 +31,7 @@ MAX_SEARCHED_BYTES = 4 * 2**20
 LEAST_BYTES = 2**14
 """Shorter bodies can't do harm."""
 
-MAX_SEARCHED_VALUES = 2_000_000
+MAX_SEARCHED_VALUES = 500_000
 """Of bodies with more values, what is wrong first is told as it was found."""
 
 LISTED_BYTES = 2**17
