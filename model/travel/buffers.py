@@ -42,3 +42,9 @@ def grown(areas: Sequence[Polygon], by: FloatArray) -> list[Polygon]:
     """Return areas grown by metres each, and at corners hardly more: no chord cuts its arc."""
     outside = by / np.cos(np.pi / (4 * ARC_SEGMENTS))
     return list(shapely.buffer(np.array(areas, dtype=object), outside, quad_segs=ARC_SEGMENTS))
+
+
+def reaches_of(edges: FloatArray, by: float) -> FloatArray:
+    """Return the (edge, 4) boxes, as their diagonals, in which the outlines of grown edges lie."""
+    first, last = edges[:, :2], edges[:, 2:]
+    return np.concatenate([np.minimum(first, last) - by, np.maximum(first, last) + by], axis=1)

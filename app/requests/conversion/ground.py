@@ -23,7 +23,7 @@ from app.schemas.wind import WindInput
 from model.problem import MAX_TIMED_ZONES, FloatArray, IntArray, Points
 from model.problem.distances import EXACT
 from model.travel.airspace import Airspace, Flights, OpenFlights
-from model.travel.buffers import grown, planar_buffers
+from model.travel.buffers import grown, planar_buffers, reaches_of
 from model.travel.matrices import (
     LocalProjection,
     planar_distances,
@@ -333,6 +333,9 @@ class Ground:
 
     def _grown(self, areas: Sequence[Polygon]) -> list[Polygon]:
         """Return areas on the plane with the distance that flights keep from them."""
+        edges = edges_of(areas)
+        crossings = count_nearby(reaches_of(edges, self._apart(areas)))
+        self._preparing.expect(merging_seconds(len(edges), crossings))
         return grown(areas, self._buffers(areas))
 
     def _apart(self, areas: Sequence[Polygon]) -> float:

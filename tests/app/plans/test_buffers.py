@@ -217,3 +217,17 @@ def test_no_other_buffer_is_taken(client: httpx.Client, buffer: Any) -> None:
     request = asked()
     request["airspace"]["buffer"] = buffer
     assert [path for _, path in refused(client, request, "/plan")] == ["$.airspace.buffer"]
+
+
+def comb(teeth: int) -> list[list[float]]:
+    """Return the corners of a long area with so many teeth on one side."""
+    edge = [(-5000.0 + 10_000.0 * corner / (2 * teeth), 2000.0 if corner % 2 else 700.0)
+            for corner in range(2 * teeth + 1)]
+    return ring(BETWEEN, *edge, (5000.0, 500.0), (-5000.0, 500.0))
+
+
+def test_what_grows_in_too_much_time_is_refused_before_it_does(client: httpx.Client) -> None:
+    request = asked(airspace={"no_fly": [comb(5_000)], "buffer": 10_000})
+    assert [code for code, _ in refused(client, request, "/plan")] == ["TOO_MUCH_WORK"]
+    request = asked(airspace={"no_fly": [comb(50)], "buffer": 30})
+    assert planned(client, request)["airspace"] == {"buffer": 30}
