@@ -153,7 +153,7 @@ void SmallMoves::change() {
     if (falls_to(relocate_share)) {
         done = relocate(node);
     } else if (falls_to(swap_share)) {
-        done = swap(node);
+        done = trade(node);
     } else if (falls_to(reverse_share)) {
         done = reverse(node);
     } else if (falls_to(segment_share)) {
@@ -228,7 +228,7 @@ bool SmallMoves::insert_beside(OperationRow& row, Int other, Int node, bool flie
 }
 
 // Let a customer and a neighbour trade places.
-bool SmallMoves::swap(Int node) {
+bool SmallMoves::trade(Int node) {
     const Int other = neighbour(node);
     if (other == nowhere) return false;
     const Served one = served(node), two = served(other);

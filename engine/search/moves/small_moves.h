@@ -68,7 +68,7 @@ private:
 
     void change();
     bool relocate(Int node);
-    bool swap(Int node);
+    bool trade(Int node);
     bool reverse(Int node);
     bool move_segment(Int node);
     bool move_joint(Int node);
