@@ -8,6 +8,7 @@ change only what changed is compiled. A wheel holds what all processors of a fam
     python engine/backend.py guide       builds the guide in place, from `docs/`
     python engine/backend.py tests       builds what tests of the engine run, in `build/tests`
     python engine/backend.py requires    tells what must be installed to build anything here
+    python engine/backend.py spare       tells which compiler it takes where there is none
 """
 
 import os
@@ -172,10 +173,15 @@ def print_requires() -> None:
         print(*tomllib.load(file)["build-system"]["requires"], *requires(), sep="\n")
 
 
+def print_spare() -> None:
+    """Print the package of the compiler that is taken where there is none."""
+    print(SPARE_COMPILER)
+
+
 def main(arguments: list[str]) -> None:
     """Build in place or for tests, or tell what that needs."""
     tasks = {(): build_in_place, ("guide",): build_guide, ("tests",): build_tests,
-             ("requires",): print_requires}
+             ("requires",): print_requires, ("spare",): print_spare}
     tasks[tuple(arguments)]()
 
 

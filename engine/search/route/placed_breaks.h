@@ -1,7 +1,6 @@
 // Where the breaks of a route are.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -76,9 +75,10 @@ public:
 
 private:
     void insert(Int index, const One& one) {
-        const auto place = one_.begin() + index;
-        std::copy_backward(place, one_.begin() + count_, one_.begin() + count_ + 1);
-        *place = one;
+        for (Int next = count_; next > index; --next) {
+            one_[static_cast<std::size_t>(next)] = (*this)[next - 1];
+        }
+        one_[static_cast<std::size_t>(index)] = one;
         ++count_;
     }
 
