@@ -1,8 +1,9 @@
 """How many turns a second does the search make? `python -m benchmarks.speed.pace`.
 
-Twelve kinds of problems are searched for a number of turns, divided by processor time, which other
-work on the machine hardly changes. With `--beside` another checkout, whose interpreter is
-`.venv/bin/python` in it, does the same in turn with this one, and the ratios are told.
+Some kinds of problems are searched for a number of turns, divided by the processor time they take,
+which other work on the machine hardly changes; beginning isn't counted. With `--beside` another
+checkout, whose interpreter is `.venv/bin/python` in it, does the same in turn with this one, and
+the ratios are told.
 """
 
 import json
@@ -21,8 +22,11 @@ import typer
 from rich.console import Console
 from rich.table import Table
 
+from app.plans.task import task_of
+from app.requests.reading import read_request
 from app.schemas.limits import DEFAULT_POLICY
 from app.serving.settings import Settings
+from benchmarks.quality.hubs import draw_day
 from benchmarks.quality.replanning import nothing
 from model.planner import PlanOptions, load_planner
 from model.problem import Problem
@@ -33,7 +37,8 @@ ROOT = Path(__file__).resolve().parents[2]
 UNTIMED = 3600.0
 """A time limit that nothing reaches."""
 
-LARGE = (("cvrp", 1000), ("drone", 200), ("mixed", 200))
+OTHERS = (("cvrp", 1000), ("drone", 200), ("mixed", 200), ("shipments", 100), ("resting", 100),
+          ("vrptw", 10_000))
 SIZE = 100
 
 SEED = 20_261_122
@@ -49,31 +54,36 @@ app = typer.Typer(help=__doc__, pretty_exceptions_enable=False)
 
 def kinds() -> Iterator[tuple[str, Problem]]:
     """Yield the problems."""
-    for variant, size in (*((variant, SIZE) for variant in COMPARED), *LARGE):
+    day = json.dumps(draw_day(200, 20, SEED)).encode()
+    yield "hubs 200", task_of(read_request(day, None)).problem
+    for variant, size in (*((variant, SIZE) for variant in COMPARED), *OTHERS):
         rng = np.random.default_rng((SEED, size, len(variant)))
         yield f"{variant} {size}", generate(rng, size, variant)
 
 
 def paces(turns: dict[str, int] | None, seconds: float) -> tuple[Paces, dict[str, int]]:
-    """Return the paces, and with how many turns: as many as given, or as take `seconds`."""
+    """Return the paces, and with how many turns: of kinds as given, or of all as take `seconds`."""
     settings = Settings()
     planner = load_planner(settings.weights_dir, (DEFAULT_POLICY,))
     found: Paces = {}
     made: dict[str, int] = {}
     for name, problem in kinds():
+        if turns is not None and name not in turns:
+            continue
+
         def searched(number: int, problem: Problem = problem) -> float:
             began = time.process_time()
             planner.plan(problem, PlanOptions(DEFAULT_POLICY, time_limit=UNTIMED,
                                               search_iterations=number), start=nothing(problem))
             return time.process_time() - began
 
-        searched(PROBE)
+        began = min(searched(PROBE) for _ in range(2))
         if turns is None:
-            each = max(1e-6, (searched(11 * PROBE) - searched(PROBE)) / (10 * PROBE))
+            each = max(1e-6, (searched(11 * PROBE) - began) / (10 * PROBE))
             made[name] = max(PROBE, int(seconds / each))
         else:
             made[name] = turns[name]
-        found[name] = made[name] / searched(made[name])
+        found[name] = made[name] / max(1e-6, searched(PROBE + made[name]) - began)
     return found, made
 
 

@@ -1562,6 +1562,10 @@ int tandem_sortie_ends(const tandem_node_3d* places, const tandem_vehicle_type_1
                        int64_t drone, const tandem_i64_1d* nodes, const tandem_i64_1d* arrivals,
                        int64_t begin, const tandem_i64_1d* ends, int64_t* aboard);
 
+/* Tell the sum of digests of all that insertions were found to cost since the last call, in builds
+   with TANDEM_TRACED; nought in others. */
+int tandem_take_trace(int64_t* digest);
+
 /* Search: sharing. */
 
 /* Go on from the routes that a thread owns, and the customers missing. */

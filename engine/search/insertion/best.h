@@ -4,6 +4,7 @@
 #include "randomness.h"
 #include "search/insertion/evaluate.h"
 #include "search/route/edit.h"
+#include "search/trace.h"
 
 namespace tandem {
 
@@ -26,7 +27,8 @@ struct Best {
 
     // Takes a place for the best, for the caller to say which, if it costs less and isn't
     // overlooked. Of those that cost the same, the first is the best.
-    bool takes(double other) {
+    bool takes(double other, const Move* made = nullptr) {
+        trace_priced(other, made);
         if (other >= cost || uniform(rng) < blink) return false;
         cost = other;
         return true;
@@ -34,7 +36,7 @@ struct Best {
 
     // Takes a move for the best likewise.
     void try_move(double other, const Move& made) {
-        if (takes(other)) move = made;
+        if (takes(other, &made)) move = made;
     }
 
     // Takes the place behind `before` if that is the best and the customer may come there, which is

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "randomness.h"
+#include "search/trace.h"
 
 namespace tandem {
 
@@ -104,6 +105,7 @@ void PlaceFinder::scan_from(const PairRow& row, Int slot, Int p, CheapestPlace& 
 }
 
 void PlaceFinder::take(Int slot, PairPlace place, Int further, CheapestPlace& best) const {
+    trace_priced(static_cast<double>(further), nullptr);
     if (uniform(rng_) >= blink_) best = {slot, place, further};
 }
 

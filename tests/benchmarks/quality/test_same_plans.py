@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
-from benchmarks.quality.same_plans import app, differences, problems, read
+from benchmarks.quality.same_plans import app, differences, mixed_problems, problems, read
 
 pytestmark = pytest.mark.slow
 
@@ -23,20 +23,28 @@ def write(path: Path, **plans: float) -> Path:
 
 
 def test_problems_repeat() -> None:
-    first, second = (list(problems(12)) for _ in range(2))
+    first, second = (list(problems(16)) for _ in range(2))
     assert [name for name, _ in first] == [name for name, _ in second]
     assert all(one.customers == other.customers
                for (_, one), (_, other) in zip(first, second, strict=True))
-    assert len({name.split("-")[0] for name, _ in first}) == 9
+    assert len({name.split("-")[0] for name, _ in first}) == 16
+
+
+def test_requests_that_mix_rules_repeat() -> None:
+    first, second = (dict(mixed_problems(3)) for _ in range(2))
+    assert len(first) == 3
+    assert {name: problem.customers for name, problem in first.items()} == {
+        name: problem.customers for name, problem in second.items()}
 
 
 def test_same_code_makes_the_same_recording(tmp_path: Path) -> None:
     paths = [tmp_path / name for name in ("first", "second")]
     for path in paths:
-        done = RUN.invoke(app, ["record", str(path), "--number", "2", "--turns", "40"])
+        done = RUN.invoke(app, ["record", str(path), "--number", "2", "--rules", "1",
+                                "--turns", "40"])
         assert done.exit_code == 0, done.output
     recordings: list[dict[str, Any]] = [read(path) for path in paths]
-    assert len(recordings[0]) == 12
+    assert len(recordings[0]) == 27
     assert differences(*recordings) == []
 
 
@@ -49,6 +57,13 @@ def test_differences_are_told(tmp_path: Path) -> None:
     assert "d: no plan before, 1.000000, 1 left out after" in done.output
     assert "+10.00 %" in done.output
     assert "4 plans, 3 differ" in done.output
+
+
+def test_insertions_that_cost_otherwise_are_told(tmp_path: Path) -> None:
+    before, after = (write(tmp_path / name, a=10.0) for name in ("before", "after"))
+    for path, trace in ((before, 1), (after, 2)):
+        path.write_text(json.dumps({**json.loads(path.read_text()), "trace": trace}) + "\n")
+    assert differences(read(before), read(after)) == ["a"]
 
 
 def test_equal_recordings_pass(tmp_path: Path) -> None:
