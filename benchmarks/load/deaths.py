@@ -106,7 +106,7 @@ class Study:
 def run(deaths: int, jobs: int, askers: int, seconds: float) -> dict[str, Any]:
     """Run the study and return what came of it."""
     with tempfile.TemporaryDirectory() as folder:
-        settings = {"TANDEM_ENGINE_LIBRARY": str(dying_engine(Path(folder))),
+        settings = {"TANDEM_ROLE": "all", "TANDEM_ENGINE_LIBRARY": str(dying_engine(Path(folder))),
                     "TANDEM_MAX_QUEUED_PLANS": "100", "TANDEM_MAX_QUEUE_SECONDS": "60"}
         service = Service(Path(folder), None, settings)
         service.start()
