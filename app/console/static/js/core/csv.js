@@ -1,8 +1,10 @@
 /** Cells of CSV that stay what they are, whatever program opens them. */
 
 /** Signs that begin a formula, and all that sheets may read as one of them: wide, small, raised. */
-const SIGNS =
-  '=+\\-@\uff1d\uff0b\uff0d\uff20\ufe66\ufe62\ufe63\ufe6b\u207c\u207a\u207b\u208c\u208a\u208b\u2212\ufb29';
+const SIGNS = [
+  '=+\\-@\uff1d\uff0b\uff0d\uff20\ufe66\ufe62\ufe63\ufe6b',
+  '\u207c\u207a\u207b\u208c\u208a\u208b\u2212\ufb29',
+].join('');
 
 /** What sheets skip, or nobody sees: blanks, quotes, what has no width or turns the direction. */
 const UNSEEN = '\\s"\\p{Cc}\\p{Cf}\\p{DI}\u2800';

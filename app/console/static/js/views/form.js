@@ -141,8 +141,8 @@ function PlainField({
   const isWrong = Boolean(problem) || invalid;
   return html`<div class=${`field kind-${kind} ${invalid || problem ? 'invalid' : ''}`}>
     <label for=${id}>${labelOf(name)}</label>
-    <${Input} id=${id} name=${name} kind=${kind} schema=${schema} value=${value} set=${set} nullable=${nullable}
-      required=${required} choices=${choices[name]} onProblem=${setProblem}
+    <${Input} id=${id} name=${name} kind=${kind} schema=${schema} value=${value} set=${set}
+      nullable=${nullable} required=${required} choices=${choices[name]} onProblem=${setProblem}
       describedBy=${`${id}-help${isWrong ? ` ${id}-error` : ''}`}
         invalid=${isWrong} />
     <span class="unit">${TIMES[kind] ? '' : unitOf(schema)}</span>
