@@ -132,6 +132,8 @@ inline Int least_rest(const VehicleType& type, const Driver& driver, Int now, In
         times = std::max(times, (now - driver.since + lasting - 1) / type.max_work);
     if (times <= 0) return 0;
     const Int each = least_rest(type), second = rest_duration(type, second_part);
+    // More than any route lasts is enough, and more may be more than a number holds.
+    times = std::min(times, 1 + unlimited / std::max(Int{1}, each));
     return (driver.half_rested == 1 ? std::min(each, second) : each) + (times - 1) * each;
 }
 
