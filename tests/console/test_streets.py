@@ -195,11 +195,11 @@ def test_streets_weigh_little(open_page: Callable[..., Page], city: str) -> None
     page = open_page(city, allow=("willReadFrequently",))
     # A browser keeps the first few hundred alone, and modules come first.
     page.add_init_script("performance.setResourceTimingBufferSize(5000)")
-    page.reload()
-    planned_in(page)
-    page.wait_for_function(LOADED)
-    page.wait_for_function("performance.getEntriesByType('resource').some(entry => "
-                           "entry.name.includes('/map/'))")
+    # Asked of the network: a page of this policy evaluates no text that it is to wait for.
+    with page.expect_response(lambda reply: "/map/" in reply.url):
+        page.reload()
+        planned_in(page)
+    page.wait_for_load_state("networkidle")
     sizes = page.evaluate("performance.getEntriesByType('resource').map(entry => "
                           "[entry.name, entry.encodedBodySize])")
     streets = [size for name, size in sizes if "/map/" in name]
