@@ -73,10 +73,10 @@ class Days(Study):
             If a reply should not be.
         """
         rng = random.Random(seed)
-        request = rng.choice((mixed_request, wild_request, morning))(rng)
-        plan = self.planned(request)
-        if plan is None:
+        day = self._any_day(rng)
+        if day is None:
             return
+        request, plan = day
         for _ in range(THINGS):
             terms = replan_terms(rng, plan)
             if terms["pin_all"]:
@@ -94,10 +94,10 @@ class Days(Study):
             If a reply should not be.
         """
         rng = random.Random(seed)
-        request = rng.choice((mixed_request, wild_request, morning))(rng)
-        plan = self.planned(request)
-        if plan is None:
+        day = self._any_day(rng)
+        if day is None:
             return
+        request, plan = day
         terms = replan_terms(rng, plan) | {"unavailable": [], "parcels_back": None}
         replanned = self.planned(request | {"replan": terms})
         if replanned is None:
@@ -132,6 +132,12 @@ class Days(Study):
         for places in before.keys() & after.keys():
             if after[places] < before[places] - 0.002:
                 raise Fault(f"{places} take {after[places]} s, and {before[places]} as planned")
+
+    def _any_day(self, rng: random.Random) -> tuple[Data, Data] | None:
+        """Return a request of any kind and its plan; None if it is refused. In place."""
+        request = rng.choice((mixed_request, wild_request, morning))(rng)
+        plan = self.planned(request)
+        return None if plan is None else (request, plan)
 
     def goes_on(self, change: Change, plan: Data) -> Data:
         """Return the plan that goes on from another, found sound. In place."""
