@@ -163,7 +163,9 @@ def serving(planner: Planner | None,
     listener = socket.socket(socket.AF_INET, socket.SOCK_STREAM, socket.IPPROTO_TCP)
     listener.bind(("127.0.0.1", 0))
     listener.listen()
-    server = uvicorn.Server(uvicorn.Config(app, log_level=logging.CRITICAL + 1))
+    # Nor does it close a connection just when a client that was busy for 5 s asks on it again.
+    server = uvicorn.Server(uvicorn.Config(app, log_level=logging.CRITICAL + 1,
+                                           timeout_keep_alive=int(PATIENCE)))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     address = f"http://127.0.0.1:{listener.getsockname()[1]}"

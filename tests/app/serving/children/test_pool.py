@@ -4,6 +4,7 @@ import signal
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -112,9 +113,9 @@ def test_one_that_dies_takes_nobody_along(mortal: Pool, deaths: list[str], numbe
 
 def test_one_that_dies_without_work_is_missed_by_nobody(mortal: Pool, deaths: list[str]) -> None:
     deaths.clear()
-    mortal.do(works.die_later, (), NEVER)
-    eventually(lambda: not mortal.do(works.doubled, (1,), NEVER) or "nothing" in deaths)
-    assert mortal.do(works.doubled, (2,), NEVER) == 4
+    dying = mortal.do(works.die_later, (), NEVER)
+    eventually(lambda: not Path("/proc", str(dying)).exists())
+    eventually(lambda: mortal.do(works.doubled, (2,), NEVER) == 4 and deaths)
     assert deaths == ["nothing"]
 
 

@@ -37,9 +37,10 @@ def die(line: Line, number: int, should_stop: ShouldStop) -> None:
     os.kill(os.getpid(), number)
 
 
-def die_later(line: Line, should_stop: ShouldStop) -> None:
-    """End this process in a moment, when its work is done."""
+def die_later(line: Line, should_stop: ShouldStop) -> int:
+    """End this process in a moment, when its work is done; return which it is."""
     threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGKILL)).start()
+    return os.getpid()
 
 
 def wait(line: Line, should_stop: ShouldStop) -> str:
