@@ -12,7 +12,7 @@ from typing import Literal, NamedTuple
 
 from model.judge.clock import service_start
 from model.judge.launches import launch_begins
-from model.problem import REST, UNREACHABLE, Problem, VehicleType
+from model.problem import UNREACHABLE, Problem, VehicleType
 from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip, Visit
 
 
@@ -236,23 +236,18 @@ def _cut_short(problem: Problem, kind: int, known: KnownTrip, now: int) -> Known
     return KnownTrip(stops, tuple(sortie for sortie in landed if sortie is not None),
                      known.aboard, "nothing" if is_home else "home",
                      _before(known.breaks, stops) if is_home
-                     else _taken_by(vehicle_type, known.breaks, len(stops) - 1, now))
+                     else _taken_by(known.breaks, len(stops) - 1, now))
 
 
-def _taken_by(kind: VehicleType, breaks: Sequence[TakenBreak], last: int,
-              now: int) -> tuple[TakenBreak, ...]:
+def _taken_by(breaks: Sequence[TakenBreak], last: int, now: int) -> tuple[TakenBreak, ...]:
     """Return the breaks on the legs to a stop, and those that have begun behind it.
 
     Of one at the end of a leg that leads elsewhere now all is known but that it was on the way.
     """
-    found = [taken for taken in breaks if taken.stop < last]
-    for taken in [taken for taken in breaks if taken.stop == last and taken.start <= now]:
-        if taken.place == "arrival":
-            if taken.number != REST and not kind.breaks[taken.number].anywhere:
-                break
-            taken = replace(taken, place="way")
-        found.append(taken)
-    return tuple(found)
+    begun = [taken for taken in breaks if taken.stop == last and taken.start <= now]
+    return (*[taken for taken in breaks if taken.stop < last],
+            *[replace(taken, place="way") if taken.place == "arrival" else taken
+              for taken in begun])
 
 
 def _landed(problem: Problem, kind: VehicleType, sortie: KnownSortie, nodes: list[int],

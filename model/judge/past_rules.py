@@ -1,12 +1,13 @@
 """The rules that a plan has to keep which begins with what has happened."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import NamedTuple
 
 from model.judge.past import KnownSortie, KnownStop, KnownTrip, Past, Vehicle
 from model.judge.rules import Violation, seconds
 from model.problem import Problem
-from model.solution import Route, Solution, Sortie, Stop, Trip
+from model.solution import Route, Solution, Sortie, Stop, TakenBreak, Trip
 
 PAST_RULES = frozenset({"FROZEN", "PAST", "UNAVAILABLE", "ABOARD", "PINNED", "ORDER", "RETURN"})
 """Codes of the rules here."""
@@ -130,7 +131,8 @@ def begins_with(trip: Trip, known: KnownTrip) -> bool:
         fits = (len(trip.stops) == length + (known.rest == "home")
                 and (len(trip.sorties), len(trip.breaks)) == (flights, len(known.breaks)))
     return (fits and len(trip.sorties) >= flights
-            and trip.breaks[:len(known.breaks)] == known.breaks
+            and len(trip.breaks) >= len(known.breaks)
+            and all(map(_is_break, trip.breaks, known.breaks))
             and all(map(_is_stop, trip.stops, known.stops))
             and all(_is_sortie(sortie, fact, trip, length)
                     for sortie, fact in zip(trip.sorties, known.sorties, strict=False)))
@@ -140,6 +142,11 @@ def _is_stop(stop: Stop, known: KnownStop) -> bool:
     return (stop.node == known.node and stop.arrival == known.arrival
             and known.service_start in (None, stop.service_start)
             and known.departure in (None, stop.departure))
+
+
+def _is_break(taken: TakenBreak, known: TakenBreak) -> bool:
+    """Tell whether two breaks are one; where on its leg follows from where that leads now."""
+    return replace(taken, place=known.place) == known
 
 
 def _is_sortie(sortie: Sortie, known: KnownSortie, trip: Trip, known_stops: int) -> bool:

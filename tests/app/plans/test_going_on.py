@@ -358,3 +358,32 @@ def test_a_late_van_still_waits_where_it_has_time(searching: httpx.Client,
     plan = replanned(searching, street, late(tour, 100), 50)
     assert times(plan, "van-1")[2:] == [("b", 280, 460), ("tea", 460, 520), ("c", 580, 640),
                                         ("hub", 820, 820)]
+
+
+NAP = {"id": "nap", "duration": 60, "start": {"earliest": 150, "latest": 215}}
+RESTING: dict[str, Request] = {
+    "stop": {"breaks": [NAP]}, "anywhere": {"breaks": [NAP | {"at": "anywhere"}]},
+    "rest": {"driving_rules": {"max_driving": 80, "break_duration": 60}}}
+
+
+@pytest.mark.parametrize("kind", RESTING)
+@pytest.mark.parametrize("way", [30, 60, 90])  # seconds to b, and home 60
+@pytest.mark.parametrize(("rested", "is_taken"), [(-10, False), (0, True), (20, True), (120, True)])
+def test_break_on_arrival_takes_its_time_though_the_van_breaks_down_there(
+        searching: httpx.Client, street: Request, rested: float, is_taken: bool, way: float,
+        kind: str) -> None:
+    street["fleet"][0] |= RESTING[kind] | {"costs": {"per_hour": 3600}}
+    street["customers"] = street["customers"][:2]
+    street["customers"][1] |= {"location": [1 + way / 60, 0], "time_window": {"earliest": 400}}
+    begin, name = 120 + way, "rest" if kind == "rest" else "nap"
+    taken = (name, begin, begin + 60)
+    tour = plan_of(("depot", "hub", 0, 0), ("customer", "a", 60, 120), ("break", *taken),
+                   ("customer", "b", begin + 60, 460), ("depot", "hub", 520 + way, 520 + way))
+    tour["routes"][0]["trips"][0]["stops"][3]["service_start"] = 400
+    now = begin + rested
+    plan = replanned(searching, street, tour, now, unavailable=["van-1"])
+    home = max(now, begin + 60, 240) if is_taken else max(now, 180)
+    assert times(plan, "van-1")[2:] == [*[taken] * is_taken, ("hub", home, home)]
+    assert plan["routes"][0]["working_duration"] == home
+    again = replanned(searching, street, plan, now + 5, unavailable=["van-1"])
+    assert times(again, "van-1")[:3] == times(plan, "van-1")[:3]
