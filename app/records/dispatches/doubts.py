@@ -22,8 +22,9 @@ class Doubt:
     time: float  # when the plan has it as served, seconds since plan start
     step: str  # to tell that it was
     failing: str  # to tell that it wasn't
-    is_held: bool  # to be served, by what else was told
-    is_hung: bool  # on a trip whose stops hang together by flights
+    is_passed: bool  # the vehicle was there, by what else was told
+    is_flying: bool  # the drone was launched, as was told, and flies to its end
+    latest: float  # when it was over, by what was told of what lies behind
 
 
 @dataclass(frozen=True)
@@ -42,21 +43,23 @@ def doubts_of(route: RouteInput, standing: Standing, now: float) -> list[Doubt]:
 
 
 def _on_trip(vehicle: str, told: TripTold, standing: Standing, now: float) -> Iterator[Doubt]:
-    index, trip, hangs = told.index, told.planned, bool(told.planned.sorties)
+    index, trip = told.index, told.planned
     for place, stop in enumerate(trip.stops):
         if stop.kind == "customer" and stop.departure <= now:
             (step,) = stop_ids(index, trip, place)
             if step not in standing:
-                yield Doubt(stop.id, vehicle, stop.departure, step, step, told.has_left(place),
-                            hangs)
+                yield Doubt(stop.customer, vehicle, stop.departure, step, step,
+                            told.has_left(place), False, told.latest(place, now))
     for sortie in trip.sorties:
         launch, recover = (flight_id(index, kind, sortie) for kind in ("launch", "recover"))
         if sortie.recovery_time <= now and recover not in standing and (
                 launch not in standing or standing[launch].outcome == "done"):
-            failing = recover if launch in standing else launch
+            is_launched = launch in standing
+            place = sortie.recovery_stop if is_launched else sortie.launch_stop
             for visit in sortie.customers:
-                yield Doubt(visit.id, vehicle, sortie.recovery_time, recover, failing,
-                            told.has_left(sortie.launch_stop), hangs)
+                yield Doubt(visit.customer, vehicle, sortie.recovery_time, recover,
+                            recover if is_launched else launch, told.has_left(place),
+                            is_launched, told.latest(place, now))
 
 
 def answered(route: RouteInput, standing: Standing, doubts: Collection[Doubt], answers: Answers,
@@ -73,8 +76,8 @@ def answered(route: RouteInput, standing: Standing, doubts: Collection[Doubt], a
             return {}
         return _marked(doubts, [doubt for doubt in doubts if doubt not in unserved], unserved)
     served = [doubt for doubt in doubts if doubt.customer in answers.served]
-    unserved = [doubt for doubt in doubts if doubt not in served and doubt.is_held and (
-        is_broken or not doubt.is_hung or doubt.customer in answers.unserved)]
+    unserved = [doubt for doubt in doubts if doubt not in served and (doubt.is_passed or (
+        doubt.is_flying and (is_broken or doubt.customer in answers.unserved)))]
     departed = {} if standing or not is_broken else _departed(route.trips[:1], now)
     return {**departed, **standing, **_marked(doubts, served, unserved)}
 
@@ -82,8 +85,10 @@ def answered(route: RouteInput, standing: Standing, doubts: Collection[Doubt], a
 def _marked(doubts: Collection[Doubt], served: Collection[Doubt],
             unserved: Collection[Doubt]) -> dict[str, Told]:
     """Return steps in doubt as they were planned: done, or failed."""
-    return {**{doubt.step: Told("done", doubt.time) for doubt in doubts if doubt in served},
-            **{doubt.failing: Told("failed", doubt.time) for doubt in doubts if doubt in unserved}}
+    return {**{doubt.step: Told("done", min(doubt.time, doubt.latest))
+               for doubt in doubts if doubt in served},
+            **{doubt.failing: Told("failed", min(doubt.time, doubt.latest))
+               for doubt in doubts if doubt in unserved}}
 
 
 def _departed(trips: Collection[TripInput], now: float) -> dict[str, Told]:

@@ -66,8 +66,10 @@ def going_on(plan: PlanInput, vehicles: Mapping[str, OnTheRoad], now: float,
     replan = {"plan": given.model_dump(mode="json", exclude_none=True), "freeze_before": now}
     if broken or grounded:
         replan["unavailable"] = [*broken, *grounded]
+    stays = {each.customer for each in failed if not each.is_open}
     replan["doubtful"] = [doubt.customer for doubt in doubtful
-                          if doubt.is_served and doubt.customer not in answers.served]
+                          if doubt.customer not in {*answers.served, *answers.unserved}
+                          and (doubt.is_served or doubt.customer in stays)]
     return GoingOnReply(replan=replan, broken=broken, grounded=grounded, told=told, failed=failed,
                         doubtful=doubtful)
 
@@ -76,7 +78,7 @@ def _reply(doubt: Doubt, standing: Standing | None) -> DoubtfulReply:
     """Return an order in doubt, and whether it is held to be served."""
     is_served = standing is None or (
         standing[doubt.step].outcome == "done" if doubt.step in standing
-        else doubt.is_held and doubt.failing not in standing)
+        else doubt.is_flying and doubt.failing not in standing)
     return DoubtfulReply(customer=doubt.customer, vehicle=doubt.vehicle, time=doubt.time,
                          is_served=is_served)
 
@@ -139,7 +141,7 @@ def _without_failed(vehicle: str, index: int, retimed: Retimed, standing: Standi
             step = flight_id(index, kind, sortie)
             if _has_failed(standing, step):
                 for visit in sortie.customers:
-                    note(visit.id, kind, step, is_open=kind == "launch")
+                    note(visit.customer, kind, step, is_open=kind == "launch")
     flown = _flown(index, trip, standing)
     meetings = _met(trip, flown)
     failing = {place: step for place, stop in enumerate(stops) if stop.kind == "customer"
@@ -151,7 +153,7 @@ def _without_failed(vehicle: str, index: int, retimed: Retimed, standing: Standi
     if not served and not flown and dropped and not retimed.is_over:
         dropped.remove(max(dropped, key=lambda place: (stops[place].kind == "customer", place)))
     for place, step in failing.items():
-        note(stops[place].id, "stop", step, place in dropped)
+        note(stops[place].customer, "stop", step, place in dropped)
     if not served and not flown and retimed.is_over:
         return None, failed
     return _cut(trip, flown, dropped), failed

@@ -1,8 +1,8 @@
 """When a vehicle was where, and will be, by what its driver told.
 
 What was told counts; what lies between is reckoned with the plan's durations. A customer of whom
-nothing was told isn't served yet, though one behind was, if the trip has no drones: then the driver
-goes in another order. With drones, whose stops hang together, he is held to be served.
+nothing was told isn't served yet, though one behind was. If the trip has no drones, whose stops
+hang together, the driver goes in another order.
 """
 
 from collections.abc import Mapping, Sequence
@@ -55,7 +55,8 @@ class TripTold:
         ids = [stop_ids(index, trip, number) for number in range(len(trip.stops))]
         for sortie in trip.sorties:
             ids[sortie.launch_stop].append(flight_id(index, "launch", sortie))
-            ids[sortie.recovery_stop].append(flight_id(index, "recover", sortie))
+            if not self._has_stayed(sortie):
+                ids[sortie.recovery_stop].append(flight_id(index, "recover", sortie))
         self._times = [[standing[step].time for step in steps if step in standing]
                        for steps in ids]
         self._is_complete = [len(times) == len(steps)
@@ -76,6 +77,12 @@ class TripTold:
         """Tell whether anything was told of a stop itself, beside its drones."""
         return any(step in self._standing for step in stop_ids(self.index, self.planned, number))
 
+    def latest(self, number: int, otherwise: float) -> float:
+        """Return when the truck was elsewhere than at a stop, by what was told of later ones."""
+        later = self.order[self.order.index(number) + 1:]
+        times = (self.time_at(other) for other in later)
+        return min((time for time in times if time is not None), default=otherwise)
+
     def time_at(self, number: int) -> float | None:
         """Return when the last thing told of a stop was over."""
         return max(self._times[number], default=None)
@@ -84,6 +91,11 @@ class TripTold:
         """Return when a launch or a recovery was over."""
         told = self._standing.get(flight_id(self.index, kind, sortie))
         return None if told is None else told.time
+
+    def _has_stayed(self, sortie: SortieInput) -> bool:
+        """Tell whether a drone was not launched, so that nobody waits for it."""
+        launch = self._standing.get(flight_id(self.index, "launch", sortie))
+        return launch is not None and launch.outcome == "failed"
 
     def _order(self) -> list[int]:
         """Return the stops in the order in which they are visited, as far as that was told."""
@@ -139,7 +151,7 @@ class _Retiming:
         departure = service + stop.departure - stop.service_start
         if place < told.left:
             time = told.time_at(number)
-            departure = min(departure, self._bound(place)) if time is None else time
+            departure = min(departure, told.latest(number, self._now)) if time is None else time
         else:
             departure = max(departure, self._now + MOMENT)
             if stop is told.planned.stops[-1] and stop.kind != "customer":
@@ -183,12 +195,6 @@ class _Retiming:
         """Return how long the way to a stop is, from where the plan comes from."""
         stops = self._told.planned.stops
         return stops[number].arrival - stops[number - 1].departure
-
-    def _bound(self, place: int) -> float:
-        """Return when the truck was elsewhere at the latest."""
-        told = self._told
-        times = (told.time_at(number) for number in told.order[place + 1:])
-        return min((time for time in times if time is not None), default=self._now)
 
     def _launching(self, number: int) -> float:
         """Return how long the longest launch at a stop takes."""

@@ -149,14 +149,43 @@ def test_vehicle_that_is_back_has_served_those_alone_of_whom_it_told() -> None:
     assert gone_on(back, 30_700, served=["E"]).failed == []
 
 
-def test_stops_that_hang_together_by_flights_are_asked_for() -> None:
-    told = {"truck-1": done({DEPART: 30_000, SECOND: 30_460})}
-    reply = gone_on(told, 30_500)
-    assert doubts(reply) == {"A": True, "C": True, "D": True, "E": True}
-    knows = gone_on(told, 30_500, unserved=["A", "C"])
-    assert {(failed.customer, failed.is_open) for failed in knows.failed} == {
+@pytest.mark.parametrize("now", [30_470, 30_500, 31_000])
+@pytest.mark.parametrize("second", [30_110, 30_460])  # earlier than planned, and as planned
+def test_truck_with_drones_has_served_those_alone_of_whom_it_told(now: float,
+                                                                  second: float) -> None:
+    told = {"truck-1": done({DEPART: 30_000, SECOND: second})}
+    reply = gone_on(told, now)
+    assert doubts(reply) == {"A": False, "C": False, "D": True, "E": True}
+    assert {(failed.customer, failed.is_open) for failed in reply.failed} == {
         ("A", True), ("C", True)}
-    assert [stop["id"] for stop in route_of(knows, "truck-1")["stops"]] == ["hub", "B", "hub"]
+    assert reply.replan["doubtful"] == ["D", "E"]
+    trip = route_of(reply, "truck-1")
+    assert ([stop["id"] for stop in trip["stops"]], trip["sorties"]) == (["hub", "B", "hub"], [])
+    assert trip["stops"][1]["departure"] == second
+    knows = gone_on(told, now, served=["A", "C"])
+    assert (doubts(knows)["A"], doubts(knows)["C"], knows.failed) == (True, True, [])
+
+
+def test_drone_that_was_launched_flies_to_its_end_until_its_truck_has_left_without_a_word() -> None:
+    flying = done({DEPART: 30_000, FIRST: 30_160, LAUNCH: 30_130})
+    reply = gone_on({"truck-1": flying}, 30_500)
+    assert (doubts(reply), reply.failed) == (
+        {"B": False, "C": True, "D": True, "E": True}, [])
+    assert reply.replan["doubtful"] == ["C", "D", "E"]
+    left = gone_on({"truck-1": flying | done({SECOND: 30_460, RETURN: 30_700})}, 30_700)
+    assert doubts(left)["C"] is False
+    assert [(failed.customer, failed.is_open) for failed in left.failed] == [("C", False)]
+    assert left.replan["doubtful"] == ["C", "D", "E"]
+    assert left.grounded == []
+
+
+def test_customer_at_a_stop_where_a_drone_was_launched_stays_in_the_plan_in_doubt() -> None:
+    told = {"truck-1": done({DEPART: 30_000, LAUNCH: 30_130, SECOND: 30_460, RECOVER: 30_465})}
+    reply = gone_on(told, 30_500)
+    assert doubts(reply)["A"] is False
+    assert [(failed.customer, failed.is_open) for failed in reply.failed] == [("A", False)]
+    assert reply.replan["doubtful"] == ["A", "D", "E"]
+    assert gone_on(told, 30_500, unserved=["A"]).replan["doubtful"] == ["D", "E"]
 
 
 def test_orders_of_a_broken_vehicle_that_told_nothing_are_planned_again(
@@ -225,6 +254,10 @@ def test_flights_are_timed_by_what_was_told() -> None:
 @pytest.mark.parametrize("told", [
     {"truck-1": done({DEPART: 30_100, LAUNCH: 30_101})},
     {"truck-1": done({SECOND: 30_050})},
+    {"truck-1": done({DEPART: 30_000, LAUNCH: 30_130, SECOND: 30_460})},
+    {"truck-1": done({DEPART: 30_000, LAUNCH: 30_130, RETURN: 30_200})},
+    {"truck-1": done({DEPART: 30_000, RECOVER: 30_150, SECOND: 30_140})},
+    {"truck-1": done({DEPART: 30_000, FIRST: 30_050, RETURN: 30_100})},
     {"truck-1": done({RECOVER: 30_050}), "van-1": done({RETURN: 30_010})},
     {"truck-1": done({DEPART: 29_000, LAUNCH: 29_001, FIRST: 29_002, SECOND: 29_003,
                      RECOVER: 29_004, RETURN: 29_005})},

@@ -98,7 +98,7 @@ def test_launch_that_was_told_times_its_stop() -> None:
 
 
 def test_nobody_stops_where_nothing_was_launched() -> None:
-    reply = gone_on({LAUNCH: Told("failed", 30_350, "Wind"),
+    reply = gone_on({FIRST: Told("done", 30_160), LAUNCH: Told("failed", 30_350, "Wind"),
                      SECOND_LAUNCH: Told("failed", 30_400, "Wind")}, 30_500)
     assert stops_of(reply) == [("depot", "hub"), ("customer", "A"), ("depot", "hub")]
     assert [(failed.customer, failed.is_open) for failed in reply.failed] == [
