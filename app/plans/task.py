@@ -1,5 +1,6 @@
 """What a request asks for: a plan from nothing, or one that goes on from another."""
 
+import re
 import time
 from collections import defaultdict
 from collections.abc import Iterable, Sequence
@@ -29,6 +30,7 @@ from app.requests.conversion.travels import Travels
 from app.requests.conversion.units import optional_thousandths
 from app.requests.conversion.work import replanning_seconds
 from app.plans.rulebook import laws_named, rules_named
+from app.requests.plan_departed import with_what_is_there
 from app.requests.plan_reading import plan_to_solution, read_earlier_plan
 from app.requests.warnings.addresses import address_warnings
 from app.requests.warnings.finding import warnings_of
@@ -230,6 +232,7 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
         far = None if estimates is None else FarPlans(problem, estimates)
         return Task(problem, None, *beside, far, places, permits, closures, storms, rules,
                     laws)
+    replan, places_stated = with_what_is_there(replan, request.fleet)
     terms = _terms(replan, problem)
     going_on = replace(preparing, work="Legs and the plan to go on from",
                        advice="send fewer customers or vehicles at once")
@@ -240,7 +243,8 @@ def task_of(request: PlanRequest, preparing: Preparing = UNHURRIED,
                     doubtful=replan.doubtful)
     except SettledPartError as error:
         raise InvalidRequestError([
-            InputError(code="SETTLED_PART", path=f"$.replan.plan.{on_the_wire(violation.path)}",
+            InputError(code="SETTLED_PART",
+                       path=f"$.replan.plan.{_stated(violation.path, places_stated)}",
                        message=f"By replan.freeze_before this has happened, and can't have: "
                        f"{violation.message}. Correct the plan, or the rest of the request.")
             for violation in error.violations]) from error
@@ -272,6 +276,12 @@ def telling(violations: Sequence[Violation]) -> list[Violation]:
     """
     frozen = any(item.code == "FROZEN" for item in violations)
     return [item for item in violations if not (frozen and item.code == "TIME_MISMATCH")]
+
+
+def _stated(path: str, routes: Sequence[int]) -> str:
+    """Return where the plan given states what is at a path, by where its routes are stated."""
+    return on_the_wire(re.sub(r"^routes\[(\d+)\]",
+                              lambda match: f"routes[{routes[int(match[1])]}]", path))
 
 
 def _terms(replan: ReplanInput, problem: Problem) -> Terms:

@@ -102,7 +102,7 @@ def read_earlier_plan(plan: PlanInput, problem: Problem, path: Path) -> Solution
     Raises
     ------
     InvalidRequestError
-        If it names depots, vehicles or drones that `problem` doesn't have.
+        If it names vehicles that `problem` doesn't have.
     """
     reader = _PlanReader(Known.by(problem), NO_MORE)
     solution = reader.plan(plan, path)
@@ -223,7 +223,7 @@ class _PlanReader:
                              thousandths(stop.departure))
 
     def _stop(self, path: Path, stop: StopInput, kind: KnownType) -> Stop:
-        node = self._place((*path, "id"), stop, kind.kind)
+        node = self._place((*path, "id"), stop, kind.kind, path[-1] == 0)
         return Stop(
             is_launch_site=stop.kind == "launch_site" and node != NO_MORE,
             node=node,
@@ -232,10 +232,13 @@ class _PlanReader:
             departure=thousandths(stop.departure),
         )
 
-    def _place(self, path: Path, stop: StopInput, kind: VehicleType | None) -> int:
+    def _place(self, path: Path, stop: StopInput, kind: VehicleType | None,
+               is_first: bool) -> int:
         if stop.kind == "customer":
             return self._customer(path, stop.id)
         if stop.kind == "depot":
+            if kind is not None and self._is_cancelled(self._known.depots, stop.id):
+                return kind.begins_at if is_first else kind.ends_at
             return self._find(path, "depot", self._known.depots, stop.id, stop.id, 0)
         place = stop.kind, stop.id
         if kind is not None and self._is_cancelled(self._known.stands, place):

@@ -2,21 +2,20 @@
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
 
-from app.requests.conversion.launches import launch_durations
 from app.requests.conversion.names import drone_number, number_in, read_name
 from app.requests.conversion.units import thousandths
 from app.requests.ends import named_otherwise
+from app.requests.plan_departed import (
+    Begun, Errors, Path, as_whole, begun_of, committed, is_there, order_errors,
+)
+from app.requests.plan_departed import replan_error as _error
 from app.requests.plan_names import Names, PlaceName
 from app.schemas.driving import REST_ID
-from app.schemas.errors import ErrorCode, InputError, json_path
-from app.schemas.plan import MAX_INSTANT, ON_THE_WAY, RouteInput, StopInput, TripInput
+from app.schemas.errors import InputError, json_path
+from app.schemas.plan import ON_THE_WAY, RouteInput, StopInput, TripInput
 from app.schemas.request import ReplanInput
 from app.schemas.vehicle import VehicleTypeInput
-
-Path = tuple[str | int, ...]
-Errors = Iterator[InputError]
 
 
 def replan_errors(replan: ReplanInput | None, names: Names) -> list[InputError]:
@@ -25,37 +24,7 @@ def replan_errors(replan: ReplanInput | None, names: Names) -> list[InputError]:
         return []
     checker = _Checker(replan, names)
     return [*checker.routes(), *checker.customers(), *checker.unavailable(), *checker.pinned(),
-            *checker.instants()]
-
-
-def _error(code: ErrorCode, path: Path, message: str) -> InputError:
-    return InputError(code=code, path=json_path(("replan", *path)), message=message)
-
-
-@dataclass(frozen=True)
-class _Begun:
-    """The part of a trip that has departed."""
-
-    left: int  # stops
-    launched: tuple[int, ...]  # sorties
-    launch_durations: list[int]  # ms, of all its sorties
-
-    def __bool__(self) -> bool:
-        return bool(self.left or self.launched)
-
-
-def _begun(trip: TripInput, kind: VehicleTypeInput | None, now: int) -> _Begun:
-    left, durations = 0, launch_durations(kind, trip)
-    while left < len(trip.stops) and thousandths(trip.stops[left].departure) <= now:
-        left += 1
-    return _Begun(left, tuple(
-        index for index, sortie in enumerate(trip.sorties)
-        if thousandths(sortie.launch_time) - durations[index] <= now), durations)
-
-
-def _as_whole(trip: TripInput, begun: _Begun) -> _Begun:
-    """Return a trip that has begun as one that is made to its end."""
-    return replace(begun, left=len(trip.stops), launched=tuple(range(len(trip.sorties))))
+            *checker.doubtful(), *checker.instants()]
 
 
 class _Checker:
@@ -78,19 +47,21 @@ class _Checker:
                              "Another route has the same vehicle: give each its own.")
             seen.add(route.vehicle)
             kind = None if self._names.fleet is None else self._names.fleet.get(route.type)
-            if self._names.fleet is not None and kind is None:
+            has_begun = any(begun_of(trip, kind, self._now) for trip in route.trips)
+            if self._names.fleet is not None and kind is None and has_begun:
                 yield _error("UNKNOWN_VEHICLE_TYPE", (*path, "type"),
-                             f"The fleet has no type {route.type!r}: use the id of one it has.")
-            yield from self._name_errors((*path, "vehicle"), route, kind)
+                             f"The fleet has no type {route.type!r}, and the vehicle has left by "
+                             "replan.freeze_before: use the id of one it has.")
+            yield from self._name_errors((*path, "vehicle"), route, kind, has_begun)
             yield from self._trips(path, route, kind)
 
-    def _name_errors(self, path: Path, route: RouteInput,
-                     kind: VehicleTypeInput | None) -> Errors:
+    def _name_errors(self, path: Path, route: RouteInput, kind: VehicleTypeInput | None,
+                     has_begun: bool) -> Errors:
         number = number_in(f"{route.type}-", route.vehicle)
         if number is None:
             yield _error("WRONG_NAME", path, f"The name must be '{route.type}-' and a number from "
                          "1: correct it.")
-        elif kind is not None and number >= kind.count:
+        elif kind is not None and number >= kind.count and has_begun:
             yield _error("UNKNOWN_VEHICLE", path,
                          f"The fleet has {kind.count} of this type: raise its count, and list the "
                          "vehicle in replan.unavailable if it does nothing more.")
@@ -102,14 +73,14 @@ class _Checker:
             is_last = number == len(route.trips) - 1
             is_open = (is_last and kind is not None and kind.end == "open"
                        and (len(trip.stops) < 2 or trip.stops[-1].kind in ON_THE_WAY))
-            begun = happened = _begun(trip, kind, self._now)
+            begun = happened = begun_of(trip, kind, self._now)
             served = {stop.id for stop in trip.stops} | {
                 visit.id for sortie in trip.sorties for visit in sortie.customers}
             is_whole = not self._names.shipment_ends.isdisjoint(served) or (
                 kind is not None and (kind.breaks or kind.driving_rules))
             if begun and is_whole and (route.vehicle not in self._replan.unavailable
                                        or (kind is not None and kind.flies)):
-                begun = _as_whole(trip, begun)
+                begun = as_whole(trip, begun)
             shape = [*self._shape_errors(here, trip, route.vehicle, is_open, bool(begun)),
                      *self._kind_errors(here, trip, kind)]
             yield from shape
@@ -121,13 +92,13 @@ class _Checker:
                              "The trip has begun before the one ahead of it: order their times.")
             if kind is not None:
                 begin = self._names.begin(kind, route.trips[number - 1] if number else None)
-                yield from _place_errors(here, trip, kind, None if begin is None else [begin],
-                                         self._names.ends(kind, is_last))
+                yield from self._place_errors(here, trip, kind, [begin] if begin else None,
+                                              self._names.ends(kind, is_last))
                 yield from self._begun_errors(here, trip, kind, begun)
                 yield from self._gone_errors(here, trip, kind, begun)
             is_done = (happened.left == len(trip.stops)
                        or route.vehicle in self._replan.unavailable)
-            yield from _order_errors(here, trip, happened, last_end, is_done)
+            yield from order_errors(here, trip, happened, last_end, is_done)
             last_end = thousandths(trip.stops[-1].departure)
             # What follows a trip that is not over has not begun.
             free += begun.left < len(trip.stops)
@@ -147,11 +118,6 @@ class _Checker:
                                              or "launch_site" in inner)
         if "customer" not in inner and not trip.sorties and not has_moved:
             yield _error("TRIP_SHAPE", path, "The trip serves nobody: leave it out.")
-        for index, stop in enumerate(trip.stops):
-            if (stop.kind == "depot" and self._names.depots is not None
-                    and all(depot.id != stop.id for depot in self._names.depots)):
-                yield _error("UNKNOWN_DEPOT", (*path, "stops", index, "id"),
-                             f"No depot has the id {stop.id!r}: use the id of one in depots.")
         for index, sortie in enumerate(trip.sorties):
             here = (*path, "sorties", index)
             if not 0 <= sortie.launch_stop <= sortie.recovery_stop < len(kinds):
@@ -168,8 +134,26 @@ class _Checker:
                 yield _error("WRONG_NAME", (*here, "drone"), f"The name must be '{vehicle}/drone-' "
                              "and a number from 1: correct it.")
 
+    def _place_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
+                      begins: list[PlaceName] | None, ends: list[PlaceName] | None) -> Errors:
+        """What of a trip that has begun begins or ends elsewhere than vehicles of its type do."""
+        for index, places in ((0, begins), (len(trip.stops) - 1, ends)):
+            stop = trip.stops[index]
+            if places and (stop.kind, stop.id) not in places and not self._is_gone(stop):
+                yield _error("WRONG_DEPOT", (*path, "stops", index, "id"),
+                             f"The trip has begun, and vehicles of {kind.id} "
+                             f"{'end' if index else 'begin'} it at the {places[0][0]} "
+                             f"{places[0][1]!r}: correct one of the two.")
+
+    def _is_gone(self, stop: StopInput) -> bool:
+        """Tell whether a stop is at a depot or a launch site that the request doesn't have."""
+        if stop.kind == "depot" and self._names.depots is not None:
+            return all(depot.id != stop.id for depot in self._names.depots)
+        return (stop.kind == "launch_site" and self._names.sites is not None
+                and stop.id not in self._names.sites)
+
     def _begun_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
-                      begun: _Begun) -> Errors:
+                      begun: Begun) -> Errors:
         """What of a trip that has begun the request doesn't have."""
         count = sum(drones.count for drones in kind.drone_types)
         for index in begun.launched:
@@ -178,7 +162,7 @@ class _Checker:
                 yield _error("UNKNOWN_DRONE", (*path, "sorties", index, "drone"),
                              f"The drone has been launched, and vehicles of {kind.id} have {count}:"
                              " raise the count.")
-        for place, name in _committed(trip, begun):
+        for place, name in committed(trip, begun):
             if self._names.customers is not None and name not in self._names.customers:
                 yield _error("UNKNOWN_CUSTOMER", (*path, *place, "id"),
                              f"A vehicle has served {name!r} or is on its way there by "
@@ -195,11 +179,11 @@ class _Checker:
                              "kind.")
 
     def _gone_errors(self, path: Path, trip: TripInput, kind: VehicleTypeInput,
-                     begun: _Begun) -> Errors:
-        """Launch sites and breaks of a trip that the request has no more, too late for that.
+                     begun: Begun) -> Errors:
+        """Depots, launch sites and breaks of a trip that the request has no more, too late for it.
 
-        Whoever makes the trip to its end stops at all its launch sites; breaks may still be left
-        out that haven't begun.
+        Whoever makes the trip to its end stops at all its places; breaks may still be left out that
+        haven't begun.
         """
         breaks = {each.id for each in kind.breaks}
         breaks |= set() if kind.driving_rules is None else {REST_ID}
@@ -207,12 +191,11 @@ class _Checker:
         for index, stop in enumerate(trip.stops):
             here = (*path, "stops", index, "id")
             is_bound = index <= begun.left or index in meetings
-            if (stop.kind == "launch_site" and is_bound and self._names.sites is not None
-                    and stop.id not in self._names.sites):
+            if is_bound and self._is_gone(stop):
                 yield _error("UNKNOWN_DEPOT", here,
                              f"A vehicle has been at {stop.id!r}, is on its way there or meets a "
                              "drone there by replan.freeze_before, too late to close it: keep it "
-                             "in launch_sites.")
+                             f"in {stop.kind}s.")
             elif (stop.kind == "break" and stop.id not in breaks
                     and thousandths(stop.arrival) <= self._now):
                 yield _error("UNKNOWN_BREAK", here,
@@ -267,11 +250,24 @@ class _Checker:
                 yield _error("NOT_PLANNED", path, f"No vehicle serves {name!r} in the plan: remove "
                              "it here.")
             else:
-                route = served[name][2]
-                vehicle = self._replan.plan.routes[int(route)].vehicle
-                if vehicle in self._replan.unavailable:
+                route = self._replan.plan.routes[int(served[name][2])]
+                vehicle, fleet = route.vehicle, self._names.fleet
+                if fleet is not None and not is_there(route, fleet):
+                    yield _error("UNKNOWN_VEHICLE", path, f"{vehicle} serves {name!r} in the plan "
+                                 "and isn't in the fleet any more: remove the pin.")
+                elif vehicle in self._replan.unavailable:
                     yield _error("PINNED_TO_UNAVAILABLE", path, f"{vehicle} serves {name!r} in the "
                                  "plan and is unavailable: remove one of the two here.")
+
+    def doubtful(self) -> Errors:
+        """Names that neither the request nor the plan has."""
+        known = self._names.customers
+        planned = {name for _, name in _planned(self._replan.plan.routes)}
+        for index, name in enumerate(self._replan.doubtful):
+            if known is not None and name not in known and name not in planned:
+                yield _error("UNKNOWN_CUSTOMER", ("doubtful", index), named_otherwise(
+                    name, self._names.shipment_ends) or f"Neither the request nor the plan has a "
+                    f"customer {name!r}: remove it here.")
 
     def instants(self) -> Errors:
         """Instants that contradict each other."""
@@ -283,18 +279,6 @@ class _Checker:
             yield _error("OUT_OF_RANGE", ("parcels_back",),
                          f"The parcels are back before {now:g} s, when the vehicles stop: raise "
                          "it.")
-
-
-def _place_errors(path: Path, trip: TripInput, kind: VehicleTypeInput,
-                  begins: list[PlaceName] | None, ends: list[PlaceName] | None) -> Errors:
-    """What of a trip that has begun begins or ends elsewhere than vehicles of its type do."""
-    for index, places in ((0, begins), (len(trip.stops) - 1, ends)):
-        stop = trip.stops[index]
-        if places and (stop.kind, stop.id) not in places:
-            yield _error("WRONG_DEPOT", (*path, "stops", index, "id"),
-                         f"The trip has begun, and vehicles of {kind.id} "
-                         f"{'end' if index else 'begin'} it at the {places[0][0]} "
-                         f"{places[0][1]!r}: correct one of the two.")
 
 
 def _place(stop: StopInput) -> PlaceName:
@@ -312,61 +296,3 @@ def _planned(routes: Sequence[RouteInput]) -> Iterator[tuple[Path, str]]:
             for flight, sortie in enumerate(trip.sorties):
                 for place, visit in enumerate(sortie.customers):
                     yield (*path, "sorties", flight, "customers", place), visit.customer
-
-
-def _committed(trip: TripInput, begun: _Begun) -> Iterator[tuple[Path, str]]:
-    """Yield the customers of a trip to whom a vehicle is on its way, or where a drone is met."""
-    meetings = {trip.sorties[index].recovery_stop for index in begun.launched}
-    for place, stop in enumerate(trip.stops):
-        if stop.kind == "customer" and (place <= begun.left or place in meetings):
-            yield ("stops", place), stop.id
-    for flight in begun.launched:
-        for place, visit in enumerate(trip.sorties[flight].customers):
-            yield ("sorties", flight, "customers", place), visit.id
-
-
-def _order_errors(path: Path, trip: TripInput, begun: _Begun, last_end: int,
-                  is_done: bool) -> Errors:
-    """What of a trip that has begun can't have happened in the order of its times."""
-    time = last_end
-    for place, stop in enumerate(trip.stops[:begun.left + 1]):
-        instants = [("arrival", stop.arrival), ("service_start", stop.service_start),
-                    ("departure", stop.departure)]
-        for name, instant in instants:
-            if not time <= thousandths(instant) <= thousandths(MAX_INSTANT):
-                yield _error("TIMES_DISORDERED", (*path, "stops", place, name),
-                             f"{instant:g} s lies before what comes ahead of it in the plan, and "
-                             "has happened: order the times.")
-                return
-            time = thousandths(instant)
-    for flight in begun.launched:
-        yield from _flight_errors((*path, "sorties", flight), trip, flight, begun, is_done)
-
-
-def _flight_errors(path: Path, trip: TripInput, flight: int, begun: _Begun,
-                   is_done: bool) -> Errors:
-    sortie = trip.sorties[flight]
-    place = trip.stops[sortie.launch_stop]
-    take_off = thousandths(sortie.launch_time)
-    # Of a truck that broke down the place is no stop where it stood and served nobody.
-    has_left = sortie.launch_stop < begun.left and not is_done
-    if (sortie.launch_stop > begun.left
-            or take_off - begun.launch_durations[flight] < thousandths(place.arrival)
-            or (has_left and take_off > thousandths(place.departure))):
-        yield _error("TIMES_DISORDERED", (*path, "launch_time"),
-                     "The drone has been launched while the truck was not at the launch stop: "
-                     "order the times.")
-    time = take_off
-    for index, visit in enumerate(sortie.customers):
-        for name in ("arrival", "service_start", "departure"):
-            instant = thousandths(getattr(visit, name))
-            if not time <= instant <= thousandths(MAX_INSTANT):
-                yield _error("TIMES_DISORDERED", (*path, "customers", index, name),
-                             f"{instant / 1000:g} s lies before what comes ahead of it, and the "
-                             "drone has been launched: order the times.")
-                return
-            time = instant
-    if thousandths(sortie.recovery_time) < time:
-        yield _error("TIMES_DISORDERED", (*path, "recovery_time"),
-                     "The drone is recovered before it has served its customers, and has been "
-                     "launched: order the times.")

@@ -232,6 +232,7 @@ def test_plans_that_do_not_fit_are_refused(searching: httpx.Client, street: Requ
     ({"unavailable": ["truck-3/drone-1"]}, "UNKNOWN_VEHICLE", ".unavailable[0]"),
     ({"unavailable": ["truck-1", "truck-1"]}, "DUPLICATE_VEHICLE", ".unavailable[1]"),
     ({"pinned": ["z"]}, "UNKNOWN_CUSTOMER", ".pinned[0]"),
+    ({"doubtful": ["z"]}, "UNKNOWN_CUSTOMER", ".doubtful[0]"),
     ({"pinned": ["d"]}, "NOT_PLANNED", ".pinned[0]"),
     ({"pinned": ["a"], "unavailable": ["truck-1"]}, "PINNED_TO_UNAVAILABLE", ".pinned[0]"),
     ({"parcels_back": 10}, "MISSING_FIELD", ".freeze_before"),

@@ -308,6 +308,8 @@ def changed(path: str, value: Any) -> Data:
      ("UNKNOWN_VEHICLE", "$.plan.routes[0].vehicle")),
     (changed("plan", {"routes": [PLAN["routes"][1] | {"type": "bus"}]}),
      ("UNKNOWN_VEHICLE_TYPE", "$.plan.routes[0].type")),
+    (changed("problem", PROBLEM | {"depots": [{"id": "yard", "location": [11.5, 48.1]}]}),
+     ("UNKNOWN_DEPOT", "$.plan.routes[0].trips[0].stops[0].id")),
     (changed("x", 1), ("UNKNOWN_FIELD", "$.x")),
 ])
 def test_what_is_wrong_with_a_plan_is_named(service: httpx.Client, body: Data,
