@@ -6,7 +6,7 @@ from typing import Annotated, Any, Literal
 from pydantic import AwareDatetime, BaseModel, ConfigDict, Field
 
 from app.schemas.check import PlannedProblem
-from app.schemas.fields import Info
+from app.schemas.fields import Avoided, Info
 
 StepKind = Literal["depart", "stop", "launch", "recover", "return"]
 BREAKDOWN: Literal["vehicle"] = "vehicle"
@@ -93,6 +93,7 @@ class StepReply(_Reply):
         description="What is there; `start` and `end` are a vehicle's own.")
     location: DestinationReply | None = Field(
         description="Null: not known as latitude and longitude.")
+    avoid: list[Avoided] = Field([], description="What the vehicle keeps off on its way there.")
     arrival: float = Field(description="Planned arrival at the place, seconds since plan start.")
     time: float = Field(
         description="When the step is planned: start of service, take-off, end of the recovery, "

@@ -3,13 +3,14 @@
 import hashlib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import get_args
 
 from app.records.dispatches.schemas import (
     GoodsReply, DestinationReply, StepKind, StepReply, WindowReply,
 )
 from app.requests.conversion.launches import drones_named, launch_durations
 from app.schemas.customer import CustomerInput
-from app.schemas.fields import point_of
+from app.schemas.fields import Avoided, point_of
 from app.schemas.plan import RouteInput, SortieInput, StopInput, TripInput
 from app.schemas.request import PlanRequest
 from app.schemas.vehicle import PlaceInput, VehicleTypeInput
@@ -134,8 +135,9 @@ class StepMaker:
         return StepReply(
             id="", kind=name, trip=index + 1, stop=position,
             place=stop.id, place_kind=stop.kind, location=self._location(kind, stop),
-            arrival=stop.arrival, time=time, departure=stop.departure, duration=0.0, windows=[],
-            drone=None, customers=[], load=None, load_units=self._units)
+            avoid=[each for each in get_args(Avoided) if each in kind.avoid], arrival=stop.arrival,
+            time=time, departure=stop.departure, duration=0.0, windows=[], drone=None, customers=[],
+            load=None, load_units=self._units)
 
     def _location(self, kind: VehicleTypeInput, stop: StopInput) -> DestinationReply | None:
         if not self._is_geographic:

@@ -34,7 +34,7 @@ test('times are those of the zone of the plan, on the day that clocks change too
 
 test('navigators are told latitude before longitude', () => {
   for (const name of Object.keys(NAVIGATORS)) {
-    const address = decodeURIComponent(navigation(name, PLACE));
+    const address = decodeURIComponent(navigation(name, { location: PLACE }));
     assert.match(address, /48\.1,11\.5/, name);
     assert.doesNotMatch(address, /11\.5,48\.1/, name);
   }
@@ -42,6 +42,16 @@ test('navigators are told latitude before longitude', () => {
   assert.equal(chosenNavigator(storage(), 'Mozilla (Android)'), 'geo');
   const kept = storage({ 'tandem-drive-navigator': 'osm' });
   assert.equal(chosenNavigator(kept, 'Mozilla (iPhone)'), 'osm');
+});
+
+test('the navigator that can keeps off what the vehicle avoids', () => {
+  const link = (name, avoid) => navigation(name, { location: PLACE, avoid });
+  assert.match(link('google', ['tolls', 'motorways', 'ferries']),
+    /&travelmode=driving&avoid=tolls,highways,ferries$/);
+  for (const name of Object.keys(NAVIGATORS)) {
+    assert.doesNotMatch(link(name, []), /avoid/, name);
+    if (name !== 'google') assert.equal(link(name, ['tolls']), link(name, []));
+  }
 });
 
 test('sheets say latitude before longitude, and which is which', () => {

@@ -100,6 +100,15 @@ def test_day_has_all_that_a_driver_does_in_order(service: httpx.Client) -> None:
     assert second["customers"][0]["take_in"] == [3]
 
 
+def test_steps_say_what_the_vehicle_avoids_on_its_way(service: httpx.Client) -> None:
+    truck, van = PROBLEM["fleet"]
+    avoiding = PROBLEM | {"fleet": [truck, van | {"avoid": ["ferries", "tolls"]}]}
+    for link, avoided in zip(dispatched(service, problem=avoiding)["links"],
+                             ([], ["tolls", "ferries"]), strict=True):
+        steps = service.get("/drive/day", headers=holding(token_of(link))).json()["steps"]
+        assert all(step["avoid"] == avoided for step in steps)
+
+
 def test_events_count_once_in_order_and_are_followed(service: httpx.Client) -> None:
     sent = dispatched(service)
     token = token_of(sent["links"][0])

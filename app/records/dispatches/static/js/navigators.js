@@ -4,6 +4,8 @@ import { t } from './texts.js';
 
 const KEPT = 'tandem-drive-navigator';
 
+const GOOGLE = { tolls: 'tolls', motorways: 'highways', ferries: 'ferries' };
+
 export const NAVIGATORS = {
   geo: {
     name: null, // whichever the phone has
@@ -11,8 +13,9 @@ export const NAVIGATORS = {
   },
   google: {
     name: 'Google Maps',
-    link: (point) =>
-      `https://www.google.com/maps/dir/?api=1&destination=${encodeURIComponent(point)}`,
+    link: (point, avoid) =>
+      `https://www.google.com/maps/dir/?api=1&destination=${encodeURIComponent(point)}` +
+      (avoid.length ? `&travelmode=driving&avoid=${avoid.map((kind) => GOOGLE[kind])}` : ''),
   },
   apple: {
     name: 'Apple Maps',
@@ -34,9 +37,9 @@ export function pointText({ latitude, longitude }) {
   return `${latitude},${longitude}`;
 }
 
-/** Return the address that has a program lead to a place. */
-export function navigation(name, location) {
-  return (NAVIGATORS[name] ?? NAVIGATORS.geo).link(pointText(location));
+/** Return the address that has a program lead to a step's place; Google's keeps off what it avoids. */
+export function navigation(name, { location, avoid = [] }) {
+  return (NAVIGATORS[name] ?? NAVIGATORS.geo).link(pointText(location), avoid);
 }
 
 /** Return the program that the driver chose; phones of Apple know no `geo:`. */

@@ -200,11 +200,11 @@ function Customer({ customer, units, isNamed }) {
   })}</a>`}`;
 }
 
-function Ways({ step: { location }, navigator }) {
-  if (!location) return null;
+function Ways({ step, navigator }) {
+  if (!step.location) return null;
   return html`<a class="button" rel="noopener noreferrer" target="_blank"
-    href=${navigation(navigator, location)}>${t('action.navigate')}
-    ${' '}<small>${pointText(location)}</small></a>`;
+    href=${navigation(navigator, step)}>${t('action.navigate')}
+    ${' '}<small>${pointText(step.location)}</small></a>`;
 }
 
 function Actions({ link, step, state, reason, onTell }) {
