@@ -96,9 +96,10 @@ class Ground:
         """Tell whether a request has its places and areas at the same points."""
         mine, request = self._request, placed.request
         return (
-            (mine.coordinate_system, mine.planar_unit, mine.planar_rounding, mine.airspace)
+            (mine.coordinate_system, mine.planar_unit, mine.planar_rounding, mine.airspace,
+             mine.plan_start)
             == (request.coordinate_system, request.planar_unit, request.planar_rounding,
-                request.airspace)
+                request.airspace, request.plan_start)
             and self.zones.span == span_of(request)
             and [place.location for place in self.places]
             == [place.location for place in placed.places])
