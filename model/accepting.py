@@ -2,18 +2,20 @@
 
 import logging
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 
 from model.judge.chargers import with_charging
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
+from model.judge.places import halts
+from model.judge.rules import Violation
 from model.problem import Problem
-from model.solution import Solution
+from model.solution import Route, Solution
 
 logger = logging.getLogger(__name__)
 
-_ROUTE = re.compile(r"routes\[(\d+)\]")
+_PLACE = re.compile(r"(routes|customers)\[(\d+)\]")
 
 
 class PlanCheckError(Exception):
@@ -84,20 +86,37 @@ class Judge:
 def sound_routes(judge: Memory, solution: Solution) -> Solution:
     """Return a plan without the routes that break rules, whose customers are left out.
 
-    Those go of whom violations are told, until there are none, or no routes.
+    Those go of whom violations are told, until there are none, or no routes; of those that serve a
+    customer more than once, the first stays.
     """
     routes = list(solution.routes)
     while True:
-        served = {node for route in routes for trip in route.trips
-                  for node in (*(stop.node for stop in trip.customer_stops),
-                               *(visit.node for sortie in trip.sorties
-                                 for visit in sortie.visits))}
+        served = {node for route in routes for node in _served(route)}
         plan = with_charging(judge.problem, Solution(tuple(routes),
                                                      judge.problem.left_out(served)))
         violations = judge.check(plan).violations if routes else ()
         if not violations:
             return plan
-        told = [_ROUTE.match(violation.path) for violation in violations]
-        broken = {int(each[1]) for each in told if each is not None}
+        broken = {index for violation in violations
+                  for index in _blamed(judge.problem, routes, violation)}
         routes = [route for index, route in enumerate(routes)
                   if broken and index not in broken]
+
+
+def _blamed(problem: Problem, routes: Sequence[Route], violation: Violation) -> Collection[int]:
+    """Return the routes by which a rule is broken; none if that isn't told."""
+    place = _PLACE.match(violation.path)
+    if place is None:
+        return ()
+    number = int(place[2])
+    if place[1] == "routes":
+        return (number,)
+    node = problem.num_depots + number
+    serving = [index for index, route in enumerate(routes)
+               if node in map(problem.first_place, _served(route))]
+    return serving[1:] or serving
+
+
+def _served(route: Route) -> list[int]:
+    """Return whom a route serves."""
+    return [halt.node for trip in route.trips for halt in halts(trip)]

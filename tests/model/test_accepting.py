@@ -44,7 +44,9 @@ def test_routes_that_break_no_rule_stay(two_trucks: Problem) -> None:
 
 def test_one_of_two_routes_that_serve_the_same_is_left(two_trucks: Problem) -> None:
     left = sound_routes(Memory(two_trucks), driven(two_trucks, (1, 2), (2, 3)))
-    assert not Memory(two_trucks).check(left).violations
+    assert left == driven(two_trucks, (1, 2))
+    twice = driven(two_trucks, (3,), (1, 1))
+    assert sound_routes(Memory(two_trucks), twice) == driven(two_trucks, (3,))
 
 
 def test_what_is_refused_is_counted_and_told(two_trucks: Problem,
