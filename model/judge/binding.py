@@ -16,7 +16,7 @@ from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.driving import travel_duration
 from model.judge.energy import charges, sortie_energy
-from model.judge.flight_limits import flight_limits, hub_limits, one_km_more
+from model.judge.flight_limits import flight_limits, hub_limits, one_km_more, without_hours
 from model.judge.freshness import excess_aboard
 from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
@@ -168,6 +168,9 @@ def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
         yield Limit(field, "request", None, "vehicle", slack, fewer)
     for field, kind, richer in hub_limits(bench.problem, bench.plan.solution):
         yield Limit(field, "vehicle_type", kind, "unit", 0.0, richer, gives_trips=True)
+    opened = without_hours(bench.problem)
+    if opened is not None:
+        yield Limit("airspace.zones", "request", None, "rule", None, opened)
 
 
 def _customer_limits(bench: Bench, node: int) -> Iterator[Limit]:

@@ -45,6 +45,20 @@ def hub_limits(problem: Problem, solution: Solution) -> Iterator[tuple[str, int,
                 problem, kind.depot, replace(depot, chargers=depot.chargers + 1))
 
 
+def without_hours(problem: Problem) -> Problem | None:
+    """Return a problem whose zones with hours are open all day; None if it has none."""
+    kinds = [_opened(kind) for kind in problem.vehicle_types]
+    return None if kinds == [*problem.vehicle_types] else replace(
+        problem, vehicle_types=tuple(kinds))
+
+
+def _opened(kind: VehicleType) -> VehicleType:
+    """Return vehicles that may fly to and from zones at any hour, and their drones."""
+    drones = [replace(each, closings=()) for each in kind.drone_types]
+    return replace(kind, closings=(), drones=drones[0] if drones else None,
+                   more_drones=tuple(drones[1:]))
+
+
 def _with_depot(problem: Problem, node: int, depot: Depot) -> Problem:
     depots = [*problem.depots]
     depots[node] = depot

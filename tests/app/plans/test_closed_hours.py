@@ -114,6 +114,22 @@ def test_whom_its_window_keeps_in_the_hours_is_told_so(client: httpx.Client) -> 
     assert "is closed to flights from 09:00:00 until 13:00:00." in reason["message"]
 
 
+@pytest.mark.parametrize(("window", "is_bound"), [
+    ({"earliest": 2 * HOUR, "latest": 3 * HOUR}, True), ({"latest": 3 * HOUR}, False)])
+def test_hours_of_zones_bind_where_without_them_a_plan_would_cost_less(
+        client: httpx.Client, window: Data, is_bound: bool) -> None:
+    request = day(harbour())
+    request["customers"][0]["time_window"] = window
+    name = request["customers"][0]["id"]
+    reply = client.post("/explain", json={
+        "problem": request, "plan": planned(client, request), "customer": name}).json()
+    told = [each for each in reply["binding"] if each["rule"] == "airspace.zones"]
+    assert len(told) == is_bound
+    for each in told:
+        assert (each["at"], each["slack"], each["unit"]) == ("", None, "rule")
+        assert each["saves_per_unit"] > 0
+
+
 def test_a_zone_with_hours_that_holds_nobody_is_flown_around_all_day(client: httpx.Client) -> None:
     def flown(*zones: Data) -> float:
         return float(planned(client, day(*zones))["summary"]["drone_distance"])

@@ -583,6 +583,7 @@ export default {
     driving_rules_max_driving_per_day: 'Die tägliche Lenkzeit',
     driving_rules_while_drones_fly: 'Ruhezeiten während Flügen',
     fairness_min_vehicles: 'Die Mindestzahl der Fahrzeuge',
+    airspace_zones: 'Die Zeiten von Zonen',
     capacity: 'Die Ladekapazität',
     shift_latest: 'Das Schichtende',
     max_working_duration: 'Die längste Arbeitszeit',

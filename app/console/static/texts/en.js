@@ -569,6 +569,7 @@ export default {
     driving_rules_max_driving_per_day: 'The time at the wheel in a day',
     driving_rules_while_drones_fly: 'Rests while drones fly',
     fairness_min_vehicles: 'The least number of vehicles',
+    airspace_zones: 'The hours of zones',
     capacity: 'The capacity',
     shift_latest: 'The end of the shift',
     max_working_duration: 'The longest working duration',
