@@ -4,6 +4,7 @@ import logging
 import re
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from model.judge.chargers import with_charging
 from model.judge.check import Evaluation
@@ -35,6 +36,13 @@ class Accepted:
         return self.evaluation.cost.total
 
 
+class Completed(NamedTuple):
+    """A plan with those whom it lacked, as far as there was room and time."""
+
+    solution: Solution
+    whole: bool  # no clock and no listener cut that short
+
+
 class Judge:
     """Judges what a planner finds for one problem, and counts what is refused.
 
@@ -48,9 +56,11 @@ class Judge:
         Called for each plan that is refused.
     """
 
-    def __init__(self, memory: Memory, complete: Callable[[Solution, Problem], Solution],
+    def __init__(self, memory: Memory, complete: Callable[[Solution, Problem], Completed],
                  on_refused: Callable[[], None]) -> None:
         self.problem, self.refused = memory.problem, 0
+        self.whole = True
+        """No clock had a say in what stands for plans that were refused."""
         self._memory, self._complete, self._on_refused = memory, complete, on_refused
 
     def accepted(self, solution: Solution) -> Accepted:
@@ -72,8 +82,10 @@ class Judge:
                            for violation in found.evaluation.violations)
         logger.error("plan refused: %s", broken)
         left = sound_routes(self._memory, solution)
-        completed = sound_routes(self._memory, self._complete(left, self.problem))
-        found = min(map(self._judged, (left, completed)), key=lambda each: each.cost)
+        completed = self._complete(left, self.problem)
+        self.whole = self.whole and completed.whole
+        found = min(map(self._judged, (left, sound_routes(self._memory, completed.solution))),
+                    key=lambda each: each.cost)
         if found.evaluation.violations:
             raise PlanCheckError(broken)
         return found

@@ -1,6 +1,7 @@
 """The planner: decode, improve, check.
 
-`Progress` and `PlanCheckError` are passed on to those who plan, who need no other part for them.
+`Completed`, `Progress` and `PlanCheckError` are passed on to those who plan, who need no other part
+for them.
 """
 
 import math
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Literal, NamedTuple
 
 from model.accepting import Accepted, Judge
+from model.accepting import Completed as Completed
 from model.accepting import PlanCheckError as PlanCheckError
 from model.judge.check import Evaluation
 from model.judge.memory import Memory
@@ -174,7 +176,7 @@ class Planner:
         if first is not None:
             _tell(listener, first)
             if not searches:
-                return _result(first, how, first.cost, options, None, whole, judge.refused,
+                return _result(first, how, first.cost, options, None, whole, judge,
                                Elapsed(decoded - began, 0.0, time.perf_counter() - decoded))
         elif not searches:
             # No policy planned, so that the plan is what a search would begin with.
@@ -187,7 +189,7 @@ class Planner:
         elapsed = Elapsed(decoded - began, searched - decoded, time.perf_counter() - searched)
         # By the search's sum, which rounds otherwise than the checker's.
         first_cost = max(improved.first_cost, last.cost) if first is None else first.cost
-        return _result(last, how, first_cost, options, improved, whole, judge.refused, elapsed)
+        return _result(last, how, first_cost, options, improved, whole, judge, elapsed)
 
     def _require(self, policy: str) -> None:
         if policy not in self._policies:
@@ -267,7 +269,7 @@ def _unimproved(judge: Judge, start: Solution | None, options: PlanOptions,
     last = judge.accepted(nobody_served(judge.problem) if start is None else start)
     elapsed = Elapsed(packed - began, 0.0, time.perf_counter() - packed)
     return _result(last, "insertion" if start is None else "given", last.cost, options, None,
-                   False, judge.refused, elapsed)
+                   False, judge, elapsed)
 
 
 def _tell(listener: Listener, first: Accepted) -> None:
@@ -285,7 +287,8 @@ def _improve(problem: Problem, instance: Instance, first: Accepted | None, optio
              or (bool(problem.shipments) and problem.num_customers > MOST_CUSTOMERS))
     joint = None if whole else find_joint(problem, terms.ended)
     if joint is None:
-        return _search(problem, instance, begun, options, deadline, listener)
+        return _search(problem, instance, begun, options, deadline, listener,
+                       math.inf if first is None else first.cost)
 
     def search(begun: Solution | None, part: Part, should_stop: Callable[[], bool],
                on_progress: Callable[[Progress], None]) -> Improved:
@@ -298,17 +301,18 @@ def _improve(problem: Problem, instance: Instance, first: Accepted | None, optio
 
 
 def _search(problem: Problem, instance: Instance, begun: Solution | None, options: PlanOptions,
-            deadline: float | None, listener: Listener) -> Improved:
+            deadline: float | None, listener: Listener,
+            given_cost: float = math.inf) -> Improved:
     config = SearchConfig(options.seed, options.threads, options.search_iterations,
                           cooled=options.cooled)
     until = None if deadline is None else deadline - usual_reserve(problem)
     begun = nobody_served(problem) if begun is None else begun
     return improve(problem, instance, begun, config, until,
-                   listener.should_stop, listener.on_progress, more_by_plan(problem))
+                   listener.should_stop, listener.on_progress, more_by_plan(problem), given_cost)
 
 
 def complete_plan(problem: Problem, begun: Solution, seed: int,
-                   should_stop: Callable[[], bool]) -> Solution:
+                  should_stop: Callable[[], bool]) -> Completed:
     """Return a plan with those whom it lacks where they cost least, as a search begins.
 
     If it is told to stop, it is the plan as it was.
@@ -316,9 +320,10 @@ def complete_plan(problem: Problem, begun: Solution, seed: int,
     try:
         instance = pack([problem], False, pausing(should_stop, patience=GRACE))
     except EndedError:
-        return begun
-    return improve(problem, instance, begun, SearchConfig(seed, turns=0), patience(problem),
-                   should_stop).solution
+        return Completed(begun, False)
+    found = improve(problem, instance, begun, SearchConfig(seed, turns=0), patience(problem),
+                    should_stop)
+    return Completed(found.solution, found.whole)
 
 
 def patience(problem: Problem) -> float:
@@ -327,9 +332,9 @@ def patience(problem: Problem) -> float:
             + UNHURRIED_PER_CUSTOMER * problem.num_customers)
 
 
-def _completing(seed: int) -> Callable[[Solution, Problem], Solution]:
+def _completing(seed: int) -> Callable[[Solution, Problem], Completed]:
     """Return what completes plans of which something was refused, within some time."""
-    def complete(begun: Solution, problem: Problem) -> Solution:
+    def complete(begun: Solution, problem: Problem) -> Completed:
         late = time.perf_counter() + COMPLETING
         return complete_plan(problem, begun, seed, lambda: time.perf_counter() > late)
 
@@ -337,14 +342,14 @@ def _completing(seed: int) -> Callable[[Solution, Problem], Solution]:
 
 
 def _result(last: Accepted, start: Start, first_cost: float, options: PlanOptions,
-            improved: Improved | None, whole: bool, refused: int,
+            improved: Improved | None, whole: bool, judge: Judge,
             elapsed: Elapsed) -> PlanResult:
     return PlanResult(
         last.solution, last.evaluation, start, decoded_cost=first_cost, final_cost=last.cost,
         search_iterations=0 if improved is None else improved.turns, threads=options.threads,
-        deterministic=whole and (improved is None
-                                 or (improved.whole and _made_all_turns(options, improved))),
-        elapsed=elapsed, refused=refused)
+        deterministic=whole and judge.whole and (
+            improved is None or (improved.whole and _made_all_turns(options, improved))),
+        elapsed=elapsed, refused=judge.refused)
 
 
 def _made_all_turns(options: PlanOptions, improved: Improved) -> bool:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from app.maps.roads.engine import RoadsError
 from app.requests.conversion.far_legs import Estimates
 from app.schemas.errors import NoRoadsError
-from model.accepting import sound_routes
+from model.accepting import Completed, sound_routes
 from model.judge.check import check
 from model.judge.memory import Memory
 from model.judge.past import Past
@@ -45,10 +45,12 @@ class FarPlans:
             If the roads don't tell the legs of the plan.
         """
         began = time.perf_counter() if received_at is None else received_at
+        whole = True
         if start is not None:
-            start = self._mended(start, options, listener)
+            start, whole = self._mended(start, options, listener)
         first = planner.plan(self.problem, _share(options, FIRST_SHARE), began, listener, start)
-        safe = self._mended(first.solution, options, listener)
+        safe, known = self._mended(first.solution, options, listener)
+        first = replace(first, deterministic=first.deterministic and whole and known)
         left = options.time_limit - (time.perf_counter() - began)
         if 0 in (options.time_limit, options.search_iterations) or left <= 0:
             return self._result(first, None, safe)
@@ -72,18 +74,19 @@ class FarPlans:
         """
         self._ask(plan, time.perf_counter() + ASKING, lambda: False)
 
-    def _mended(self, plan: Solution, options: PlanOptions, listener: Listener) -> Solution:
+    def _mended(self, plan: Solution, options: PlanOptions, listener: Listener) -> Completed:
         """Return a plan that keeps all rules by legs that are known, as like it as can be."""
         self._learn(plan, options, listener)
         self.estimates.close()
         retimed = _retimed(self.problem, plan)
         if check(self.problem, retimed).is_feasible:
-            return retimed
+            return Completed(retimed, True)
         begun = sound_routes(Memory(self.problem), retimed)
-        completed = complete_plan(self.problem, begun, options.seed, lambda: False)
+        completed, whole = complete_plan(self.problem, begun, options.seed, lambda: False)
         if self._learn(completed, options, listener):
             completed = _retimed(self.problem, completed)
-        return completed if check(self.problem, completed).is_feasible else begun
+        is_feasible = check(self.problem, completed).is_feasible
+        return Completed(completed if is_feasible else begun, whole)
 
     def _learn(self, plan: Solution, options: PlanOptions, listener: Listener) -> int:
         until = time.perf_counter() + ASKING + ASKING_SHARE * options.time_limit

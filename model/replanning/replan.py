@@ -12,8 +12,8 @@ from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
 from model.judge.past_rules import PAST_RULES
 from model.planner import (
-    ALONE, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult, Progress,
-    complete_plan,
+    ALONE, Completed, Elapsed, Listener, PlanCheckError, Planner, PlanOptions, PlanResult,
+    Progress, complete_plan,
 )
 from model.problem import Problem
 from model.replanning.driven_on import as_it_stands, carried_through, driven_on
@@ -139,9 +139,9 @@ class Replanning:
         if self._left is None:
             return self._nothing_left(plan, kept, options)
         bridge = _Bridge(self.problem, self.past, plan, kept, self._left)
-        first, begun, evaluation = self._beginning(
-            bridge, hand_over(self.problem, plan, kept, self._left), options,
-            listener.should_stop)
+        handed = hand_over(self.problem, plan, kept, self._left)
+        filled = _begin(self._left, handed, options, listener.should_stop, bool(self.past.orders))
+        first, begun, evaluation = self._beginning(bridge, handed, filled.solution)
         solution, before = self._cheapest((begun, evaluation),
                                           as_it_stands(self.problem, plan, kept))
         # It takes a while in large plans, and would do no better where nobody is lost, and no
@@ -159,7 +159,7 @@ class Replanning:
                           - result.elapsed.search - result.elapsed.check)
         return replace(result, solution=solution, evaluation=evaluation, start="given",
                        decoded_cost=before.cost.total, final_cost=evaluation.cost.total,
-                       elapsed=elapsed)
+                       deterministic=result.deterministic and filled.whole, elapsed=elapsed)
 
     def reasons(self, solution: Solution, node: int,
                 until: float = math.inf) -> tuple[Reason, ...]:
@@ -177,13 +177,11 @@ class Replanning:
         return tuple(self._reason(solution, plan, kind, node, until)
                      for kind in range(len(self.problem.vehicle_types)))
 
-    def _beginning(self, bridge: _Bridge, handed: Solution, options: PlanOptions,
-                   should_stop: Callable[[], bool]) -> tuple[Solution, Solution, Evaluation]:
+    def _beginning(self, bridge: _Bridge, handed: Solution,
+                   first: Solution) -> tuple[Solution, Solution, Evaluation]:
         """Return where the search begins, of what is left and as a whole, and its judgement."""
-        has_orders = bool(self.past.orders)
-        first = _begin(bridge.left, handed, options, should_stop, has_orders)
         solution = bridge.whole(first)
-        if has_orders and self.check(solution).violations:
+        if self.past.orders and self.check(solution).violations:
             # Who came in between was at another place before.
             first, solution = handed, bridge.whole(handed)
         if self.check(solution).violations:
@@ -330,7 +328,7 @@ def _through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle
 
 
 def _begin(left: Remainder, begun: Solution, options: PlanOptions,
-           should_stop: Callable[[], bool], has_orders: bool) -> Solution:
+           should_stop: Callable[[], bool], has_orders: bool) -> Completed:
     """Return what is left of the plan given; if no search follows, with those whom it lacks.
 
     They are inserted where that costs least, as a search does at its beginning. Where some keep
@@ -338,12 +336,12 @@ def _begin(left: Remainder, begun: Solution, options: PlanOptions,
     """
     searches = options.time_limit > 0 and options.search_iterations != 0 and not has_orders
     if searches or not begun.unassigned:
-        return begun
+        return Completed(begun, True)
     filled = complete_plan(left.problem, begun, options.seed, should_stop)
-    before, after = check(left.problem, begun), check(left.problem, filled)
+    before, after = check(left.problem, begun), check(left.problem, filled.solution)
     if after.is_feasible and after.cost.total <= before.cost.total:
         return filled
-    return begun
+    return filled._replace(solution=begun)
 
 
 def _relayed(listener: Listener, first_cost: float, bridge: _Bridge) -> Listener:

@@ -22,11 +22,11 @@ from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
 from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbourhood
-from model.search.linked.engine import measure_near
-from model.search.linked.layout import Linked, make_linked
+from model.search.linked.layout import Linked
 from model.search.limits import WHOLE, Limits, Span
+from model.search.linked_rooms import linked_rooms
 from model.search.memetic import spans_of_rest
-from model.search.problem_data import are_timed, can_be_linked, make_data, only_loads_limit
+from model.search.problem_data import make_data, only_loads_limit
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.search.sharing import Crew, go_on_from_best
@@ -166,7 +166,8 @@ class _Team:
 def improve(problem: Problem, instance: Instance, solution: Solution, config: SearchConfig,
             deadline: float | None = None, should_stop: Callable[[], bool] = never,
             on_progress: Callable[[Progress], None] = lambda _: None,
-            reading: Reading = lambda routes, sorties: 0.0) -> Improved:
+            reading: Reading = lambda routes, sorties: 0.0,
+            given_cost: float = math.inf) -> Improved:
     """Search for a better plan than the one given.
 
     Parameters
@@ -189,6 +190,9 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
     reading
         How long before the deadline the search ends, by the numbers of routes and sorties of its
         best plan: what reading that takes and what the caller does with it.
+    given_cost
+        What the plan given costs: where it is late and none is found that costs less, that one is
+        returned, and no other read, which may take longer than the search.
 
     Returns
     -------
@@ -213,7 +217,8 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
             limits = Limits(began, end,
                             None if config.turns is None else config.turns // config.threads,
                             lambda: alarm.has_rung or should_stop())
-            task = _Task(problem, instance, neighbourhood, config, limits, alarm, reading)
+            task = _Task(problem, instance, neighbourhood, config, limits, alarm, reading,
+                         given_cost)
             trucks_first = not solution.routes and _trucks_come_first(problem, config.moves)
             if trucks_first:
                 found = _plan_by_truck(task)
@@ -238,6 +243,7 @@ class _Task:
     limits: Limits
     alarm: Alarm
     reading: Reading
+    given_cost: float = math.inf  # of the plan that is given
     by_trip: bool = False  # it goes on from trips that were packed
 
 
@@ -252,7 +258,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     seeds = np.random.SeedSequence(config.seed).spawn(config.threads + 1)
     whole = make_searcher(problem, data, plan, seeds[0])
     is_large = problem.num_customers >= LARGE_FROM
-    linked = _linked(data, whole, config.threads)
+    linked = linked_rooms(data, whole, config.threads)
     _begin(data, whole, linked[0], fresh, fresh and bool(plan.routes), task)
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(data, whole, is_large, from_trucks, config.hot, config.cold)
@@ -280,17 +286,10 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     found = whole
     with suppress(EndedError):
         found = packed_anew(problem, data, whole, node)
-    return Improved(best(found), float(found.value.best), first_cost,
-                    sum(worker.turns for worker in workers), not task.alarm.has_rung)
-
-
-def _linked(data: ProblemData, whole: Searcher, threads: int) -> list[Linked | None]:
-    """Return room for linked routes for each thread; None where routes can't be linked."""
-    if not can_be_linked(data):
-        return [None] * threads
-    first, *others = (make_linked(data, whole, are_timed(data)) for _ in range(threads))
-    measure_near(data, first)
-    return [first, *(other._replace(near=first.near) for other in others)]
+    cost, is_late = float(found.value.best), task.alarm.has_rung
+    in_vain = is_late and max(first_cost, task.given_cost) <= cost < math.inf
+    return Improved(solution if in_vain else best(found), cost, first_cost,
+                    sum(worker.turns for worker in workers), not is_late)
 
 
 def _size(whole: Searcher) -> tuple[int, int]:

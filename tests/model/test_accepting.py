@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from model.accepting import Judge, sound_routes
+from model.accepting import Completed, Judge, sound_routes
 from model.judge.memory import Memory
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Customer, Problem, VehicleType
@@ -30,8 +30,8 @@ def driven(problem: Problem, *routes: tuple[int, ...]) -> Solution:
         for number, nodes in enumerate(routes)]), problem.left_out(served))
 
 
-def nothing_more(begun: Solution, _: Problem) -> Solution:
-    return begun
+def nothing_more(begun: Solution, _: Problem) -> Completed:
+    return Completed(begun, True)
 
 
 def test_routes_that_break_no_rule_stay(two_trucks: Problem) -> None:
@@ -65,8 +65,10 @@ def test_what_is_refused_is_counted_and_told(two_trucks: Problem,
 def test_customers_of_broken_routes_are_served_again_where_that_may_be(
         two_trucks: Problem) -> None:
     again = driven(two_trucks, (1, 2), (3,))
-    judge = Judge(Memory(two_trucks), lambda begun, problem: again, lambda: None)
+    judge = Judge(Memory(two_trucks), lambda begun, problem: Completed(again, True), lambda: None)
     assert judge.accepted(driven(two_trucks, (1, 2, 3))).solution == again
+    assert judge.whole
     wrong = driven(two_trucks, (3,), (1, 2, 3))
-    judge = Judge(Memory(two_trucks), lambda begun, problem: wrong, lambda: None)
+    judge = Judge(Memory(two_trucks), lambda begun, problem: Completed(wrong, False), lambda: None)
     assert judge.accepted(driven(two_trucks, (1, 2, 3))).evaluation.violations == ()
+    assert not judge.whole

@@ -56,7 +56,8 @@ Int next_begin(const ProblemData& data, Int k, Int begin) {
 // As `price_loaded`, where a driver who begins later may have had breaks before, or may not have to
 // rest, or isn't on the way for so long.
 //
-// That is tried where time counts and the route may cost less, `least`, or nothing else goes.
+// That is tried where time counts and the route may cost less, `least`, or nothing else goes; but
+// not once the search must end, since a driver may begin at each of a thousand changes of speed.
 bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double least,
                  bool& settled) {
     Route& route = fleet.route[slot];
@@ -83,7 +84,7 @@ bool price_later(const ProblemData& data, const Fleet& fleet, Int slot, double l
             chosen != none && (!possible || !may_gain || (best <= least && !end_costs) ||
                                !data.evaluation[route.type].timed || tried >= most_begins);
         const Int later = next_begin(data, route.type, begin);
-        if (is_enough || !may_end(type, later)) {
+        if (is_enough || !may_end(type, later) || data.deadline.passed()) {
             if (chosen == none || (possible && chosen == begin)) return chosen != none;
             break;
         }
@@ -189,6 +190,13 @@ bool load_route(const ProblemData& data, const Fleet& fleet, Int slot) {
     return tiers_aboard(fleet) == 0 || weigh(data, fleet, slot);
 }
 
+// Tell whether a route that is set aside is copied with its times: where others' hang on them, or
+// where it might not find them again once the search must end.
+bool is_copied(const ProblemData& data, const Route& route) {
+    const VehicleType& type = data.type[route.type];
+    return routes_meet(data) || may_rest(type) || limits_timed_travel(type);
+}
+
 }  // namespace
 
 bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
@@ -243,7 +251,7 @@ bool refresh_as_planned(const ProblemData& data, const Fleet& fleet, Int slot) {
 }
 
 void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to) {
-    if (routes_meet(data)) {
+    if (is_copied(data, fleet.route[slot])) {
         copy_route(fleet, slot, fleet, to);
     } else {
         keep_aside(fleet, slot, to);
@@ -251,7 +259,7 @@ void set_aside(const ProblemData& data, const Fleet& fleet, Int slot, Int to) {
 }
 
 void put_back(const ProblemData& data, const Fleet& fleet, Int slot, Int from) {
-    if (routes_meet(data)) {
+    if (is_copied(data, fleet.route[from])) {
         copy_route(fleet, from, fleet, slot);
     } else {
         keep_aside(fleet, from, slot);

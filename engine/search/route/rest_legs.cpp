@@ -73,8 +73,8 @@ void RestLegs::take(RestLabel next, const RestedLeg& leg, Int number, RestPlace 
     if (place != RestPlace::arrival) {
         ride(next, rested, place);
     } else {
-        come(next, rested);
-        take_break(next, rested, place);
+        // Who is no better there than somebody else isn't behind another break either.
+        if (come(next, rested)) take_break(next, rested, place);
         const bool may_again = number == first_part || is_stated(number);
         if (may_again && route_.may_need_rest(rested.driver(), way_.ahead)) {
             rest(next, rested, place);
@@ -83,11 +83,13 @@ void RestLegs::take(RestLabel next, const RestedLeg& leg, Int number, RestPlace 
     if (kept_ == kept) taken_.forget(before);
 }
 
-// Note that a leg is over, if that may be best.
-void RestLegs::come(RestLabel label, const RestedLeg& leg) {
-    if (!may_be_best(label, leg)) return;
+// Note that a leg is over, if that may be best; tells.
+bool RestLegs::come(RestLabel label, const RestedLeg& leg) {
+    if (!may_be_best(label, leg)) return false;
     route_.arrive(label, way_, leg, left_);
-    if (there_->add(label)) ++kept_;
+    const bool kept = there_->add(label);
+    kept_ += kept ? 1 : 0;
+    return kept;
 }
 
 // Tell whether a way may be better than the best known, somewhere on the leg.

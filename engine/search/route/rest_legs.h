@@ -19,7 +19,7 @@ private:
     void rest(const RestLabel& label, const RestedLeg& leg, RestPlace place);
     void take_break(const RestLabel& label, const RestedLeg& leg, RestPlace place);
     void take(RestLabel next, const RestedLeg& leg, Int number, RestPlace place);
-    void come(RestLabel label, const RestedLeg& leg);
+    bool come(RestLabel label, const RestedLeg& leg);
     bool is_put_off(const RestedLeg& leg, Int number) const;
     bool may_be_best(RestLabel label, const RestedLeg& leg) const;
 

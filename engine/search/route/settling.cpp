@@ -205,7 +205,7 @@ bool settle(const ProblemData& data, Route& route, View<Stop, 1> stops, View<con
         // Nothing is known of the latest then; mostly it can't be later at all.
         const bool in_vain = hold >= end && resting && !may_begin(soonest + 1);
         for (Int attempt = 0; attempt <= most && start.found() != hold && !in_vain; ++attempt) {
-            if (start.is_known()) break;
+            if (start.is_known() || (may_lose && data.deadline.passed())) break;
             // If not, drones in another order of arrival took longer, or breaks that are due.
             const bool may = may_begin(start.tried());
             start.note(may, late);

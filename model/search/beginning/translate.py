@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from model.engine.alarm import Alarm
 from model.engine.breaks import NONE, PLACES, BrokenRoute, resting_in_gap
 from model.engine.library import call, dtype_of, packed
 from model.engine.records import Records, one, read_rows
@@ -99,9 +100,12 @@ def left_out(data: ProblemData, searcher: Searcher) -> tuple[int, ...]:
 
 
 def read_routes(data: ProblemData, searcher: Searcher) -> Iterator[Route]:
-    """Yield the routes of the best plan found, each trip begun as late as costs nothing."""
+    """Yield the routes of the best plan found, each trip begun as late as costs nothing.
+
+    That has its time however late it is: routes as they were searched for may begin too soon.
+    """
     best = searcher.best
-    given = packed(data), packed(best)
+    given = packed(data._replace(deadline=Alarm().setting)), packed(best)
     slots = np.flatnonzero(best.route["length"][: len(searcher.active)]).tolist()
     for slot in slots:
         call("tandem_finish_route", *given, slot)

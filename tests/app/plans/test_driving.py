@@ -266,7 +266,7 @@ def test_drivers_begin_at_few_of_many_speeds_where_trips_are_held_for_what_is_ab
                                      for step in range(200)]}]}
     task = task_of(read_request(json.dumps(request).encode(), None))
     began = time.process_time()
-    plan = complete_plan(task.problem, nobody_served(task.problem), 0, lambda: False)
+    plan = complete_plan(task.problem, nobody_served(task.problem), 0, lambda: False).solution
     assert time.process_time() - began < 2
     assert task.check(plan).is_feasible
     assert len(plan.unassigned) < 10

@@ -1,5 +1,6 @@
 """What has happened stays, and what is left is planned anew."""
 
+import time
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -283,6 +284,19 @@ def test_all_served_is_the_whole_plan(planner: Planner, street: Problem) -> None
     result = Replanning(street, Terms(plan, 1000 * MINUTE)).plan(planner, OPTIONS)
     assert result.solution == plan
     assert (result.search_iterations, result.deterministic) == (0, True)
+
+
+@pytest.mark.parametrize("patience", [60.0, -1.0])
+def test_clock_that_ends_an_insertion_is_owned_up_to(
+        monkeypatch: pytest.MonkeyPatch, planner: Planner, street: Problem,
+        patience: float) -> None:
+    monkeypatch.setattr("model.planner.patience", lambda _: time.perf_counter() + patience)
+    monkeypatch.setattr("model.search.improve.GRACE", 0.0)
+    plan = planned(street, ((A, B), (C,)))
+    result = Replanning(street, Terms(replace(plan, unassigned=(D,)), 8 * MINUTE)).plan(
+        planner, replace(OPTIONS, time_limit=0.0))
+    assert result.deterministic == (patience > 0)
+    assert (result.solution.unassigned == ()) == (patience > 0)
 
 
 def test_empty_plan_is_planned_from_nothing(planner: Planner, street: Problem) -> None:

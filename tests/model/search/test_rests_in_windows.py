@@ -7,9 +7,11 @@ import pytest
 
 from model.engine.instance import pack
 from model.judge.check import check
-from model.problem import UNLIMITED, Customer, Depot, DrivingRules, Problem, Travel, VehicleType
+from model.problem import (
+    UNLIMITED, Break, Customer, Depot, DrivingRules, Problem, Travel, VehicleType,
+)
 from model.search.improve import SearchConfig, improve
-from model.solution import Solution
+from model.solution import Route, Solution, Stop, Trip
 from tests.model.tiny_breaks import short_day
 
 MINUTE = 60_000
@@ -64,3 +66,28 @@ def test_no_search_breaks_rules_where_customers_have_two_windows(first: int) -> 
         plan = improve(problem, pack([problem]), Solution((), (1, 2)),
                        SearchConfig(turns=60)).solution
         assert check(problem, plan).violations == (), seed
+
+
+def test_eight_breaks_and_rests_are_placed_best_where_customers_are_waited_for() -> None:
+    """All ways to take breaks on a leg once filled the room that there is for rests.
+
+    Customers four minutes apart open every twenty minutes; who waits for them rests meanwhile.
+    """
+    places = np.arange(21) * 4 * MINUTE
+    legs = np.abs(places[:, None] - places)
+    breaks = tuple(Break(str(number), 5 * MINUTE, 30 * (number + 1) * MINUTE,
+                         (30 * number + 70) * MINUTE, after_departure=True, anywhere=True,
+                         paid=number % 2 == 1) for number in range(8))
+    rules = DrivingRules(270 * MINUTE, 45 * MINUTE, (15 * MINUTE, 30 * MINUTE),
+                         max_work=360 * MINUTE)
+    van = VehicleType("van", 1, (20,), 0, latest=1440 * MINUTE, cost_per_km=1.0, cost_per_hour=1.0,
+                      breaks=breaks, driving=rules)
+    customers = tuple(Customer(str(number), (1,), MINUTE, 20 * number * MINUTE)
+                      for number in range(20))
+    problem = Problem((Depot("hub"),), customers, (van,), (Travel(legs, legs),),
+                      np.zeros((21, 2)), unassigned_cost=1000.0)
+    given = Trip(tuple(Stop(node, 0, 0, 0) for node in (*range(21), 0)))
+    found = improve(problem, pack([problem]), Solution((Route(0, 0, (given,)),), ()),
+                    SearchConfig(turns=0))
+    assert check(problem, found.solution).violations == ()
+    assert found.cost == pytest.approx(14.7, abs=1e-9)

@@ -23,6 +23,7 @@ from app.requests.conversion.preparing import Preparing
 from app.requests.plan_reading import plan_to_solution
 from app.requests.reading import read_request
 from app.schemas.errors import NoRoadsError
+from model.accepting import Completed
 from model.problem import FloatArray
 from tests.app.conftest import FirstFitPlanner
 from tests.app.maps.roads.test_legs import request
@@ -142,7 +143,8 @@ def test_far_legs_are_driven_as_near_ones_are() -> None:
 
 def test_windows_hold_by_true_legs(monkeypatch: pytest.MonkeyPatch) -> None:
     # The search would put those back whose routes broke rules by true legs.
-    monkeypatch.setattr(far_plans, "complete_plan", lambda problem, begun, seed, stop: begun)
+    monkeypatch.setattr(far_plans, "complete_plan",
+                        lambda problem, begun, seed, stop: Completed(begun, True))
     stated = spread_request()
     for customer in stated["customers"]:
         customer["time_window"] = {"earliest": 0, "latest": 9_000}
