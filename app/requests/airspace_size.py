@@ -4,10 +4,14 @@ import re
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+import msgspec
+from msgspec import Raw, Struct
+
 from app.requests.draft import Errors, error_at
 from app.schemas.errors import InputError
 from app.schemas.airspace import AirspaceInput, Ed269Zones, KmlZones, Zones
 from app.schemas.zones.geojson import GeometryCollection, MultiPolygon, Point
+from app.schemas.zones.parts import MAX_STATED
 
 MOST_AREAS, MOST_KML_AREAS = 4000, 2000
 """Areas of a request, and polygons of KML among them, which take twice as long to read."""
@@ -17,6 +21,79 @@ MOST_CORNERS, MOST_CORNERS_OF_ONE = 50_000, 20_000
 square of them."""
 
 _COORDINATES = re.compile(r"<(?:\w+:)?coordinates[^<>]*>([^<]*)")
+
+
+
+class _Zones(Struct):
+    """A file of zones, of which nothing but its features is read."""
+
+    data: Raw = Raw(b"")
+
+
+class _Airspace(Struct):
+    zones: list[_Zones] = []
+
+
+class _Problem(Struct):
+    airspace: _Airspace | None = None
+
+
+class _Body(_Problem):
+    problem: _Problem | None = None
+
+
+class _Feature(Struct):
+    geometry: Raw = Raw(b"")
+
+
+class _Features(Struct):
+    features: list[_Feature] = []
+
+
+class _Parts(Struct):
+    geometries: list[Raw] = []
+
+
+def early_errors(body: bytes) -> Errors:
+    """Say which file of zones in a body has too many areas, before anything is made of it.
+
+    KML is a text until then. What is no JSON, or no such body, is for others to refuse.
+    """
+    if b'"features"' not in body:
+        return
+    try:
+        read = msgspec.json.decode(body, type=_Body)
+        problem, at = (read, ()) if read.problem is None else (read.problem, ("problem",))
+        stated = [] if problem.airspace is None else problem.airspace.zones
+        areas = 0
+        for index, zones in enumerate(stated):
+            features = _features(bytes(zones.data))
+            if len(features) > MAX_STATED:
+                path = (*at, "airspace", "zones", index, "data", "features")
+                yield error_at("WRONG_LENGTH", path,
+                               f"There are more than {MAX_STATED} entries: remove some.")
+                return
+            areas += sum(map(_num_areas, features))
+            if areas > MOST_AREAS:
+                size = _Size((*at, "airspace", "zones", index), [])
+                yield _error(size, f"There are {areas} areas of the airspace", MOST_AREAS)
+                return
+    except (msgspec.DecodeError, RecursionError):
+        return
+
+
+def _features(data: bytes) -> list[_Feature]:
+    return msgspec.json.decode(data, type=_Features).features if data.startswith(b"{") else []
+
+
+def _num_areas(feature: _Feature) -> int:
+    """Return how many areas a feature has: volumes of ED-269, or parts of one of GeoJSON."""
+    geometry = bytes(feature.geometry)
+    if geometry.startswith(b"["):
+        return len(msgspec.json.decode(geometry, type=list[Raw]))
+    if geometry.startswith(b"{"):
+        return max(1, len(msgspec.json.decode(geometry, type=_Parts).geometries))
+    return 0
 
 
 class _Size(NamedTuple):
@@ -59,7 +136,8 @@ def _corners(zones: Zones) -> Iterator[int]:
     """Yield how many corners each area has, holes included."""
     if isinstance(zones, KmlZones):
         for text in _COORDINATES.finditer(zones.data):
-            yield len(text[1].split())
+            # Blanks may set commas apart that stand between a corner's numbers.
+            yield len(",".join(map(str.strip, text[1].split(","))).split())
     elif isinstance(zones, Ed269Zones):
         for zone in zones.data.features:
             for volume in zone.geometry:

@@ -15,6 +15,7 @@ import msgspec
 from pydantic import BaseModel, ValidationError
 from pydantic_core import ErrorDetails
 
+from app.requests.airspace_size import early_errors
 from app.requests.shapes import Loose, read_shape
 from app.schemas.errors import (
     ErrorCode, InputError, InvalidRequestError, NotJsonError, schema_errors,
@@ -87,6 +88,8 @@ def require_readable(body: bytes, model: type[BaseModel]) -> None:
             code="TOO_MANY_PARTS", path="$", message=f"There are more than {most} objects and "
             "arrays, more than any request needs: send less.")])
     if len(body) > LISTED_BYTES:
+        if too_large := list(early_errors(body)):
+            raise InvalidRequestError(too_large)
         _require_shape(body, model)
 
 

@@ -6,8 +6,11 @@ from typing import Any
 
 import pytest
 
-from app.requests.airspace_size import MOST_AREAS, MOST_CORNERS_OF_ONE, MOST_KML_AREAS
+from app.requests.airspace_size import (
+    MOST_AREAS, MOST_CORNERS_OF_ONE, MOST_KML_AREAS, size_errors,
+)
 from app.requests.reading import read_request
+from app.schemas.airspace import AirspaceInput
 from app.schemas.errors import InvalidRequestError
 from app.schemas.zones.parts import MAX_STATED
 
@@ -69,6 +72,8 @@ TOO_LARGE = {
     "geojson, corners": ({"zones": [of_geojson(polygons([LONG]))]}, "zones[0]"),
     "ed318, circles": ({"zones": [of_ed318([POINT] * (MOST_AREAS + 1))]}, "zones[0]"),
     "ed269, circles": ({"zones": [of_ed269([CIRCLE] * (MOST_AREAS + 1))]}, "zones[0]"),
+    "ed269, circles of files": ({"zones": [of_ed269([CIRCLE] * MAX_STATED)] * 10}, "zones[0]"),
+    "ed318, circles of files": ({"zones": [of_ed318([POINT] * 3000)] * 10}, "zones[1]"),
     "ed269, corners": ({"zones": [of_ed269(polygons([LONG]))]}, "zones[0]"),
     "kml, areas": ({"zones": [of_kml([RING] * (MOST_KML_AREAS + 1))]}, "zones[0]"),
     "kml, corners": ({"zones": [of_kml([LONG])]}, "zones[0]"),
@@ -94,6 +99,27 @@ def test_too_many_areas_or_corners_are_refused_before_they_are_made(kind: str) -
     began = time.process_time()
     assert refused(airspace) == [("WRONG_LENGTH", f"$.airspace.{where}")]
     assert time.process_time() - began < 2
+
+
+def test_zones_are_counted_before_anything_is_made_of_them(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    def read(*_: Any) -> None:
+        raise AssertionError("it was read")
+
+    monkeypatch.setattr("app.requests.refusal.read_shape", read)
+    monkeypatch.setattr("app.requests.reading.read_body", read)
+    for kind in ("ed269, circles of files", "ed318, circles of files", "geojson, areas",
+                 "features"):
+        airspace, where = TOO_LARGE[kind]
+        assert refused(airspace) == [("WRONG_LENGTH", f"$.airspace.{where}")]
+
+
+def test_corners_of_kml_are_counted_whatever_sets_their_numbers_apart() -> None:
+    pytest.importorskip("fastkml")
+    ring = [[9 + 1e-6 * index, 48 + 0.01 * (index % 2)] for index in range(9_000)]
+    text = of_kml([ring])["data"]
+    zones = {"format": "kml", "data": text.replace(",", " ,\n ")}
+    assert [*size_errors(AirspaceInput.model_validate({"zones": [zones]}))] == []
 
 
 WILD = {
