@@ -16,7 +16,7 @@ from model.judge.bench import Bench, Trial
 from model.judge.clock import MS_PER_MINUTE, opening
 from model.judge.driving import travel_duration
 from model.judge.energy import charges, sortie_energy
-from model.judge.flight_limits import flight_limits, hub_limits, one_km_more, without_hours
+from model.judge.flight_limits import flight_limits, hour_limits, hub_limits, one_km_more
 from model.judge.freshness import excess_aboard
 from model.judge.lifting import lifted
 from model.judge.loads import highest, sortie_loads
@@ -41,11 +41,9 @@ NOT_WORTH = 1e-6
 WATT = 1000
 """In mW."""
 
-MAX_RETRIES = 6
-"""Places tried that would be cheaper, if only they were legal."""
-
-MAX_LIFTED = 24
-"""Places tried of all vehicles where a rule of the customer is lifted."""
+MAX_RETRIES, MAX_LIFTED = 6, 24
+"""Places tried that would be cheaper, if only they were legal, and of all vehicles where a rule of
+the customer is lifted."""
 
 
 class Limit(NamedTuple):
@@ -168,9 +166,8 @@ def _limits(bench: Bench, places: Sequence[Place | None]) -> Iterator[Limit]:
         yield Limit(field, "request", None, "vehicle", slack, fewer)
     for field, kind, richer in hub_limits(bench.problem, bench.plan.solution):
         yield Limit(field, "vehicle_type", kind, "unit", 0.0, richer, gives_trips=True)
-    opened = without_hours(bench.problem)
-    if opened is not None:
-        yield Limit("airspace.zones", "request", None, "rule", None, opened)
+    for field, opened in hour_limits(bench.problem):
+        yield Limit(field, "request", None, "rule", None, opened)
 
 
 def _customer_limits(bench: Bench, node: int) -> Iterator[Limit]:

@@ -45,11 +45,11 @@ def hub_limits(problem: Problem, solution: Solution) -> Iterator[tuple[str, int,
                 problem, kind.depot, replace(depot, chargers=depot.chargers + 1))
 
 
-def without_hours(problem: Problem) -> Problem | None:
-    """Return a problem whose zones with hours are open all day; None if it has none."""
-    kinds = [_opened(kind) for kind in problem.vehicle_types]
-    return None if kinds == [*problem.vehicle_types] else replace(
-        problem, vehicle_types=tuple(kinds))
+def hour_limits(problem: Problem) -> Iterator[tuple[str, Problem]]:
+    """Yield the hours of zones, if there are any, and the problem in which all are open."""
+    kinds = tuple([_opened(kind) for kind in problem.vehicle_types])
+    if kinds != problem.vehicle_types:
+        yield "airspace.zones", replace(problem, vehicle_types=kinds)
 
 
 def _opened(kind: VehicleType) -> VehicleType:
