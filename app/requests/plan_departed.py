@@ -111,9 +111,22 @@ def is_there(route: RouteInput, fleet: Mapping[str, VehicleTypeInput]) -> bool:
 
 def with_what_is_there(replan: ReplanInput,
                        fleet: Sequence[VehicleTypeInput]) -> tuple[ReplanInput, list[int]]:
-    """Return what to go on from without routes of vehicles that are gone, and where others were."""
+    """Return what to go on from without vehicles that are gone, and where the routes left were."""
     kinds = {kind.id: kind for kind in fleet}
     routes = [(index, route) for index, route in enumerate(replan.plan.routes)
               if is_there(route, kinds)]
     plan = replan.plan.model_copy(update={"routes": tuple(route for _, route in routes)})
-    return replan.model_copy(update={"plan": plan}), [index for index, _ in routes]
+    gone = names_gone(replan, kinds)
+    named = [name for name in replan.unavailable if truck_of(name) not in gone]
+    return (replan.model_copy(update={"plan": plan, "unavailable": named}),
+            [index for index, _ in routes])
+
+
+def names_gone(replan: ReplanInput, fleet: Mapping[str, VehicleTypeInput]) -> frozenset[str]:
+    """Return the vehicles of a plan that a fleet doesn't have any more."""
+    return frozenset(route.vehicle for route in replan.plan.routes if not is_there(route, fleet))
+
+
+def truck_of(name: str) -> str:
+    """Return the vehicle of a name, which may be that of its drone."""
+    return name.rpartition("/drone-")[0] or name

@@ -7,7 +7,8 @@ from app.requests.conversion.names import drone_number, number_in, read_name
 from app.requests.conversion.units import thousandths
 from app.requests.ends import named_otherwise
 from app.requests.plan_departed import (
-    Begun, Errors, Path, as_whole, begun_of, committed, is_there, order_errors,
+    Begun, Errors, Path, as_whole, begun_of, committed, is_there, names_gone, order_errors,
+    truck_of,
 )
 from app.requests.plan_departed import replan_error as _error
 from app.requests.plan_names import Names, PlaceName
@@ -53,6 +54,8 @@ class _Checker:
                              f"The fleet has no type {route.type!r}, and the vehicle has left by "
                              "replan.freeze_before: use the id of one it has.")
             yield from self._name_errors((*path, "vehicle"), route, kind, has_begun)
+            if self._names.fleet is not None and kind is None:
+                continue
             yield from self._trips(path, route, kind)
 
     def _name_errors(self, path: Path, route: RouteInput, kind: VehicleTypeInput | None,
@@ -218,13 +221,15 @@ class _Checker:
 
     def unavailable(self) -> Errors:
         """Vehicles and drones that the fleet doesn't have."""
-        counts = Counter(self._replan.unavailable)
+        counts, fleet = Counter(self._replan.unavailable), self._names.fleet
+        gone = frozenset[str]() if fleet is None else names_gone(self._replan, fleet)
         for index, name in enumerate(self._replan.unavailable):
             path: Path = ("unavailable", index)
             if counts[name] > 1:
                 yield _error("DUPLICATE_VEHICLE", path, "It is listed more than once: remove all "
                              "but one.")
-            fleet = self._names.fleet
+            if truck_of(name) in gone:
+                continue
             named = None if fleet is None else read_name(name, fleet)
             if fleet is not None and (named is None
                                       or named.number >= fleet[named.vehicle_type].count):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass, field, replace
 
 from model.judge.chargers import with_charging
-from model.judge.check import Evaluation, check
+from model.judge.check import Evaluation, check, judge_route
 from model.judge.explain import Reason, explain_type, unexplained
 from model.judge.memory import Memory
 from model.judge.past import Past, Vehicle, known_trips, parcels_aboard
@@ -87,6 +87,8 @@ class Replanning:
         refuse(gone_from(terms.plan, past))
         self.problem = problem = _released(problem, past)
         self._kept = kept_routes(problem, terms.plan, past)
+        self._through = _cut_off(problem, terms.plan, past, self._kept)
+        self._kept |= self._through
         self._settled = settled(problem, self._kept)
         broken = check(problem, self._settled, past).violations
         refuse(as_given(terms.plan, self._settled, broken, UNREADABLE))
@@ -102,9 +104,10 @@ class Replanning:
         self.past = replace(past, returned=dict.fromkeys(
             problem.all_places({*self.stranded, *waiting}), back))
         workers = find_workers(problem, self.past, self._kept)
-        self._through = _through(problem, terms.plan, self.past, self._kept, workers)
-        if self._through:
-            self._kept |= self._through
+        through = _through(problem, terms.plan, self.past, self._kept, workers)
+        if through:
+            self._through |= through
+            self._kept |= through
             self._settled = settled(problem, self._kept)
             broken = check(problem, self._settled, past).violations
             workers = find_workers(problem, self.past, self._kept)
@@ -309,6 +312,16 @@ def _stranded(problem: Problem, kept: Mapping[Vehicle, Kept],
     served = {vehicle: route.served for vehicle, route in kept.items() if vehicle in loaded}
     return {node: vehicle for vehicle, nodes in loaded.items()
             for node in sorted(nodes - served.get(vehicle, set()))}
+
+
+def _cut_off(problem: Problem, plan: Solution, past: Past,
+             kept: Mapping[Vehicle, Kept]) -> dict[Vehicle, Kept]:
+    """Return vehicles from whose next stop no way leads home: they drive their trips as planned."""
+    return {vehicle: carried_through(problem, route, kept[vehicle], past) for route in plan.routes
+            if (vehicle := Vehicle(route.vehicle_type, route.vehicle)) in kept
+            and past.under_way(vehicle) is not None
+            and any(violation.code == "UNREACHABLE" for violation
+                    in judge_route(problem, kept[vehicle].route, "", past).violations)}
 
 
 def _through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle, Kept],

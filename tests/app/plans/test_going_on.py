@@ -299,6 +299,24 @@ def test_next_trip_begins_when_the_planned_way_home_ends(searching: httpx.Client
     assert replanned(searching, request, plan, 50)["cost"]["total"] == pytest.approx(5.5)
 
 
+@pytest.mark.parametrize("now", [0, 50, 100, 150, 250])
+def test_truck_drives_on_as_planned_where_no_way_leads_home_from_its_next_stop(
+        searching: httpx.Client, now: float) -> None:
+    # From a home there is no way but by b.
+    table = [[0, 100, 300, 100], [None, 0, 100, 500], [100, 300, 0, 500], [100, 500, 500, 0]]
+    request = {"depots": [{"id": "d", "location_index": 0}],
+               "matrices": {"truck": {"durations": table, "distances": table}},
+               "customers": [{"id": name, "location_index": place, "demand": [1]}
+                             for place, name in enumerate("abe", 1)],
+               "fleet": [{"id": "van", "count": 2, "capacity": [2], "costs": {"per_hour": 36}}],
+               "options": {"time_limit": 60, "search_iterations": 40}}
+    plan = plan_of(("depot", "d", 0, 0), ("customer", "a", 100, 100), ("customer", "b", 200, 200),
+                   ("depot", "d", 300, 300))
+    found = replanned(searching, request, plan, now)
+    assert times(found, "van-1") == [("d", 0, 0), ("a", 100, 100), ("b", 200, 200), ("d", 300, 300)]
+    assert found["unassigned"] == []
+
+
 def late(tour: Request, delay: float) -> Request:
     """Return a tour whose van comes so much later to the first place, and leaves it so."""
     plan = copy.deepcopy(tour)

@@ -75,6 +75,24 @@ def test_depot_that_a_trip_ends_at_may_close_until_it_is_driven_to(
         assert halts(found, "truck-1")[0][-1] == ("hub", 540)
 
 
+def test_route_of_a_type_that_is_gone_may_have_ended_at_a_customer(
+        searching: httpx.Client, street: Request, tour: Request) -> None:
+    gone = in_the_afternoon("van-1", "van", "hub")
+    gone["trips"][0]["stops"].pop()
+    plan = {"routes": [gone, *tour["routes"]], "unassigned": []}
+    assert replanned(searching, street, plan=plan, freeze_before=200)["status"] == "complete"
+
+
+def test_vehicle_that_is_gone_and_never_left_may_be_unavailable(
+        searching: httpx.Client, street: Request, tour: Request) -> None:
+    gone = in_the_afternoon("truck-3", "truck", "hub")
+    plan = {"routes": [gone, *tour["routes"]], "unassigned": []}
+    for names in ["truck-3"], ["truck-3/drone-1"], ["truck-3", "truck-1"]:
+        replanned(searching, street, plan=plan, freeze_before=200, unavailable=names)
+    assert refused(searching, street, plan=plan, freeze_before=200,
+                   unavailable=["truck-4", "truck-3"]) == [("UNKNOWN_VEHICLE", ".unavailable[0]")]
+
+
 def test_pin_to_a_vehicle_that_is_gone_is_refused(searching: httpx.Client, street: Request,
                                                   tour: Request) -> None:
     plan = tour | {"routes": [*tour["routes"], in_the_afternoon("truck-3", "truck", "hub")],
