@@ -86,9 +86,7 @@ class Replanning:
         past = _past(problem, terms)
         refuse(gone_from(terms.plan, past))
         self.problem = problem = _released(problem, past)
-        self._kept = kept_routes(problem, terms.plan, past)
-        self._through = _cut_off(problem, terms.plan, past, self._kept)
-        self._kept |= self._through
+        self._kept, self._through = _kept_by(problem, terms.plan, past)
         self._settled = settled(problem, self._kept)
         broken = check(problem, self._settled, past).violations
         refuse(as_given(terms.plan, self._settled, broken, UNREADABLE))
@@ -314,14 +312,20 @@ def _stranded(problem: Problem, kept: Mapping[Vehicle, Kept],
             for node in sorted(nodes - served.get(vehicle, set()))}
 
 
-def _cut_off(problem: Problem, plan: Solution, past: Past,
-             kept: Mapping[Vehicle, Kept]) -> dict[Vehicle, Kept]:
-    """Return vehicles from whose next stop no way leads home: they drive their trips as planned."""
-    return {vehicle: carried_through(problem, route, kept[vehicle], past) for route in plan.routes
-            if (vehicle := Vehicle(route.vehicle_type, route.vehicle)) in kept
-            and past.under_way(vehicle) is not None
-            and any(violation.code == "UNREACHABLE" for violation
-                    in judge_route(problem, kept[vehicle].route, "", past).violations)}
+def _kept_by(problem: Problem, plan: Solution,
+             past: Past) -> tuple[dict[Vehicle, Kept], dict[Vehicle, Kept]]:
+    """Return what vehicles do in any case; and of these who drive their trips as planned.
+
+    They do so where no way leads home from their next stop.
+    """
+    kept = kept_routes(problem, plan, past)
+    through = {vehicle: carried_through(problem, route, kept[vehicle], past)
+               for route in plan.routes
+               if (vehicle := Vehicle(route.vehicle_type, route.vehicle)) in kept
+               and past.under_way(vehicle) is not None
+               and any(violation.code == "UNREACHABLE" for violation
+                       in judge_route(problem, kept[vehicle].route, "", past).violations)}
+    return kept | through, through
 
 
 def _through(problem: Problem, plan: Solution, past: Past, kept: Mapping[Vehicle, Kept],
