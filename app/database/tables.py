@@ -61,6 +61,7 @@ JOBS = Table(
     Column("retry_at", BigInteger),
     # A plan that goes on by regions, which are jobs with it for a parent.
     Column("divided", Boolean, nullable=False, server_default=false()),
+    Column("deaths", Integer, nullable=False, server_default="0"),  # of those that planned it
     Index("jobs_by_owner", "owner", "created_at", "id"),
     Index("jobs_by_client", "state", "parent", "client", "plans"),
     Index("jobs_by_key", "key", unique=True),

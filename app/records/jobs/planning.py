@@ -19,7 +19,8 @@ from app.records.jobs.rows import JobRow, Standing
 from app.records.jobs.running import RegionTerms, Returning, Running, Told, sign_of_life
 from app.records.jobs.schemas import State
 from app.records.jobs.slices import (
-    MAX_CRASHES, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice, Stopping, hold,
+    DEADLY, MAX_CRASHES, MAX_DEATHS, NOT_COMPUTED, OVER, POISONOUS, SLICE, WITHHELD, Slice,
+    Stopping, hold,
 )
 from app.records.jobs.store import JobStore
 from app.requests.conversion.preparing import StoppedError
@@ -204,8 +205,8 @@ class PlanWork:
                 # Cancelled meanwhile, and with it the workflow, which so has no outcome.
                 raise Stopping
             return None
-        if row.crashes > MAX_CRASHES:
-            self._fail(row, POISONOUS)
+        if row.crashes > MAX_CRASHES or row.deaths >= MAX_DEATHS:
+            self._fail(row, POISONOUS if row.crashes > MAX_CRASHES else DEADLY)
             return None
         if row.cancel_requested:
             self._store.finish(job_id, row.attempt, "cancelled")

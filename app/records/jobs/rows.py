@@ -47,6 +47,7 @@ class JobRow:
     waiting_since: int | None = None
     retry_at: int | None = None
     divided: bool = False  # a plan that goes on by regions
+    deaths: int = 0  # of processes that planned it, whatever progress they made
 
     @property
     def is_over(self) -> bool:

@@ -13,9 +13,13 @@ SLICE = 1.0
 MAX_CRASHES = 5
 """Attempts in a row that may end without any progress before a job is given up."""
 
+MAX_DEATHS = 10
+"""Processes that may die while they plan a job, with progress or without, before it is given up."""
+
 WITHHELD = "The plan found breaks a rule, so it is withheld."
 NOT_COMPUTED = "The plan could not be computed."
 POISONOUS = f"The process that planned ended unexpectedly, {MAX_CRASHES} times in a row."
+DEADLY = f"The process that planned ended unexpectedly, {MAX_DEATHS} times in all."
 
 
 class Stopping(BaseException):

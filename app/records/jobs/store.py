@@ -259,7 +259,7 @@ class JobStore:
 
         In place.
         """
-        return self._changed(_held(job_id, attempt), state="queued",
+        return self._changed(_held(job_id, attempt), state="queued", deaths=JOBS.c.deaths + 1,
                              attempt=JOBS.c.attempt + 1, revision=JOBS.c.revision + 1) is not None
 
     def divide(self, job_id: str, attempt: int) -> bool:

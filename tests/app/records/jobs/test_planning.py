@@ -18,7 +18,9 @@ from app.records.jobs.reading import JobReader
 from app.records.jobs.rows import JobRow, NewJob, Standing
 from app.records.jobs.running import Returning
 from app.records.jobs.search import NEARLY_OVER
-from app.records.jobs.slices import MAX_CRASHES, POISONOUS, Slice, Stopping
+from app.records.jobs.slices import (
+    DEADLY, MAX_CRASHES, MAX_DEATHS, POISONOUS, Slice, Stopping,
+)
 from app.records.jobs.store import JobStore
 from app.requests.conversion import travels
 from app.requests.conversion.preparing import Preparing
@@ -178,6 +180,17 @@ def test_crashes_with_progress_between_them_are_forgiven(desk: Desk) -> None:
         if desk.row(job).state != "running":
             break
     assert desk.row(job).error is None
+
+
+def test_job_whose_processes_die_after_some_progress_each_fails(desk: Desk) -> None:
+    job = desk.job(1.0)
+    for _ in range(MAX_DEATHS):
+        row = desk.store.claim(job)
+        assert row is not None
+        assert desk.store.note(job, row.attempt, Standing(0.1, 1, 0.1)) is False
+        assert desk.store.lose(job, row.attempt)
+    assert desk.process().advance(job).over
+    assert (desk.row(job).state, desk.row(job).error) == ("failed", DEADLY)
 
 
 def test_process_that_ends_hands_its_jobs_back(desk: Desk) -> None:

@@ -164,6 +164,17 @@ def test_attempts_without_progress_are_counted(store: JobStore, books: Books) ->
     assert row.crashes == 1
 
 
+def test_deaths_are_counted_whatever_progress_was_made(store: JobStore, books: Books) -> None:
+    job = added(store, books)
+    for deaths in range(3):
+        row = store.claim(job)
+        assert row is not None
+        assert row.deaths == deaths
+        store.note(job, row.attempt, Standing(0.1 * deaths, 1, 1.0))
+        assert store.lose(job, row.attempt)
+        assert not store.lose(job, row.attempt)
+
+
 def test_cancelling_is_told_to_whoever_writes_next(store: JobStore, books: Books) -> None:
     job = added(store, books)
     row = store.claim(job)
