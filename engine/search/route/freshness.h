@@ -7,6 +7,7 @@
 #include "rules/holding.h"
 #include "search/route/flown_trips.h"
 #include "search/route/layout.h"
+#include "search/route/least_cost.h"
 #include "search/route/routes.h"
 
 namespace tandem {
@@ -35,10 +36,12 @@ Int time_to_turn(const ProblemData& data, const Route& route, View<const Stop, 1
 // Let a trip of a timed route begin as soon as nothing lasts too long, and its battery is charged.
 //
 // `wait_for_charge` returns how much later it has to begin for that; at most 0 if it needn't, `far`
-// if that doesn't help. In place; false if that doesn't help, or a rule is broken.
+// if that doesn't help. In place; false if that doesn't help, or a rule is broken, or the search
+// must end: where drivers rest, each time takes long.
 template <class WaitForCharge>
 bool hold_trip(const ProblemData& data, Route& route, View<Stop, 1> stops, const Trip& trip,
                View<Sortie, 1> sorties, const WaitForCharge& wait_for_charge) {
+    const VehicleType& type = data.type[route.type];
     Holding holding(trip.last - trip.first + 1);
     while (true) {
         const Int excess = most_excess(data, route, stops, trip, sorties);
@@ -47,7 +50,7 @@ bool hold_trip(const ProblemData& data, Route& route, View<Stop, 1> stops, const
                        : waits_for_calm(data, route, stops, trip);
         if (wait == 0) wait = wait_for_charge();
         if (wait <= 0) return true;
-        if (wait == far) return false;
+        if (wait == far || (may_rest(type) && data.deadline.passed())) return false;
         Stop& stop = stops[trip.first];
         stop.release = std::max(stop.arrival, stop.release) + wait;
         if (!drive_forward(data, route, stops, sorties)) return false;

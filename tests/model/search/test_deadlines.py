@@ -8,7 +8,9 @@ import pytest
 from model.engine.alarm import LAST_INSTANT, Alarm
 from model.engine.instance import pack
 from model.judge.check import check
-from model.problem import FULL_SPEED, Customer, Depot, Problem, SpeedProfile, Travel, VehicleType
+from model.problem import (
+    FULL_SPEED, Break, Customer, Depot, Problem, SpeedProfile, Travel, VehicleType,
+)
 from model.search import improve as searching
 from model.search.beginning.translate import best_plan, make_searcher
 from model.search.improve import Improved, SearchConfig, improve
@@ -30,27 +32,39 @@ def slow_at_first() -> Problem:
                    np.zeros((2, 2)), unassigned_cost=10.0)
 
 
-def begun(rings: bool) -> tuple[ProblemData, Searcher]:
-    """Return a search that begins with that customer served, before or behind its end."""
+def fresh_at_noon() -> Problem:
+    """Return a problem whose driver, who has a break, is to load late: parcels are to stay fresh.
+    """
+    legs = np.array([[0, 10], [10, 0]]) * MINUTE
+    customer = Customer("c", (1,), earliest=300 * MINUTE, max_time_aboard=20 * MINUTE)
+    van = VehicleType("van", 1, (1,), 0, cost_per_hour=1.0,
+                      breaks=(Break("b", 5 * MINUTE, 0, 60 * MINUTE, after_departure=True),))
+    return Problem((Depot("hub"),), (customer,), (van,), (Travel(legs, legs),),
+                   np.zeros((2, 2)), unassigned_cost=10.0)
+
+
+def begun(rings: bool, problem: Problem) -> tuple[ProblemData, Searcher]:
+    """Return a search that begins with its customer served, before or behind its end."""
     alarm = Alarm()
     if rings:
         alarm.setting[LAST_INSTANT] = 0
-    problem = slow_at_first()
     data = make_data(problem, pack([problem]), deadline=alarm.setting)
     return data, make_searcher(problem, data, SERVED, np.random.SeedSequence(0))
 
 
-def test_later_beginnings_are_not_tried_once_the_search_must_end() -> None:
-    _, in_time = begun(rings=False)
-    _, late = begun(rings=True)
+@pytest.mark.parametrize("problem", [slow_at_first(), fresh_at_noon()], ids=["slow", "fresh"])
+def test_later_beginnings_are_not_tried_once_the_search_must_end(problem: Problem) -> None:
+    _, in_time = begun(False, problem)
+    _, late = begun(True, problem)
     assert (in_time.count.missing, late.count.missing) == (0, 1)
 
 
-def test_best_plan_is_read_however_late_it_is() -> None:
-    data, searcher = begun(rings=False)
+@pytest.mark.parametrize("problem", [slow_at_first(), fresh_at_noon()], ids=["slow", "fresh"])
+def test_best_plan_is_read_however_late_it_is(problem: Problem) -> None:
+    data, searcher = begun(False, problem)
     data.deadline[LAST_INSTANT] = 0
     plan = best_plan(data, searcher, [0, 1])
-    assert check(slow_at_first(), plan).violations == ()
+    assert check(problem, plan).violations == ()
     assert plan.unassigned == ()
 
 
