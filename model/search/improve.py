@@ -218,7 +218,7 @@ def improve(problem: Problem, instance: Instance, solution: Solution, config: Se
                             None if config.turns is None else config.turns // config.threads,
                             lambda: alarm.has_rung or should_stop())
             task = _Task(problem, instance, neighbourhood, config, limits, alarm, reading,
-                         given_cost)
+                         given_cost if solution.routes else math.inf)
             trucks_first = not solution.routes and _trucks_come_first(problem, config.moves)
             if trucks_first:
                 found = _plan_by_truck(task)

@@ -9,7 +9,7 @@ from model.engine.alarm import LAST_INSTANT, Alarm
 from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import (
-    FULL_SPEED, Break, Customer, Depot, Problem, SpeedProfile, Travel, VehicleType,
+    FULL_SPEED, Break, Customer, Depot, DroneType, Problem, SpeedProfile, Travel, VehicleType,
 )
 from model.search import improve as searching
 from model.search.beginning.translate import best_plan, make_searcher
@@ -88,3 +88,19 @@ def test_plan_that_is_late_is_read_only_if_it_is_better_than_the_one_given(
                               given_cost=given_cost)
     assert len(read) == reads
     assert (found.solution is SERVED) == (reads == 0)
+
+
+def test_late_plan_tells_of_everybody_where_the_one_given_serves_nobody(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    def searched(team: Any, data: ProblemData, *_: Any) -> None:
+        data.deadline[LAST_INSTANT] = 0
+
+    monkeypatch.setattr(searching, "_search", searched)
+    drones = DroneType(1, (1,), 0)
+    legs = np.ones((41, 41), np.int64) - np.eye(41, dtype=np.int64)
+    van = VehicleType("van", 1, (1,), 0, max_trip_distance=1, drones=drones)
+    problem = Problem((Depot("hub"),), tuple(Customer(str(number), (1,)) for number in range(40)),
+                      (van,), (Travel(legs, legs),), np.zeros((41, 2)), unassigned_cost=10.0)
+    found = improve(problem, pack([problem]), Solution((), tuple(range(1, 41))),
+                    SearchConfig(turns=1), given_cost=0.0)
+    assert check(problem, found.solution).violations == ()
