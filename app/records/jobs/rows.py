@@ -1,7 +1,7 @@
 """Jobs as the database has them."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, NamedTuple
 
 from app.records.jobs.schemas import Kind, State
 
@@ -14,8 +14,7 @@ SINGLE, SCENARIO = 1, 2
 OPEN: tuple[State, ...] = ("queued", "running")
 
 
-@dataclass(frozen=True)
-class JobRow:
+class JobRow(NamedTuple):
     """A job as the database has it. Times in milliseconds since 1970."""
 
     id: str

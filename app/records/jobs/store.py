@@ -26,6 +26,8 @@ _RELEASED: dict[str, object] = {
     "state": "queued", "attempt": JOBS.c.attempt + 1, "crashes": 0,
     "revision": JOBS.c.revision + 1, **_WAITING_NO_MORE}
 
+_COLUMNS = tuple(JOBS.c[name] for name in JobRow._fields)
+
 FAST = 1
 """zlib's level: plans are written each second."""
 
@@ -89,21 +91,22 @@ class JobStore:
 
     def find(self, job_id: str) -> JobRow | None:
         """Return a job."""
-        rows = self._rows(select(JOBS).where(JOBS.c.id == job_id))
+        rows = self._rows(select(*_COLUMNS).where(JOBS.c.id == job_id))
         return rows[0] if rows else None
 
     def find_by_key(self, key: str) -> JobRow | None:
         """Return the job of a key; before there were keys, they were the jobs' ids."""
-        rows = self._rows(select(JOBS).where(or_(JOBS.c.key == key, JOBS.c.id == key)))
+        rows = self._rows(select(*_COLUMNS).where(or_(JOBS.c.key == key, JOBS.c.id == key)))
         return rows[0] if rows else None
 
     def find_all(self, ids: Collection[str]) -> list[JobRow]:
         """Return those jobs that exist."""
-        return self._rows(select(JOBS).where(JOBS.c.id.in_(ids)))
+        return self._rows(select(*_COLUMNS).where(JOBS.c.id.in_(ids)))
 
     def children(self, parent: str) -> list[JobRow]:
         """Return the scenarios of a comparison or sweep, or a plan's regions, in order."""
-        return self._rows(select(JOBS).where(JOBS.c.parent == parent).order_by(JOBS.c.position))
+        return self._rows(select(*_COLUMNS).where(JOBS.c.parent == parent)
+                          .order_by(JOBS.c.position))
 
     def page(self, owner: str, limit: int, before: tuple[int, str] | None,
              state: State | None) -> list[JobRow]:
@@ -120,7 +123,7 @@ class JobStore:
         state
             Only jobs in that state; None: all.
         """
-        query = select(JOBS).where(JOBS.c.owner == owner, JOBS.c.parent.is_(None))
+        query = select(*_COLUMNS).where(JOBS.c.owner == owner, JOBS.c.parent.is_(None))
         if before is not None:
             query = query.where(tuple_(JOBS.c.created_at, JOBS.c.id) < tuple_(*before))
         if state is not None:
@@ -163,10 +166,10 @@ class JobStore:
             .values(state="running", attempt=JOBS.c.attempt + 1, crashes=JOBS.c.crashes + 1,
                     revision=JOBS.c.revision + 1,
                     started_at=func.coalesce(JOBS.c.started_at, now_ms()))
-            .returning(*JOBS.c))
+            .returning(*_COLUMNS))
         with self._engine.begin() as connection:
-            row = connection.execute(change).mappings().first()
-        return None if row is None else JobRow(**row)
+            row = connection.execute(change).first()
+        return None if row is None else JobRow._make(row)
 
     def note(self, job_id: str, attempt: int, standing: Standing) -> bool | None:
         """Write down how far a job has come; its cost never rises. In place.
@@ -311,7 +314,7 @@ class JobStore:
 
     def _rows(self, query: Select[tuple[object, ...]]) -> list[JobRow]:
         with self._engine.connect() as connection:
-            return [JobRow(**row) for row in connection.execute(query).mappings()]
+            return [JobRow._make(row) for row in connection.execute(query).all()]
 
     def _body(self, table: Table, job_id: str) -> bytes | None:
         with self._engine.connect() as connection:

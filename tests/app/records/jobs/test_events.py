@@ -2,7 +2,6 @@
 
 import asyncio
 from collections.abc import Collection
-from dataclasses import replace
 
 import pytest
 
@@ -49,32 +48,32 @@ def told(jobs: Jobs, row: JobRow = ROW, seen: int = 0, followers: int = 1) -> li
 
 
 def test_each_change_is_told_once_and_then_the_end() -> None:
-    jobs = Jobs(ROW, replace(ROW, revision=6), replace(ROW, revision=6),
-                replace(ROW, revision=9, state="done"))
+    jobs = Jobs(ROW, ROW._replace(revision=6), ROW._replace(revision=6),
+                ROW._replace(revision=9, state="done"))
     assert told(jobs) == [["5 progress", "6 progress", "9 progress", "9 end"]]
 
 
 def test_job_is_looked_up_once_for_all_who_follow() -> None:
-    jobs = Jobs(replace(ROW, revision=6), replace(ROW, revision=7, state="failed"))
+    jobs = Jobs(ROW._replace(revision=6), ROW._replace(revision=7, state="failed"))
     assert told(jobs, followers=20) == 20 * [["5 progress", "6 progress", "7 progress", "7 end"]]
     assert jobs.asked == [["j"], ["j"]]
 
 
 def test_what_was_seen_is_not_told_again() -> None:
-    assert told(Jobs(replace(ROW, revision=6, state="done")), seen=5) == [["6 progress", "6 end"]]
-    over = replace(ROW, state="done")
+    assert told(Jobs(ROW._replace(revision=6, state="done")), seen=5) == [["6 progress", "6 end"]]
+    over = ROW._replace(state="done")
     assert told(Jobs(over), over, seen=5) == [["5 end"]]
 
 
 def test_outage_of_the_database_ends_nothing() -> None:
-    jobs = Jobs(JobsUnavailableError("down"), replace(ROW, revision=6, state="done"))
+    jobs = Jobs(JobsUnavailableError("down"), ROW._replace(revision=6, state="done"))
     assert told(jobs) == [["5 progress", "6 progress", "6 end"]]
 
 
 def test_unforeseen_error_ends_the_stream_and_the_next_one_goes_on() -> None:
     async def follow_twice() -> tuple[list[str], list[str]]:
         watcher = Watcher(Jobs(ValueError("no row"),
-                               replace(ROW, revision=6, state="done")).find_all)
+                               ROW._replace(revision=6, state="done")).find_all)
 
         async def follow(seen: int) -> list[str]:
             return [f"{event.id} {event.event}" async for event in events(watcher, ROW, seen)]
