@@ -14,6 +14,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated
 
@@ -29,7 +30,7 @@ from app.serving.settings import Settings
 from benchmarks.quality.hubs import draw_day
 from benchmarks.quality.replanning import nothing
 from model.planner import PlanOptions, load_planner
-from model.problem import Problem
+from model.problem import UNLIMITED, Break, Problem
 from training.instances import COMPARED, generate
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -59,6 +60,17 @@ def kinds() -> Iterator[tuple[str, Problem]]:
     for variant, size in (*((variant, SIZE) for variant in COMPARED), *OTHERS):
         rng = np.random.default_rng((SEED, size, len(variant)))
         yield f"{variant} {size}", generate(rng, size, variant)
+    for variant in ("vrptw", "soft", "shipments"):
+        yield f"{variant} {SIZE}, lunch", with_lunch(
+            generate(np.random.default_rng((SEED, SIZE)), SIZE, variant))
+
+
+def with_lunch(problem: Problem) -> Problem:
+    """Return a problem whose drivers have a break in the middle of the day."""
+    day = max(customer.latest for customer in problem.customers if customer.latest < UNLIMITED)
+    lunch = Break("lunch", day // 16, 2 * day // 5, 3 * day // 5)
+    return replace(problem, vehicle_types=tuple(replace(kind, breaks=(lunch,))
+                                                for kind in problem.vehicle_types))
 
 
 def paces(turns: dict[str, int] | None, seconds: float) -> tuple[Paces, dict[str, int]]:

@@ -10,6 +10,7 @@
 #include "problem/instance.h"
 #include "rules/clock.h"
 #include "rules/load.h"
+#include "rules/window.h"
 
 namespace tandem {
 
@@ -261,6 +262,35 @@ private:
     Int left_ = -1;  // of the leg, if that isn't all of it
     Int driven_ = 0;
     bool arrived_ = false;
+};
+
+// A break by when its route begins, as `TimeSegment` says: of a route that is timed for many
+// beginnings at once.
+class JoinedBreak {
+public:
+    JoinedBreak(const VehicleType& type, Int number)
+        : follows_(type.break_after_departure[number] == 1 && type.breaks_since == none) {
+        const Break stated = break_of(type, number, 0);
+        opens_ = follows_ ? TimeSegment{stated.earliest, none} : TimeSegment{none, stated.earliest};
+        latest_ = stated.latest;
+        duration_ = stated.duration;
+    }
+
+    // Narrow when a route begins at which something is at `time`, by the last begin of the break.
+    // In place; false if it is too late.
+    bool lets(Interval& begins, TimeSegment time) const {
+        if ((follows_ ? time.d : time.c) > latest_) return false;
+        return narrow(
+            begins, follows_ ? Interval{time.c - latest_, far} : Interval{none, latest_ - time.d});
+    }
+
+    // When it is over for who may take it from then on.
+    TimeSegment end(TimeSegment time) const { return behind(later(time, opens_), duration_); }
+
+private:
+    bool follows_;
+    TimeSegment opens_;
+    Int latest_, duration_;
 };
 
 // When a leg with breaks ends that is begun at `leave`; nothing if one can't begin in its window.

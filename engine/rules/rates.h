@@ -62,6 +62,11 @@ inline double lateness_cost(const Price& price, Windows place, Int arrival,
            once_late_cost(price, place, arrival);
 }
 
+// Whether a customer costs by when somebody comes.
+inline bool times_cost(const Price& price) {
+    return price.lateness > 0.0 || price.late > 0.0 || price.waiting > 0.0;
+}
+
 // What it costs to wait for the window.
 inline double waiting_cost(const Price& price, Windows place, Int arrival,
                            Units units = ms_and_mm) {

@@ -23,6 +23,27 @@ struct Interval {
     Int first, last;
 };
 
+// The same so much later.
+inline TimeSegment behind(TimeSegment time, Int duration) {
+    return {time.d + duration, time.c + duration};
+}
+
+// Once both have happened.
+inline TimeSegment later(TimeSegment one, TimeSegment other) {
+    return {std::max(one.d, other.d), std::max(one.c, other.c)};
+}
+
+// Whether one is no later than another, whenever the block is reached.
+inline bool is_no_later(TimeSegment one, TimeSegment other) {
+    return one.d <= other.d && one.c <= other.c;
+}
+
+// Narrow an interval. In place; false if nothing is left of it.
+inline bool narrow(Interval& interval, Interval to) {
+    interval = {std::max(interval.first, to.first), std::min(interval.last, to.last)};
+    return interval.first <= interval.last;
+}
+
 // One node, as whoever serves there meets it: its windows, and how long service takes.
 class Windows {
 public:

@@ -3,13 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
+#include <vector>
 
 #include "rules/breaks.h"
 #include "rules/driving.h"
 #include "rules/hub.h"
+#include "rules/shift.h"
+#include "search/route/break_choices.h"
 #include "search/route/breaks.h"
 #include "search/route/freshness.h"
 #include "search/route/lags.h"
+#include "search/route/least_cost.h"
 #include "search/route/placed_breaks.h"
 #include "search/route/pricing.h"
 #include "search/route/routes.h"
@@ -20,6 +25,9 @@ namespace {
 
 // What sums of costs differ by that are one, as a share.
 constexpr double rounding = 1e-9;
+
+// Ways to take breaks that are timed at most, the most promising first.
+constexpr std::size_t most_timed = 8;
 
 // Moves breaks as long as that costs less by `price`, which times a route with breaks where they
 // are placed, and tells what it costs if that is below a bar.
@@ -159,6 +167,17 @@ Int begin_without_breaks(const ProblemData& data, const Fleet& fleet, Int slot) 
     return std::max({stops[0].arrival, stops[0].release, stops[0].hold});
 }
 
+// Price a route with breaks where they are placed; `no_bar` if it breaks a rule. In place.
+double price_placed(const ProblemData& data, const Fleet& fleet, Int slot,
+                    const PlacedBreaks& placed, bool& settled) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot].first(route.length);
+    placed.write(stops);
+    stops[0].release = placed.begin();
+    route.placed = breaks_kept;
+    return price_loaded(data, fleet, slot, settled) ? fleet.cost[slot] : no_bar;
+}
+
 // Price a route that begins no sooner than then, with breaks where it ends soonest. In place.
 bool price_from(const ProblemData& data, const Fleet& fleet, Int slot, Int begin, bool& settled) {
     fleet.stop(slot, 0).release = begin;
@@ -218,6 +237,54 @@ double least_lateness(const ProblemData& data, const Fleet& fleet, Int slot) {
     return lateness_as_placed(data, fleet, slot);
 }
 
+bool price_choices(const ProblemData& data, const Fleet& fleet, Int slot, const CostBounds& bounds,
+                   bool& settled) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    const VehicleType& type = data.type[route.type];
+    const Rate& rate = data.rate[route.type];
+    clear_holds(route, stops, fleet.trip[slot]);
+    clear_breaks(route, stops);
+    // Whoever takes breaks is later everywhere.
+    if (!drive_as_placed(data, route, stops, fleet.sortie[slot])) return false;
+    if (!any_break_due(type, route, stops)) {
+        route.placed = breaks_left_out;
+        if (price_driven(data, fleet, slot, settled) &&
+            fleet.cost[slot] <= bounds.in_time * (1.0 + rounding)) {
+            return true;
+        }
+        clear_holds(route, stops, fleet.trip[slot]);
+    }
+    std::vector<BreakChoice> choices = break_choices(data, route, stops);
+    const bool is_timed = data.evaluation[route.type].timed;
+    const double besides =
+        is_timed ? bounds.in_time -
+                       work_cost(rate, paid_work(type, none, least_working(data, route, stops)))
+                 : bounds.in_time;
+    const auto least = [&](const BreakChoice& choice) {
+        if (!is_timed) return besides;
+        return besides + work_cost(rate, paid_work(type, choice.end, choice.working));
+    };
+    std::sort(choices.begin(), choices.end(),
+              [&](const BreakChoice& one, const BreakChoice& other) {
+                  return std::pair{least(one), one.end} < std::pair{least(other), other.end};
+              });
+    double cost = bounds.bar;
+    const PlacedBreaks* best = nullptr;
+    const PlacedBreaks* timed = nullptr;
+    choices.resize(std::min(choices.size(), most_timed));
+    for (const BreakChoice& choice : choices) {
+        if (least(choice) >= cost * (1.0 - rounding)) break;
+        timed = &choice.placed;
+        const double found = price_placed(data, fleet, slot, *timed, settled);
+        if (found >= cost) continue;
+        best = timed;
+        cost = found;
+    }
+    return best != nullptr &&
+           (best == timed || price_placed(data, fleet, slot, *best, settled) < no_bar);
+}
+
 bool begin_late(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
     const Route& route = fleet.route[slot];
     if (!has_breaks_alone(data, route) || !any_follows_departure(data.type[route.type])) {
@@ -246,12 +313,13 @@ bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, const Co
     const CostlyWaits waits(data, fleet, slot);
     const bool is_bounded = is_soonest_least_late(data, route);
     const auto price = [&](const PlacedBreaks& placed, double bar) {
-        placed.write(stops);
-        stops[0].release = placed.begin();
-        route.placed = breaks_kept;
-        if (is_bounded && bounds.in_time + lateness_as_placed(data, fleet, slot) >= bar)
-            return no_bar;
-        return price_loaded(data, fleet, slot, settled) ? fleet.cost[slot] : no_bar;
+        if (is_bounded) {
+            placed.write(stops);
+            stops[0].release = placed.begin();
+            route.placed = breaks_kept;
+            if (bounds.in_time + lateness_as_placed(data, fleet, slot) >= bar) return no_bar;
+        }
+        return price_placed(data, fleet, slot, placed, settled);
     };
     BreakMoves moves(type, stops, route.sorties > 0, soonest, before, price);
     for (const Int wait : waits) moves.try_these(soonest.from(begin + wait));

@@ -55,19 +55,25 @@ bool price_timed(const ProblemData& data, const Fleet& fleet, Int slot, bool& se
     return true;
 }
 
-bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+bool price_driven(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     const VehicleType& type = data.type[route.type];
-    clear_holds(route, stops, trips);
-    if (!drive_forward(data, route, stops, sorties)) return false;
     if (holds_count(data, route.type) && !hold_trips(data, route, stops, trips, sorties)) {
         return false;
     }
     if (shares_chargers(type) && !charge_in_turn(data, fleet, slot)) return false;
     return price_timed(data, fleet, slot, settled);
+}
+
+bool price_loaded(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
+    Route& route = fleet.route[slot];
+    const View<Stop, 1> stops = fleet.stop[slot];
+    clear_holds(route, stops, fleet.trip[slot]);
+    return drive_forward(data, route, stops, fleet.sortie[slot]) &&
+           price_driven(data, fleet, slot, settled);
 }
 
 }  // namespace tandem

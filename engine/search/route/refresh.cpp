@@ -15,6 +15,7 @@
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
+#include "search/route/break_choices.h"
 #include "search/route/break_moves.h"
 #include "search/route/breaks.h"
 #include "search/route/charging.h"
@@ -99,7 +100,14 @@ void look_around(const ProblemData& data, const Fleet& fleet, Int slot, bool set
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     if (routes_meet(data)) plan_starts(route, stops);
-    if (settled) {
+    if (joins_breaks(data, route, stops) && (settled || route.placed == breaks_kept)) {
+        // Whoever is inserted behind a stop may be reached by other breaks.
+        stops[0].release = fleet.trip(slot, 0).release;
+        clear_breaks(route, stops);
+        clear_holds(route, stops, fleet.trip[slot]);
+        drive_as_placed(data, route, stops, fleet.sortie[slot]);
+        note_soonest(data, route, stops);
+    } else if (settled) {
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot]);
     }
@@ -207,6 +215,9 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
         if (in_time >= bar) return false;
         const double least = in_time + least_lateness(data, fleet, slot);
         if (least >= bar) return false;
+        if (joins_breaks(data, fleet.route[slot], fleet.stop[slot])) {
+            return price_choices(data, fleet, slot, {in_time, bar}, settled);
+        }
         if (rests_in_time(type)) {
             return (price_later(data, fleet, slot, least, settled) ||
                     begin_late(data, fleet, slot, settled)) &&

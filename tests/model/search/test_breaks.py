@@ -16,6 +16,8 @@ from model.search.improve import SearchConfig, improve
 from model.simulation.extract import extract
 from model.solution import Solution
 from tests.model.rollouts import roll
+from tests.model.search.break_days import cheapest as in_every_way
+from tests.model.search.break_days import found, small_day
 from tests.model.search.exhaustive import NEVER_BY_BEGINNING_LATER
 from tests.model.search.mixed_days import mixed_day
 from tests.model.tiny import draw_tiny, with_drone_types, with_gaps, with_setups
@@ -106,7 +108,18 @@ def test_search_finds_the_cheapest_plan_with_breaks(
     assert judged.cost.total == pytest.approx(cheapest(problem))
 
 
+def test_search_finds_the_cheapest_of_all_ways_to_take_breaks() -> None:
+    # Among them: breaks before or behind a leg, left out by who leaves later, or out of order, and
+    # with limits on times between; some of each.
+    for seed in (*range(25), 72, 94, 141, 168, 279, *ONCE_DEARER):
+        problem = small_day(np.random.default_rng(seed))
+        assert found(problem, 1_000) == pytest.approx(in_every_way(problem)), seed
+
+
 CHANGES = with_gaps, with_setups, with_drone_types, with_shipments, with_order, with_order_across
+
+ONCE_DEARER = 663, 667, 798, 816
+"""Seeds of small days on which somebody was left out, or breaks taken that needn't be."""
 
 ONCE_BROKEN = (1155,)
 """Seeds of problems whose rollouts began later than breaks that follow the departure allow."""

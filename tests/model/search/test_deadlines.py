@@ -34,9 +34,12 @@ def slow_at_first() -> Problem:
 
 def fresh_at_noon() -> Problem:
     """Return a problem whose driver, who has a break, is to load late: parcels are to stay fresh.
+
+    Being late would cost, so that breaks and departure aren't chosen at once.
     """
     legs = np.array([[0, 10], [10, 0]]) * MINUTE
-    customer = Customer("c", (1,), earliest=300 * MINUTE, max_time_aboard=20 * MINUTE)
+    customer = Customer("c", (1,), earliest=300 * MINUTE, late_cost_per_hour=1.0,
+                        max_time_aboard=20 * MINUTE)
     van = VehicleType("van", 1, (1,), 0, cost_per_hour=1.0,
                       breaks=(Break("b", 5 * MINUTE, 0, 60 * MINUTE, after_departure=True),))
     return Problem((Depot("hub"),), (customer,), (van,), (Travel(legs, legs),),
