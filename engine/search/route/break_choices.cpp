@@ -28,6 +28,12 @@ struct Taken {
     std::int32_t before;
 };
 
+// A break that may be taken, or is over before the route begins.
+struct Chosen {
+    Int number;
+    bool is_over;
+};
+
 // When service began at a stop to which others look back.
 struct Noted {
     TimeSegment start;
@@ -37,8 +43,9 @@ struct Noted {
 
 // Who looks back to a stop.
 struct Asked {
-    Int until = -1;         // the last stop that does
-    bool is_ahead = false;  // any does to this one, or one farther on
+    Int until = -1;           // the last stop that does
+    bool is_awaited = false;  // any does that is served some time later at the soonest
+    bool is_ahead = false;    // any does to this one, or one farther on
 };
 
 // A way to have come somewhere.
@@ -97,8 +104,11 @@ private:
                 asked.until = p;
                 while (stops_[asked.until].kind != end_stop) ++asked.until;
             }
-            for_each_before(
-                p, [&](Int q, Interval, bool) { asked_[static_cast<std::size_t>(q)].until = p; });
+            for_each_before(p, [&](Int q, Interval within, bool) {
+                Asked& before = asked_[static_cast<std::size_t>(q)];
+                before.until = p;
+                before.is_awaited = before.is_awaited || within.first > 0;
+            });
         }
         bool is_ahead = false;
         for (auto asked = asked_.rbegin(); asked != asked_.rend(); ++asked) {
@@ -128,8 +138,12 @@ private:
 
     // Follow all ways to the end that begin in an interval, in which the same breaks are due.
     void follow(Interval begins) {
-        const DueBreaks due(type_, begins.first);
-        due_ = &due;
+        // One that is over before may be taken all the same, which saves pay.
+        breaks_.clear();
+        for (Int number = 0; number < num_breaks(type_); ++number) {
+            const bool is_over = over_before(type_, number, begins.first);
+            if (!is_over || !is_paid(type_, number)) breaks_.push_back({number, is_over});
+        }
         taken_.clear();
         noted_.clear();
         there_.clear();
@@ -143,6 +157,8 @@ private:
             for (Way& way : here_) serve(p, way);
         }
     }
+
+    const Chosen& break_at(Int index) const { return breaks_[static_cast<std::size_t>(index)]; }
 
     // Have a way go on from stop `p`, which it has reached, by each of the windows there. In place.
     void serve(Int p, Way& way) {
@@ -247,21 +263,29 @@ private:
         come.now = behind(leg.there, setup_after(data_.setup, stops_[p].node, stops_[p + 1].node));
         if (may_wait_for_next(come, leg.there)) keep(p + 1, come);
         OnLeg rested = leg;
-        for (Int index = leg.way.next; index < due_->count(); ++index) {
+        for (Int index = leg.way.next; index < static_cast<Int>(breaks_.size()); ++index) {
             rested.way.next = static_cast<std::int32_t>(index) + 1;
-            if (!is_among(stops_[p].heavy, (*due_)[index]) && !is_put_off(p, leg, (*due_)[index]))
+            if (!is_among(stops_[p].heavy, break_at(index).number) &&
+                !is_put_off(p, leg, break_at(index).number))
                 rest(p, rested, index);
             // Those behind may be taken without it if the route may end before.
-            if (!JoinedBreak(type_, (*due_)[index]).lets(rested.way.begins, leg.there)) return;
+            if (!may_be_left_out(index, rested.way.begins, leg.there)) return;
             rested.way.left_out |= 1 << index;
         }
+    }
+
+    // Narrow when a route begins to what lets it end at an instant without a break. In place; false
+    // if nothing does.
+    bool may_be_left_out(Int index, Interval& begins, TimeSegment end) const {
+        const Chosen& chosen = break_at(index);
+        return chosen.is_over || JoinedBreak(type_, chosen.number).lets(begins, end);
     }
 
     // Narrow when a route begins to what lets the next break begin at the end of a leg, or later,
     // or be left out as the route ends before. In place; false if nothing does.
     bool may_wait_for_next(Way& way, TimeSegment there) const {
-        return way.next == due_->count() ||
-               JoinedBreak(type_, (*due_)[way.next]).lets(way.begins, there);
+        return way.next == static_cast<Int>(breaks_.size()) ||
+               may_be_left_out(way.next, way.begins, there);
     }
 
     // Tell whether a break had better be taken behind the next stop: it opens no sooner than that
@@ -280,7 +304,7 @@ private:
 
     // Take a break at each place of a leg behind those before, and go on.
     void rest(Int p, const OnLeg& leg, Int index) {
-        const Int number = (*due_)[index];
+        const Int number = break_at(index).number;
         const bool on_way = may_rest_on_way(type_, number);
         if (leg.place == RestPlace::departure) rest(p, leg, number, RestPlace::departure);
         if (leg.place != RestPlace::arrival && on_way) rest(p, leg, number, RestPlace::way);
@@ -320,7 +344,11 @@ private:
             const Noted& noted = noted_[static_cast<std::size_t>(mine)];
             const Noted& instead = noted_[static_cast<std::size_t>(others)];
             const Asked& asked = asked_[static_cast<std::size_t>(noted.stop)];
-            if (asked.until >= p && !is_no_later(instead.start, noted.start)) return false;
+            if (asked.until >= p &&
+                (!is_no_later(instead.start, noted.start) ||
+                 (asked.is_awaited && !is_no_later(noted.start, instead.start)))) {
+                return false;
+            }
             mine = noted.before;
             others = instead.before;
         }
@@ -347,9 +375,9 @@ private:
 
     // Note a way that has come to the end, unless a break is due that it lacks.
     void end(Way way) {
-        for (Int index = 0; index < due_->count(); ++index) {
+        for (Int index = 0; index < static_cast<Int>(breaks_.size()); ++index) {
             if (index < way.next && !is_among(way.left_out, index)) continue;
-            if (!JoinedBreak(type_, (*due_)[index]).lets(way.begins, way.now)) return;
+            if (!may_be_left_out(index, way.begins, way.now)) return;
         }
         BreakChoice choice{PlacedBreaks(), way.now.at(way.begins.first), 0};
         Int unpaid = 0;
@@ -374,7 +402,7 @@ private:
     View<const Stop, 1> stops_;
     const bool begins_count_;   // whether it matters when the route may begin
     std::vector<Int> soonest_;  // (stop,)
-    const DueBreaks* due_ = nullptr;
+    std::vector<Chosen> breaks_;
     std::vector<Asked> asked_;  // (stop,) nothing where nothing is
     std::vector<Way> here_, there_;
     std::vector<Taken> taken_;

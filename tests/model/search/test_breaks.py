@@ -118,7 +118,7 @@ def test_search_finds_the_cheapest_of_all_ways_to_take_breaks() -> None:
 
 CHANGES = with_gaps, with_setups, with_drone_types, with_shipments, with_order, with_order_across
 
-ONCE_DEARER = 663, 667, 798, 816
+ONCE_DEARER = 663, 667, 798, 816, 1981, 2152, 2280
 """Seeds of small days on which somebody was left out, or breaks taken that needn't be."""
 
 ONCE_BROKEN = (1155,)
