@@ -28,7 +28,7 @@ inline void trace_priced([[maybe_unused]] double cost, [[maybe_unused]] const Mo
         };
         mix(0);
         if (move != nullptr) {
-            for (const Int part : {move->kind, move->slot, move->first, move->last}) mix(part);
+            for (const Int part : {move->kind, move->slot, move->first}) mix(part);
         }
         priced_digest.fetch_add(mixed, std::memory_order_relaxed);
     }

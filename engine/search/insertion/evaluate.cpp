@@ -105,12 +105,9 @@ Move within(Move move, Int stops, Int sorties) {
     return move;
 }
 
-// When some stops are left, the sum of all durations up to there, the latest departure that costs
-// nothing, and how far they are driven.
-struct PartTimes {
-    Int end;
-    Int cum;
-    Int depart;
+// A route up to the end of some stops, and how far those are driven.
+struct DrivenPart {
+    PaidFront front;
     Int driven;
 };
 
@@ -130,8 +127,8 @@ bool trips_last(const ProblemData& data, const Route& route, View<const Stop, 1>
 
 // Times the changed stops in slot `to`, which take the place of those from `first` on. Nothing if a
 // rule is broken.
-std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, Int slot, Int first,
-                                   Int to) {
+std::optional<DrivenPart> time_part(const ProblemData& data, const Fleet& fleet, Int slot,
+                                    Int first, Int to) {
     const Route& route = fleet.route[to];
     const Int length = route.length, count = route.sorties;
     const View<Stop, 1> stops = fleet.stop[to].first(length);
@@ -140,8 +137,7 @@ std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, 
     const Truck truck(data, route.type);
     const VehicleType& type = truck.type;
     const TravelLegs legs = legs_of(data.leg, type.travel);
-    Int time = old[first].arrival, cum = old[first].before;
-    Int depart = first > 0 ? old[first - 1].depart : far;
+    PaidFront front{old[first].arrival, old[first].before, first > 0 ? old[first - 1].depart : far};
     make_ready(truck, stops, sorties);
     BlockSums sums;
     sums.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
@@ -150,6 +146,7 @@ std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, 
     while (p < length) {
         Stop& stop = stops[p];
         Int last = p;
+        const Int time = front.time;
         if (stop.kind == start_stop) sums.launched = 0;
         if (s < count && sorties[s].launch == p) {
             sums.time = time;
@@ -164,9 +161,7 @@ std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, 
             truck.time_alone(stop, time);
         }
         if (time > stop.hi || time < stop.lo) return std::nullopt;
-        depart = std::min(depart, stop.dep - cum);
-        cum += stop.d;
-        time = std::max(time + stop.d, stop.c);
+        front.pass({stop.d, stop.c}, stop.dep);
         p = last + 1;
         if (p == length) break;
         Int gap = type.reload_duration;
@@ -176,42 +171,36 @@ std::optional<PartTimes> time_part(const ProblemData& data, const Fleet& fleet, 
             driven += way.distance;
         }
         stops[last].gap = gap;
-        cum += gap;
-        time += gap;
+        front.drive(gap);
     }
     if (bounds_trips(type) && !trips_last(data, route, stops)) return std::nullopt;
-    return PartTimes{time, cum, depart, driven};
+    return DrivenPart{front, driven};
 }
 
 // Returns what it costs to put the stops in slot `to` in the place of a part.
 double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part part, Int to) {
-    const std::optional<PartTimes> times = time_part(data, fleet, slot, part.first, to);
-    if (!times) return infeasible;
-    auto [time, cum, depart, driven] = *times;
+    const std::optional<DrivenPart> driven_part = time_part(data, fleet, slot, part.first, to);
+    if (!driven_part) return infeasible;
+    auto [front, driven] = *driven_part;
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> old = fleet.stop[slot];
     const Int k = route.type;
     const VehicleType& type = data.type[k];
-    Int finish = time;
+    std::optional<Whole> whole = whole_of(front);
     if (part.last + 1 < route.length) {
-        const Int arrival = time + old[part.last].gap;
-        const Stop& behind = old[part.last + 1];
-        cum += old[part.last].gap;
-        if (arrival > behind.latest || arrival < behind.early) return infeasible;
-        depart = std::min(depart, behind.latest - cum);
-        cum += behind.rest;
-        finish = std::max(arrival + behind.rest, behind.end);
+        front.drive(old[part.last].gap);
+        whole = join(front, rear_of(old[part.last + 1]));
+        if (!whole) return infeasible;
     }
-    const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
-    if (!may_work(type, working)) return infeasible;
+    const double longer = longer_cost(type, data.rate[k], route, *whole);
+    if (longer == infeasible) return infeasible;
     if (limits_travel(type)) {
         const Int changed = travel_on(data, type, fleet.stop[to], 0, fleet.route[to].length - 1) -
                             travel_on(data, type, old, part.first, part.last);
         if (!may_travel(type, route.travel + changed)) return infeasible;
     }
     for (Int p = part.first; p < part.last; ++p) driven -= old[p].leg;
-    double cost = double(driven) * data.rate[k].distance +
-                  longer_cost(type, data.rate[k], route, finish, working);
+    double cost = double(driven) * data.rate[k].distance + longer;
     for (Int s = 0; s < fleet.route[to].sorties; ++s) {
         cost += sortie_cost(data, k, fleet.stop[to], fleet.sortie(to, s));
     }
@@ -239,42 +228,27 @@ void give_releases(const Fleet& fleet, Int to, bool alone, const Trip& trip, Int
     }
 }
 
-// How far a route has come whose last stops are reached later.
-struct Progress {
-    double cost;  // what lateness costs more
-    Int time;     // when the next stop is reached, or the end is
-    Int cum;      // sum of all durations up to there
-    Int depart;   // the latest departure that costs nothing
-};
-
-// Follows a route on which no drone flies from stop `p`, reached as told, to its end.
-Progress follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
-                const Progress& reached) {
-    auto [cost, time, cum, depart] = reached;
+// Follows a route on which no drone flies from stop `p` to its end; returns what lateness costs
+// more. In place.
+double follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
+              PaidFront& front) {
     const Int last = route.length - 1;
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
+    double cost = 0.0;
     for (Int q = p; q <= last; ++q) {
         const Stop& stop = stops[q];
-        Int leave = time;
         if (has_window(stop)) {
-            const Windows place = places[stop.node];
-            cost += window_cost(data, stop.node, time) - stop.window_cost;
-            depart = std::min(depart, place.as_late(time) - cum);
-            leave = place.end_of_service(time);
-            cum += place.service_duration();
+            cost += window_cost(data, stop.node, front.time) - stop.window_cost;
+            front.serve(places[stop.node]);
         } else if (stop.kind == start_stop) {
-            leave = std::max(time, stop.release);
+            front.time = std::max(front.time, stop.release);
         } else {
-            leave = let_in(type, places, stop.node, time);
+            front.time = let_in(type, places, stop.node, front.time);
         }
-        time = leave;
-        if (q < last) {
-            time += stop.gap;
-            cum += stop.gap;
-        }
+        if (q < last) front.drive(stop.gap);
     }
-    return {cost, time, cum, depart};
+    return cost;
 }
 
 // How many ways there are to deliver what a route fetches alone: by truck, on the sortie that
@@ -447,14 +421,14 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
     const Stop &here = stops[p], &behind = stops[p + 1];
     const Int k = route.type, node = newcomer.node;
     const VehicleType& type = data.type[k];
-    const Windows place = newcomer.place;
     const auto [out, on, distance] = newcomer.detour(here.node, behind.node, here.leg);
-    const Int arrival = here.leave + out.duration;
-    if (!newcomer.is_in_time(arrival, behind.latest, [&] { return on.duration; })) {
-        return infeasible;
-    }
-    const Int time = place.end_of_service(arrival) + on.duration;
-    if (time < behind.early) return infeasible;
+    PaidFront front = front_of(here);
+    front.drive(out.duration);
+    const Int arrival = front.time;
+    if (!front.serve(newcomer.place)) return infeasible;
+    front.drive(on.duration);
+    std::optional<Whole> whole = join(front, rear_of(behind));
+    if (!whole) return infeasible;
     if (limits_travel(type)) {
         const Int more = travel_between(data, type, here.node, node) +
                          travel_between(data, type, node, behind.node) -
@@ -471,26 +445,14 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
     if (loads_cost(data, k)) {
         cost += load_more_behind(data, fleet, slot, p, node, out.distance, on.distance);
     }
-    Int cum = here.cum + out.duration;
-    Int depart = std::min(here.depart, place.as_late(arrival) - cum);
-    const double late = window_cost(data, node, arrival);
-    cum += place.service_duration() + on.duration;
-    Int finish;
     if (data.evaluation[k].priced) {
-        const Progress ending = follow(data, route, stops, p + 1, {0.0, time, cum, depart});
-        cost += late + ending.cost;
-        finish = ending.time;
-        cum = ending.cum;
-        depart = ending.depart;
-    } else {
-        depart = std::min(depart, behind.latest - cum);
-        finish = std::max(time + behind.rest, behind.end);
-        cum += behind.rest;
+        cost += window_cost(data, node, arrival) + follow(data, route, stops, p + 1, front);
+        whole = whole_of(front);
     }
-    const Int working = finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
-    if (!may_work(type, working)) return infeasible;
+    const double longer = longer_cost(type, data.rate[k], route, *whole);
+    if (longer == infeasible) return infeasible;
     cost += vehicle_cost_at(data.vehicle_cost, k, node);
-    return cost + data.rate[k].stop + longer_cost(type, data.rate[k], route, finish, working);
+    return cost + data.rate[k].stop + longer;
 }
 
 }  // namespace tandem

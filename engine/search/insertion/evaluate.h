@@ -2,10 +2,9 @@
 #pragma once
 
 #include "search/insertion/newcomer.h"
+#include "search/route/routes.h"
 
 namespace tandem {
-
-constexpr double infeasible = 1e300;
 
 // Writes the route that serves a customer alone at the least cost. False if none may.
 //

@@ -99,10 +99,10 @@ public:
     }
 
 private:
-    // When a vehicle leaves a stop, how long all takes up to there, the latest departure that costs
-    // nothing, and how much further it has driven.
+    // How a vehicle has come to where it leaves a stop, and how much further that was.
     struct Way {
-        Int leave, cum, depart, further;
+        PaidFront front;
+        Int further;
     };
 
     // Where both ends may come; what that costs at least, and about.
@@ -179,37 +179,25 @@ private:
         return above >= 0 && !disturbs_stack(fleet, slot, q);
     }
 
-    static void serve(Way& way, Windows place, Int duration) {
-        way.cum += duration;
-        const Int arrival = way.leave + duration;
-        way.depart = std::min(way.depart, place.as_late(arrival) - way.cum);
-        way.cum += place.service_duration();
-        way.leave = place.end_of_service(arrival);
-    }
-
     void walk_from(Int p) {
-        const Stop& here = stops[p];
-        const Leg out = leg_from(pickup_.inward, here.node);
-        if (pickup_.place.too_late(here.leave + out.duration)) return;
-        Way way{here.leave, here.cum, here.depart, out.distance};
+        const Leg out = leg_from(pickup_.inward, stops[p].node);
+        Way way{front_of(stops[p]), out.distance};
+        way.front.drive(out.duration);
+        if (!way.front.serve(pickup_.place)) return;
         Int above = 0;
-        serve(way, pickup_.place, out.duration);
         const NodeTable places = data.place.by_truck(type);
         for (Int q = p;; ++q) {
-            if (delivery_.place.too_late(way.leave)) return;
+            if (delivery_.place.too_late(way.front.time)) return;
             if (above == 0) try_delivery(way, p, q);
             if (q + 1 == trip.last || !fits_[q + 1] || !goes_past(q + 1, above)) return;
             const Stop& next = stops[q + 1];
-            const Int gap = q == p ? leg_to(pickup_.onward, next.node).duration : stops[q].gap;
-            if (way.leave + gap > next.latest) return;
+            way.front.drive(q == p ? leg_to(pickup_.onward, next.node).duration : stops[q].gap);
+            if (way.front.time > next.latest) return;
             way.further = driven_on(way.further, p, q + 1);
             // By the triangle inequality no later delivery is nearer.
             if (cost_of(way.further) >= best.cost) return;
-            if (next.kind == customer_stop) {
-                serve(way, places[next.node], gap);
-            } else {
-                return;
-            }
+            if (next.kind != customer_stop) return;
+            way.front.serve(places[next.node]);
         }
     }
 
@@ -219,26 +207,15 @@ private:
         const Stop& behind = stops[q + 1];
         const Leg out = q == p ? leg_to(pickup_.onward, delivery_.node)
                                : leg_from(delivery_.inward, stops[q].node);
-        if (delivery_.place.too_late(way.leave + out.duration)) return;
-        Way done = way;
-        serve(done, delivery_.place, out.duration);
-        const Int on = leg_to(delivery_.onward, behind.node).duration;
-        const Int time = done.leave + on;
-        if (time > behind.latest || time < behind.early) return;
-        const double cost = least + longer(done, on, behind);
+        PaidFront front = way.front;
+        front.drive(out.duration);
+        if (!front.serve(delivery_.place)) return;
+        front.drive(leg_to(delivery_.onward, behind.node).duration);
+        const std::optional<Whole> whole = join(front, rear_of(behind));
+        if (!whole) return;
+        const bool is_timed = data.evaluation[route.type].timed;
+        const double cost = least + (is_timed ? longer_cost(type, rate, route, *whole) : 0.0);
         if (cost < infeasible && best.takes(cost)) best.move = move_of(both_ends, p, q);
-    }
-
-    // What it costs that the route lasts longer; `infeasible` if it may not.
-    double longer(const Way& way, Int on, const Stop& behind) const {
-        if (!data.evaluation[route.type].timed) return 0.0;
-        const Int cum = way.cum + on + behind.rest;
-        const Int depart = std::min(way.depart, behind.latest - way.cum - on);
-        const Int finish = std::max(way.leave + on + behind.rest, behind.end);
-        const Int working =
-            finish - counted_from(type, std::min(depart, finish - cum)) - route.offset;
-        if (!may_work(type, working)) return infeasible;
-        return longer_cost(type, rate, route, finish, working);
     }
 
     const Newcomer pickup_;

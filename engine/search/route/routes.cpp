@@ -176,7 +176,7 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     const Int length = route.length, count = route.sorties;
     stops = stops.first(length);
     sorties = sorties.first(count);
-    Int time = truck.type.shift_earliest, cum = 0, depart = far;
+    PaidFront front{truck.type.shift_earliest, 0, far};
     BlockSums sums;
     sums.driver = driver_from(truck.type, truck.begin);
     const bool rested = truck.follows && any_rest(truck.type, route);
@@ -185,6 +185,7 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     while (p < length) {
         Stop& stop = stops[p];
         Int last = p;
+        const Int time = front.time;
         if (stop.kind == start_stop) {
             sums.launched = 0;
             sums.first_sortie = s;
@@ -207,29 +208,25 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
         }
         if (time > stop.hi || time < stop.lo) return false;
         stop.arrival = time;
-        stop.before = cum;
+        stop.before = front.busy;
         stop.last = last;
-        depart = std::min(depart, stop.dep - cum);
-        // Where speeds change, `d` is none, whose sum would leave the range of numbers.
-        cum = std::max(cum + stop.d, none);
-        const Int leave = std::max(time + stop.d, stop.c);
+        front.pass({stop.d, stop.c}, stop.dep);
         Stop& behind = stops[last];
-        behind.leave = leave;
-        behind.cum = cum;
-        behind.depart = depart;
-        if (behind.kind == end_stop) {
-            time = leave + behind.gap;
-        } else {
+        const Int leave = behind.leave = front.time;
+        behind.cum = front.busy;
+        behind.depart = front.depart;
+        front.drive(behind.gap);
+        if (behind.kind != end_stop) {
             const Int next = stops[last + 1].node;
-            time = truck.travel(behind.node, next, behind.gap, {none, leave}).c;
+            front.time = truck.travel(behind.node, next, behind.gap, {none, leave}).c;
             if (truck.pauses(behind)) {
-                time = truck.come(behind, next, leave, sums.driver);
-                if (time == far || (rested && may_drive(truck.type, sums.driver, time) < 0)) {
+                front.time = truck.come(behind, next, leave, sums.driver);
+                if (front.time == far ||
+                    (rested && may_drive(truck.type, sums.driver, front.time) < 0)) {
                     return false;
                 }
             }
         }
-        cum += behind.gap;
         p = last + 1;
     }
     if (truck.resting) route.unpaid = unpaid_on(truck.type, stops);
@@ -244,25 +241,22 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
 void look_back(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
     const NodeTable places = data.place.by_truck(data.type[route.type]);
     const bool single = places[0].are_single();
-    Int latest = far, earliest = none, rest = 0, end = none, gap = 0;
+    PaidRear rear{far, none, 0, none};
     for (Int q = route.length - 1; q >= 0;) {
-        if (q < route.length - 1) gap = stops[q].gap;
+        if (q < route.length - 1) rear.drive(stops[q].gap);
         const Int p = stops[q].block;
         Stop& stop = stops[p];
-        const Int leave = latest - gap;
-        latest = std::min(stop.hi, leave - stop.d);
+        Rear alone{rear.latest};
+        rear.pass({stop.d, stop.c}, {stop.lo, stop.hi});
         if (has_window(stop) && !single) {
             // No drone flies, or the route would be retimed.
-            latest = places[stop.node].latest_arrival(leave);
+            alone.serve(places[stop.node]);
+            rear.latest = alone.latest;
         }
-        const bool is_held = stop.c < earliest - gap;
-        earliest = is_held ? std::max(stop.lo, earliest - gap - stop.d) : stop.lo;
-        end = std::max(stop.c + gap + rest, end);
-        rest += stop.d + gap;
-        stop.latest = latest;
-        stop.early = earliest;
-        stop.rest = rest;
-        stop.end = end;
+        stop.latest = rear.latest;
+        stop.early = rear.early;
+        stop.rest = rear.busy;
+        stop.end = rear.end;
         q = p - 1;
     }
 }

@@ -4,12 +4,23 @@
 #include <algorithm>
 
 #include "rules/load.h"
+#include "rules/segment.h"
 #include "rules/shift.h"
+#include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/layout.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
+
+// What nothing costs that may be.
+constexpr double infeasible = 1e300;
+
+// Return a timed route up to where the truck leaves a stop.
+inline PaidFront front_of(const Stop& stop) { return {stop.leave, stop.cum, stop.depart}; }
+
+// Return a timed route from where the truck comes to a stop.
+inline PaidRear rear_of(const Stop& stop) { return {stop.latest, stop.early, stop.rest, stop.end}; }
 
 // Put a customer's parcel on a trip. In place.
 inline void carry(const ProblemData& data, Trip& trip, Int node) {
@@ -92,10 +103,12 @@ inline PaidWork work_of(const VehicleType& type, const Route& route) {
     return paid_work(type, route.end, route.working);
 }
 
-// Return what it costs more that a route ends at `end` and works so long.
-inline double longer_cost(const VehicleType& type, const Rate& rate, const Route& route, Int end,
-                          Int working) {
-    return work_cost(rate, paid_work(type, end, working) - work_of(type, route));
+// Return what it costs more that a timed route is driven so; `infeasible` if that takes too long.
+inline double longer_cost(const VehicleType& type, const Rate& rate, const Route& route,
+                          const Whole& whole) {
+    const Int working = whole.end - counted_from(type, whole.depart) - route.offset;
+    if (!may_work(type, working)) return infeasible;
+    return work_cost(rate, paid_work(type, whole.end, working) - work_of(type, route));
 }
 
 // The cost of a route, and what waiting for windows costs of it.
