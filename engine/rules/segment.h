@@ -19,8 +19,9 @@ struct Front {
 
     void drive(Int duration) { time += duration; }
 
-    // Lets a place be served. In place; false if that is too late.
-    bool serve(Windows place) {
+    // Lets a place be served to which a leg takes so long. In place; false if that is too late.
+    bool serve(Windows place, Int duration = 0) {
+        drive(duration);
         const bool allowed = !place.too_late(time);
         time = place.end_of_service(time);
         return allowed;
@@ -34,8 +35,10 @@ struct Rear {
     // Lets a leg come first that takes so long. In place.
     void drive(Int duration) { latest -= duration; }
 
-    // Lets a place be served first. In place.
-    void serve(Windows place) { latest = place.latest_arrival(latest); }
+    // Lets a place be served first, and then a leg that takes so long. In place.
+    void serve(Windows place, Int duration = 0) {
+        latest = place.latest_arrival(latest - duration);
+    }
 
     bool allows(const Front& front) const { return front.time <= latest; }
 };
@@ -61,7 +64,8 @@ struct PaidFront {
     }
 
     // As `Front::serve`.
-    bool serve(Windows place) {
+    bool serve(Windows place, Int duration = 0) {
+        drive(duration);
         depart = std::min(depart, place.as_late(time) - busy);
         busy += place.service_duration();
         const bool allowed = !place.too_late(time);

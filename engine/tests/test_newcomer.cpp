@@ -33,12 +33,12 @@ TEST_CASE("a detour is as long as both legs less the direct one") {
 
 TEST_CASE("a customer may come between two if neither window is missed") {
     const Newcomer customer = newcomer();
-    CHECK(customer.comes_between(0, 16, 1, 20 + 5 + 7));
-    CHECK_FALSE(customer.comes_between(0, 17, 1, far));
-    CHECK_FALSE(customer.comes_between(0, 16, 1, 20 + 5 + 7 - 1));
+    CHECK(customer.comes_between(0, {16}, 1, {20 + 5 + 7}));
+    CHECK_FALSE(customer.comes_between(0, {17}, 1, {far}));
+    CHECK_FALSE(customer.comes_between(0, {16}, 1, {20 + 5 + 7 - 1}));
     // Who comes early waits.
-    CHECK(customer.comes_between(0, 0, 1, 10 + 5 + 7));
-    CHECK_FALSE(customer.comes_between(0, 0, 1, 10 + 5 + 7 - 1));
+    CHECK(customer.comes_between(0, {0}, 1, {10 + 5 + 7}));
+    CHECK_FALSE(customer.comes_between(0, {0}, 1, {10 + 5 + 7 - 1}));
 }
 
 TEST_CASE("the first of places that cost the same is the best") {

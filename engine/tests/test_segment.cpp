@@ -27,8 +27,7 @@ struct Row {
     std::optional<PaidFront> front(Int time, Int stop) const {
         PaidFront front{time, 0, far};
         for (Int p = 0; p < stop; ++p) {
-            front.drive(gap_before(p));
-            if (!front.serve(place(p))) return std::nullopt;
+            if (!front.serve(place(p), gap_before(p))) return std::nullopt;
         }
         front.drive(gap_before(stop));
         return front;
@@ -103,8 +102,7 @@ TEST_CASE("a rear may be reached as late as it tells, and no later") {
     for_each_route(7, [](const Row& row, const PaidFront&) {
         Rear rear{last};
         for (Int p = num_stops - 1; p >= 0; --p) {
-            rear.drive(row.gap_before(p + 1));
-            rear.serve(row.place(p));
+            rear.serve(row.place(p), row.gap_before(p + 1));
         }
         CHECK(rear.latest == row.rear(0, last).latest);
         rear.drive(row.gap_before(0));

@@ -5,6 +5,7 @@
 #include "guard.h"
 #include "rules/flown_trip.h"
 #include "rules/leg.h"
+#include "rules/segment.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
@@ -67,14 +68,16 @@ struct Joint {
 void set_up_chain(const Chains& chains, Int node) {
     const auto& [type, legs, places, chain] = chains;
     const Windows place = places[node];
-    const Int ready = std::max(leaves_first(type, type.shift_earliest), release_of(place));
-    const Int leave = last_end(type) - leg(legs, node, type.ends_at).duration;
+    Front front{std::max(leaves_first(type, type.shift_earliest), release_of(place))};
+    front.serve(place, leg(legs, type.begins_at, node).duration);
+    Rear rear{last_end(type)};
+    rear.serve(place, leg(legs, node, type.ends_at).duration);
     chain[node] = {
         .before = nowhere,
         .behind = nowhere,
         .route = node,
-        .leave = place.end_of_service(ready + leg(legs, type.begins_at, node).duration),
-        .latest = place.latest_arrival(leave),
+        .leave = front.time,
+        .latest = rear.latest,
         .last = node,
         .length = 1,
         .busy = place.service_duration(),
@@ -111,21 +114,23 @@ Int delay_as_one(const ProblemData& data, const Chains& chains, const Joint& joi
     const NodeTable weighed = data.place.by_air(type);
     const auto behind = [&](Int node) { return node == joint.a ? joint.b : chain[node].behind; };
     FlownTrip trip(type, weight);
-    Int here = type.begins_at, time = start;
+    Front front{start};
+    Int here = type.begins_at;
     Int zones = zones_at(data.zones, type.begins_at) | zones_at(data.zones, type.ends_at);
     for (Int node = joint.head; node != nowhere; node = behind(node)) {
         const Int way = leg(legs, here, node).duration;
-        if (places[node].too_late(time + way)) return far;
-        trip.fly_to(weighed[node], way, node == joint.head, weighed[node].waiting(time + way));
-        time = places[node].end_of_service(time + way);
+        front.drive(way);
+        trip.fly_to(weighed[node], way, node == joint.head, weighed[node].waiting(front.time));
+        if (!front.serve(places[node])) return far;
         zones |= zones_at(data.zones, node);
         here = node;
     }
     const Int home = leg(legs, here, type.ends_at).duration;
     trip.fly_home(home, false);
-    const bool done = may_end(type, time + home) && time + home - start <= longest_in_air(type) &&
+    front.drive(home);
+    const bool done = may_end(type, front.time) && front.time - start <= longest_in_air(type) &&
                       (!is_limited(type) || trip.left() >= 0);
-    return done ? wait_for_calm(type, start, time + home, zones) : far;
+    return done ? wait_for_calm(type, start, front.time, zones) : far;
 }
 
 // Tells whether who flies by itself may fly two routes as one trip, as soon as all parcels are
@@ -153,20 +158,20 @@ void link_up(const Chains& chains, const Joint& joint) {
     chain[b].before = a;
     chain[head].last = tail;
     chain[tail].route = head;
-    Int time = chain[a].leave + way;
+    Front front{chain[a].leave + way};
     for (Int node = b; node != nowhere;) {
         const Int behind = chain[node].behind;
-        time = places[node].end_of_service(time);
-        chain[node].leave = time;
-        if (behind != nowhere) time += leg(legs, node, behind).duration;
+        front.serve(places[node]);
+        chain[node].leave = front.time;
+        if (behind != nowhere) front.drive(leg(legs, node, behind).duration);
         node = behind;
     }
-    Int leave_by = chain[b].latest - way;
+    Rear rear{chain[b].latest - way};
     for (Int node = a; node != nowhere;) {
         const Int before = chain[node].before;
-        leave_by = places[node].latest_arrival(leave_by);
-        chain[node].latest = leave_by;
-        if (before != nowhere) leave_by -= leg(legs, before, node).duration;
+        rear.serve(places[node]);
+        chain[node].latest = rear.latest;
+        if (before != nowhere) rear.drive(leg(legs, before, node).duration);
         node = before;
     }
 }

@@ -63,25 +63,23 @@ void scan_trip(const Insertion& insertion, const Joining& joins, Int first, Int 
     // If the trip has to wait for the parcel, it leaves all its stops later.
     const Int release = release_of(newcomer.place);
     const bool waits = release > stops[trip.first].leave;
-    Int leave = release;
+    Front front{release};
     for (Int p = waits ? trip.first : first; p <= last; ++p) {
         const Stop &here = stops[p], &behind = stops[p + 1];
         if (!waits) {
-            leave = here.leave;
-        } else if (p > trip.first) {
-            const Int arrival = leave + stops[p - 1].gap;
-            if (arrival > here.latest) return;
-            leave = data.place.by_truck(type)[here.node].end_of_service(arrival);
-        } else if (leave > here.latest) {
-            return;
+            front = {here.leave};
+        } else {
+            if (p > trip.first) front.drive(stops[p - 1].gap);
+            if (front.time > here.latest) return;
+            if (p > trip.first) front.serve(data.place.by_truck(type)[here.node]);
         }
         if (p < first) continue;
         const Int further = newcomer.further(here.node, behind.node, here.leg);
         bool over = false;  // as soon as whoever leaves here comes too late
         best.try_behind(joins, p, further, [&] {
-            over = newcomer.place.too_late(leave);
+            over = newcomer.place.too_late(front.time);
             return !over && further <= spare && room_behind(room, p) &&
-                   newcomer.comes_between(here.node, leave, behind.node, behind.latest) &&
+                   newcomer.comes_between(here.node, front, behind.node, {behind.latest}) &&
                    (!timed || price_stop(data, fleet, slot, p, newcomer) < infeasible);
         });
         if (over) return;

@@ -73,8 +73,8 @@ public:
         const Int ready = launch > 0 ? take_off(type_, from.arrival, 0) : from.arrival;
         const double late = priced_ ? lateness_cost(data_, node_, ready + out.duration) : 0.0;
         if (flown_cost(rate_, out.distance) + late - saved_ >= best_) return;
-        if (place_.too_late(from.arrival + out.duration)) return;
-        const Int served = place_.end_of_service(from.arrival + out.duration);
+        Front front{from.arrival + out.duration};
+        if (!front.serve(place_)) return;
         const Int left = gone_by(type_, from.leave);
         const Int begun = recovery_end(type_, ready) - idle_;
         Int last = free_until(data_, searcher_.now, slot_, launch, row_);
@@ -87,7 +87,7 @@ public:
             const double flown = flown_cost(rate_, out.distance + home.distance);
             if (flown + late - saved_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
             if (!is_launch_place(data_.no_launch, to.node)) continue;
-            if (recovery < length_ - 1 && recovery_end(type_, served + home.duration) + to.gap >
+            if (recovery < length_ - 1 && recovery_end(type_, front.time + home.duration) + to.gap >
                                               stops_[recovery + 1].latest) {
                 continue;
             }

@@ -1,9 +1,11 @@
 #include "search/insertion/new_trips.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "rules/leg.h"
 #include "rules/load.h"
+#include "rules/segment.h"
 #include "rules/shift.h"
 #include "rules/window.h"
 #include "search/route/edit.h"
@@ -67,20 +69,6 @@ bool halves_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
     return true;
 }
 
-// Returns when a truck that arrives at a customer has served; `far` if it is too late.
-Int serve_at(NodeTable places, Int node, Int arrival) {
-    const Windows place = places[node];
-    return place.too_late(arrival) ? far : place.end_of_service(arrival);
-}
-
-// Returns when a truck that leaves stop `first` at `time` leaves stop `last`; `far`: too late.
-Int drive_to(NodeTable places, View<const Stop, 1> stops, Int first, Int last, Int time) {
-    for (Int p = first + 1; p <= last && time < far; ++p) {
-        time = serve_at(places, stops[p].node, time + stops[p - 1].gap);
-    }
-    return time;
-}
-
 // Tells whether a trip can be split behind stop `p`, a customer more before or behind the split.
 //
 // `until`: before. Loads are not looked at.
@@ -101,30 +89,23 @@ bool split_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
     }
     Int& joined = until ? front : rear;
     joined = std::max(joined, release_of(places[node]));
+    Front way{std::max(stops[first].arrival, front)};
+    for (Int q = first + 1; q <= p; ++q) {
+        if (!way.serve(places[stops[q].node], stops[q - 1].gap)) return false;
+    }
     Int here = stops[p].node;
-    const Int there = stops[p + 1].node;
-    Int time = drive_to(places, stops, first, p, std::max(stops[first].arrival, front));
-    if (until) {
-        const Leg out = leg(legs, here, node);
-        time = serve_at(places, node, time + out.duration);
-        front_length += out.distance;
-        here = node;
-    }
-    const Leg home = leg(legs, here, type.depot);
-    time += home.duration;
-    front_length += home.distance;
-    if (!may_end(type, time)) return false;
-    time = std::max(time + type.reload_duration, rear);
-    here = type.depot;
-    if (!until) {
-        const Leg out = leg(legs, type.depot, node);
-        time = serve_at(places, node, time + out.duration);
-        rear_length += out.distance;
-        here = node;
-    }
-    const Leg on = leg(legs, here, there);
-    rear_length += on.distance;
-    return time + on.duration <= stops[p + 1].latest &&
+    const auto duration_to = [&](Int to, Int& length) {
+        const Leg on = leg(legs, std::exchange(here, to), to);
+        length += on.distance;
+        return on.duration;
+    };
+    if (until && !way.serve(places[node], duration_to(node, front_length))) return false;
+    way.drive(duration_to(type.depot, front_length));
+    if (!may_end(type, way.time)) return false;
+    way.time = std::max(way.time + type.reload_duration, rear);
+    if (!until && !way.serve(places[node], duration_to(node, rear_length))) return false;
+    way.drive(duration_to(stops[p + 1].node, rear_length));
+    return Rear{stops[p + 1].latest}.allows(way) &&
            std::max(front_length, rear_length) <= longest_trip(type);
 }
 
@@ -135,12 +116,14 @@ bool trip_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int
     const VehicleType& type = data.type[route.type];
     const NodeTable places = data.place.by_truck(type);
     const TravelLegs legs = legs_of(data.leg, type.travel);
-    Int time = p >= 0 ? stops[p].leave + type.reload_duration : type.shift_earliest;
-    time = std::max(time, release_of(places[node]));
+    const Int free = p >= 0 ? stops[p].leave + type.reload_duration : type.shift_earliest;
+    Front way{std::max(free, release_of(places[node]))};
     const Leg out = leg(legs, type.depot, node), home = leg(legs, node, type.depot);
-    time = serve_at(places, node, time + out.duration) + home.duration;
-    if (p + 1 < route.length && time + type.reload_duration > stops[p + 1].latest) return false;
-    return may_end(type, time) && out.distance + home.distance <= longest_trip(type);
+    if (!way.serve(places[node], out.duration)) return false;
+    way.drive(home.duration);
+    if (!may_end(type, way.time) || out.distance + home.distance > longest_trip(type)) return false;
+    way.drive(type.reload_duration);
+    return p + 1 == route.length || Rear{stops[p + 1].latest}.allows(way);
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "rules/leg.h"
-#include "rules/window.h"
+#include "rules/segment.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -31,18 +31,20 @@ struct Newcomer {
         return {out, on, out.distance + on.distance - apart};
     }
 
-    // Tells whether a vehicle that comes at `arrival` is served, and at the next place by `due`,
+    // Tells whether a vehicle that comes so is served, and in time for the next place behind a leg,
     // which takes as long as `on` tells once that matters.
     template <class Duration>
-    bool is_in_time(Int arrival, Int due, const Duration& on) const {
-        return !place.too_late(arrival) && place.end_of_service(arrival) + on() <= due;
+    bool is_in_time(Front front, Rear rear, const Duration& on) const {
+        if (!front.serve(place)) return false;
+        front.drive(on());
+        return rear.allows(front);
     }
 
-    // Tells whether a vehicle that leaves one place at `leave` may come next, and be at another by
-    // `due`. Most places are passed over by distance, so that durations are looked up here alone.
-    bool comes_between(Int before, Int leave, Int behind, Int due) const {
-        return is_in_time(leave + leg_from(inward, before).duration, due,
-                          [&] { return leg_to(onward, behind).duration; });
+    // Tells whether a vehicle that leaves one place so may come next, and be at another in time.
+    // Most places are passed over by distance, so that durations are looked up here alone.
+    bool comes_between(Int before, Front front, Int behind, Rear rear) const {
+        front.drive(leg_from(inward, before).duration);
+        return is_in_time(front, rear, [&] { return leg_to(onward, behind).duration; });
     }
 };
 

@@ -51,15 +51,15 @@ struct LeastCost {
                                newcomer.place.service_duration() - here.gap;
             cost += usual_work_cost(rate, std::max(Int{0}, longer - spare - here.idle));
         }
-        const Int arrival = here.leave + detour.out.duration;
-        if (cost >= best ||
-            !newcomer.is_in_time(arrival, behind.latest, [&] { return detour.on.duration; })) {
-            return best;
-        }
+        if (cost >= best) return best;
+        Front front{here.leave + detour.out.duration};
+        const Int arrival = front.time;
+        const bool allowed = front.serve(newcomer.place);
+        front.drive(detour.on.duration);
+        if (!allowed || !Rear{behind.latest}.allows(front)) return best;
         if (evaluation.priced) {
-            const Int following = newcomer.place.end_of_service(arrival) + detour.on.duration;
             cost += lateness_cost(data, newcomer.node, arrival) +
-                    lateness_cost(data, behind.node, following) -
+                    lateness_cost(data, behind.node, front.time) -
                     lateness_cost(data, behind.node, behind.arrival);
         }
         return cost;

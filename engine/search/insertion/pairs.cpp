@@ -122,14 +122,13 @@ private:
         Spots spots;
         for (Int p = trip.first; p < trip.last; ++p) {
             const Leg out = leg_from(pickup_.inward, stops[p].node);
-            const Int arrival = stops[p].leave + out.duration;
-            if (pickup_.place.too_late(arrival)) continue;
-            const Int aboard = pickup_.place.end_of_service(arrival);
+            Front front{stops[p].leave};
+            if (!front.serve(pickup_.place, out.duration)) continue;
             const Leg apart = more_behind(pickup_, p);
             Int above = 0;
             for (Int q = p; q < trip.last && fits_[q]; ++q) {
                 if (q > p && !goes_past(q, above)) break;
-                if (delivery_.place.too_late(std::max(aboard, stops[q].leave))) break;
+                if (delivery_.place.too_late(std::max(front.time, stops[q].leave))) break;
                 if (above > 0) continue;
                 const Leg more = q == p ? more_together(out, q) : more_behind(delivery_, q, apart);
                 const double least = cost_of(more.distance);
@@ -182,8 +181,7 @@ private:
     void walk_from(Int p) {
         const Leg out = leg_from(pickup_.inward, stops[p].node);
         Way way{front_of(stops[p]), out.distance};
-        way.front.drive(out.duration);
-        if (!way.front.serve(pickup_.place)) return;
+        if (!way.front.serve(pickup_.place, out.duration)) return;
         Int above = 0;
         const NodeTable places = data.place.by_truck(type);
         for (Int q = p;; ++q) {
@@ -208,8 +206,7 @@ private:
         const Leg out = q == p ? leg_to(pickup_.onward, delivery_.node)
                                : leg_from(delivery_.inward, stops[q].node);
         PaidFront front = way.front;
-        front.drive(out.duration);
-        if (!front.serve(delivery_.place)) return;
+        if (!front.serve(delivery_.place, out.duration)) return;
         front.drive(leg_to(delivery_.onward, behind.node).duration);
         const std::optional<Whole> whole = join(front, rear_of(behind));
         if (!whole) return;

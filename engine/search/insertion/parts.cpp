@@ -50,18 +50,19 @@ public:
 
     void scan() {
         for (Int number = 0; number < count_; ++number) note_limit(number);
-        follow({trip.first, none_here, 0, 0, stops[trip.first].leave, 0, 0});
+        follow({trip.first, none_here, 0, 0, {stops[trip.first].leave}, 0, 0});
     }
 
 private:
     static constexpr Int none_here = -1;
 
     // Behind which stop a vehicle is, and at which pickup there; which it has been at, and at how
-    // many; when it leaves, how much further it has driven, and how much more is aboard.
+    // many; how it has come there, how much further that was, and how much more is aboard.
     struct Way {
         Int behind, here;
         Int taken, rank;
-        Int leave, further, aboard;
+        Front front;
+        Int further, aboard;
     };
 
     const Newcomer& pickup(Int number) const { return pickup_[std::size_t(number)]; }
@@ -117,8 +118,7 @@ private:
         way.further += out.distance;
         way.aboard += picked_of(data.amount, newcomer.node, 0)[0];
         if (is_too_far(way.further) || !holds_more(way.behind, way.aboard)) return;
-        if (is_walked_ && newcomer.place.too_late(way.leave + out.duration)) return;
-        way.leave = newcomer.place.end_of_service(way.leave + out.duration);
+        if (!way.front.serve(newcomer.place, out.duration) && is_walked_) return;
         end_[std::size_t(way.rank++)] = picked_behind(way.behind, number);
         way.taken |= Int{1} << number;
         way.here = number;
@@ -131,7 +131,7 @@ private:
         if (way.behind + 1 == trip.last) return false;
         ++way.behind;
         if (way.taken == 0) {
-            way.leave = next.leave;
+            way.front = {next.leave};
             return true;
         }
         Int gap = stop.gap;
@@ -143,9 +143,9 @@ private:
         way.here = none_here;
         if (is_too_far(way.further) || !holds_more(way.behind, way.aboard)) return false;
         if (!is_walked_) return true;
-        if (next.kind != customer_stop || way.leave + gap > next.latest) return false;
-        way.leave = data.place.by_truck(type)[next.node].end_of_service(way.leave + gap);
-        return true;
+        way.front.drive(gap);
+        if (next.kind != customer_stop || way.front.time > next.latest) return false;
+        return way.front.serve(data.place.by_truck(type)[next.node]);
     }
 
     void deliver(const Way& way) {
@@ -153,7 +153,7 @@ private:
         const Stop &stop = stops[way.behind], &next = stops[way.behind + 1];
         const Int on = distance_to(delivery_.onward, next.node) - stop.leg;
         if (is_too_far(way.further + out.distance + on)) return;
-        if (is_walked_ && delivery_.place.too_late(way.leave + out.duration)) return;
+        if (is_walked_ && delivery_.place.too_late(way.front.time + out.duration)) return;
         Move move = move_of(all_ends, end_[0] / most_pickups, way.behind);
         move.sortie = nowhere;
         std::copy(end_.begin(), end_.end(), move.end);

@@ -219,13 +219,13 @@ void drive_on(const ProblemData& data, Linked& linked, Int slot, Int node, Int n
     if (node < data.num_depots) return;
     const VehicleType& type = data.type[linked.run[slot].type];
     const NodeTable places = data.place.by_truck(type);
-    Int time = leaves_at(data, linked, type, linked.link[node].before);
+    Front front = front_at(data, linked, type, linked.link[node].before);
     for (; node >= data.num_depots; --number) {
         Link& here = linked.link[node];
-        time = places[node].end_of_service(time + here.gap);
-        if (here.leave == time && number <= 0) return;
+        front.serve(places[node], here.gap);
+        if (here.leave == front.time && number <= 0) return;
         note_times(linked, node);
-        here.leave = time;
+        here.leave = front.time;
         node = here.behind;
     }
 }
@@ -235,19 +235,17 @@ void look_back(const ProblemData& data, Linked& linked, Int slot, Int node, Int 
     const VehicleType& type = data.type[linked.run[slot].type];
     const NodeTable places = data.place.by_truck(type);
     const Int behind = linked.link[node].behind;
-    Int leave_by = due_at(data, linked, type, behind);
-    if (behind >= data.num_depots) {
-        leave_by -= linked.link[behind].gap;
-    } else {
-        leave_by -= leg(legs_of(data.leg, type.travel), node, behind).duration;
-    }
+    Rear rear = rear_at(data, linked, type, behind);
+    rear.drive(behind >= data.num_depots
+                   ? linked.link[behind].gap
+                   : leg(legs_of(data.leg, type.travel), node, behind).duration);
     for (; node >= data.num_depots; --number) {
         Link& here = linked.link[node];
-        const Int latest = places[node].latest_arrival(leave_by);
-        if (here.latest == latest && number <= 0) return;
+        rear.serve(places[node]);
+        if (here.latest == rear.latest && number <= 0) return;
         note_times(linked, node);
-        here.latest = latest;
-        leave_by = latest - here.gap;
+        here.latest = rear.latest;
+        rear.drive(here.gap);
         node = here.before;
     }
 }

@@ -1,6 +1,7 @@
 // Stops that come into routes and go out of them, and back again.
 #pragma once
 
+#include "rules/segment.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "search/linked/layout.h"
@@ -24,29 +25,29 @@ Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int b
 // they are.
 Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int count);
 
-// When a vehicle of a type leaves a customer, or where it begins if that is a depot.
-inline Int leaves_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
-                     Int node) {
-    if (node >= data.num_depots) return linked.link[node].leave;
-    return leaves_first(type, type.shift_earliest);
+// The route of a vehicle of a type up to where it leaves a customer, or begins if that is a depot.
+inline Front front_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
+                      Int node) {
+    if (node >= data.num_depots) return {linked.link[node].leave};
+    return {leaves_first(type, type.shift_earliest)};
 }
 
-// When a vehicle of a type has to come to a customer, or home, at the latest.
-inline Int due_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
-                  Int node) {
-    return node >= data.num_depots ? linked.link[node].latest : last_end(type);
+// That from where it comes to a customer, or home, on.
+inline Rear rear_at(const ProblemData& data, const Linked& linked, const VehicleType& type,
+                    Int node) {
+    return {node >= data.num_depots ? linked.link[node].latest : last_end(type)};
 }
 
 // The same of vehicles of any type, so that depots limit nothing. Links are read before it is known
 // whether they are customers', which takes no branch.
-inline Int leaves_at(const ProblemData& data, const Linked& linked, Int node) {
+inline Front front_at(const ProblemData& data, const Linked& linked, Int node) {
     const Int leave = linked.link[node].leave;
-    return node < data.num_depots ? -far : leave;
+    return {node < data.num_depots ? -far : leave};
 }
 
-inline Int due_at(const ProblemData& data, const Linked& linked, Int node) {
+inline Rear rear_at(const ProblemData& data, const Linked& linked, Int node) {
     const Int latest = linked.link[node].latest;
-    return node < data.num_depots ? far : latest;
+    return {node < data.num_depots ? far : latest};
 }
 
 // Brings departures from a customer on up to date, of so many even if none changes.

@@ -208,11 +208,11 @@ private:
     int may_come_between(Int before, Int behind, Int detour) const {
         const int is_short = detour < longest_detour_;
         if (!has_windows_) return is_short;
-        const Int arrival =
-            leaves_at(data_, linked_, before) + leg_from(newcomer_.inward, before).duration;
-        const Int on = leg_to(newcomer_.onward, behind).duration;
-        return is_short & int{!newcomer_.place.too_late(arrival)} &
-               int{newcomer_.place.end_of_service(arrival) + on <= due_at(data_, linked_, behind)};
+        Front front = front_at(data_, linked_, before);
+        const int is_served =
+            front.serve(newcomer_.place, leg_from(newcomer_.inward, before).duration);
+        front.drive(leg_to(newcomer_.onward, behind).duration);
+        return is_short & is_served & int{rear_at(data_, linked_, behind).allows(front)};
     }
 
     void try_neighbour(const Neighbour& neighbour) {
@@ -288,9 +288,8 @@ private:
     // Whether a customer may come between two by what windows, and the shift, allow.
     bool keeps_windows(const LinkedJoining& joins, const Gap& gap) const {
         const VehicleType& type = data_.type[joins.type];
-        return joins.newcomer->comes_between(gap.before,
-                                             leaves_at(data_, linked_, type, gap.before),
-                                             gap.behind, due_at(data_, linked_, type, gap.behind));
+        return joins.newcomer->comes_between(gap.before, front_at(data_, linked_, type, gap.before),
+                                             gap.behind, rear_at(data_, linked_, type, gap.behind));
     }
 
     // Tries a customer between two.

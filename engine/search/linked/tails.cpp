@@ -31,13 +31,13 @@ bool come_in_time(const ProblemData& data, const Linked& linked, Int k, Int node
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const Int after = linked.link[node].behind;
-    if (linked.link[node].leave + leg(legs, node, other).duration >
-        due_at(data, linked, type, other)) {
-        return false;
-    }
-    if (before < data.num_depots && after < data.num_depots) return true;
-    return leaves_at(data, linked, type, before) + leg(legs, before, after).duration <=
-           due_at(data, linked, type, after);
+    const auto goes_on = [&](Int from, Int to) {
+        Front front = front_at(data, linked, type, from);
+        front.drive(leg(legs, from, to).duration);
+        return rear_at(data, linked, type, to).allows(front);
+    };
+    return goes_on(node, other) &&
+           ((before < data.num_depots && after < data.num_depots) || goes_on(before, after));
 }
 
 // Whether a vehicle of type `k` may drive from a stop to a customer and all behind; `node` is a
@@ -46,15 +46,12 @@ bool drives_in_time(const ProblemData& data, const Linked& linked, Int k, Int be
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
     const NodeTable places = data.place.by_truck(type);
-    Int time = leaves_at(data, linked, type, before);
-    while (node >= data.num_depots) {
-        time += leg(legs, before, node).duration;
-        if (places[node].too_late(time)) return false;
-        time = places[node].end_of_service(time);
+    Front front = front_at(data, linked, type, before);
+    for (; node >= data.num_depots; node = linked.link[node].behind) {
+        if (!front.serve(places[node], leg(legs, before, node).duration)) return false;
         before = node;
-        node = linked.link[node].behind;
     }
-    return may_end(type, time + leg(legs, before, type.ends_at).duration);
+    return may_end(type, front.time + leg(legs, before, type.ends_at).duration);
 }
 
 // How much longer a route's last leg is to where routes of type `k` end.

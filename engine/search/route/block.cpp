@@ -8,6 +8,7 @@
 #include "rules/launch_place.h"
 #include "rules/load.h"
 #include "rules/pair.h"
+#include "rules/segment.h"
 #include "rules/shift.h"
 #include "search/route/batteries.h"
 #include "search/route/lags.h"
@@ -17,14 +18,16 @@ namespace {
 
 // Return until when the windows hold a sortie back that it meets if it leaves at `takeoff`.
 Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
-    Int time = takeoff, back = none, here = node;
+    Front front{takeoff};
+    Int back = none, here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
         const Windows place = drone_data.places[next];
         const Int flight = leg(drone_data.legs, here, next).duration;
-        back = std::max(back + flight + place.service_duration(),
-                        earliest_back(place, time + flight, 0));
-        time = place.end_of_service(time + flight);
+        front.drive(flight);
+        back =
+            std::max(back + flight + place.service_duration(), earliest_back(place, front.time, 0));
+        front.serve(place);
         here = next;
     }
     return held_until(back + leg(drone_data.homeward, here, sortie.home).duration, sortie.limit);
@@ -32,14 +35,15 @@ Int held_by_windows(const DroneData& drone_data, const Sortie& sortie, Int node,
 
 // Return when a sortie is back for its recovery that leaves `node` at `takeoff`.
 Int back_at(const DroneData& drone_data, const Sortie& sortie, Int node, Int takeoff) {
-    Int time = takeoff, here = node;
+    Front front{takeoff};
+    Int here = node;
     for (Int index = 0; index < sortie.count; ++index) {
         const Int next = sortie.nodes[index];
-        const Int flight = leg(drone_data.legs, here, next).duration;
-        time = drone_data.places[next].end_of_service(time + flight);
+        front.serve(drone_data.places[next], leg(drone_data.legs, here, next).duration);
         here = next;
     }
-    return time + leg(drone_data.homeward, here, sortie.home).duration;
+    front.drive(leg(drone_data.homeward, here, sortie.home).duration);
+    return front.time;
 }
 
 // Return when a sortie takes off at `node` that can at `takeoff`: then, or held back.

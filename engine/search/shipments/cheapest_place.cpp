@@ -74,10 +74,10 @@ void PlaceFinder::scan_together(const PairRow& row, Int slot, CheapestPlace& bes
         const Int further =
             pickup_.further_out[p] + together.distance + delivery_.on_to[p + 1] - row.way[p];
         if (further >= best.further) continue;
-        const Int arrival = row.leave[p] + pickup_.out[p];
-        if (!pickup.place.too_late(arrival) && rows_.fits(row, Int(p), pickup.node) &&
-            delivery.is_in_time(pickup.place.end_of_service(arrival) + together.duration,
-                                row.due[p + 1], [&] { return delivery_.on[p + 1]; })) {
+        Front front{row.leave[p] + pickup_.out[p]};
+        if (front.serve(pickup.place) && rows_.fits(row, Int(p), pickup.node) &&
+            delivery.is_in_time({front.time + together.duration}, {row.due[p + 1]},
+                                [&] { return delivery_.on[p + 1]; })) {
             take(slot, {Int(p), Int(p)}, further, best);
         }
     }
@@ -87,20 +87,22 @@ void PlaceFinder::scan_from(const PairRow& row, Int slot, Int p, CheapestPlace& 
     const auto& [pickup, delivery, together] = pair_;
     const std::size_t here = std::size_t(p), last = row.node.size() - 1;
     const Int further = pickup_.further[here];
-    Int reached =
-        pickup.place.end_of_service(row.leave[here] + pickup_.out[here]) + pickup_.on[here + 1];
+    Front front{row.leave[here] + pickup_.out[here]};
+    front.serve(pickup.place);
+    front.drive(pickup_.on[here + 1]);
     for (std::size_t q = here + 1; q < last; ++q) {
-        if (further + least_[q] >= best.further || reached > row.due[q] ||
+        if (further + least_[q] >= best.further || front.time > row.due[q] ||
             !rows_.fits(row, Int(q), pickup.node)) {
             return;
         }
-        const Int leave = places_[row.node[q]].end_of_service(reached);
+        front.serve(places_[row.node[q]]);
         if (further + delivery_.further[q] < best.further &&
             delivery.is_in_time(
-                leave + delivery_.out[q], row.due[q + 1], [&] { return delivery_.on[q + 1]; })) {
+                {front.time + delivery_.out[q]}, {row.due[q + 1]},
+                [&] { return delivery_.on[q + 1]; })) {
             take(slot, {p, Int(q)}, further + delivery_.further[q], best);
         }
-        reached = leave + row.gap[q];
+        front.drive(row.gap[q]);
     }
 }
 

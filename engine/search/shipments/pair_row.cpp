@@ -23,6 +23,7 @@ bool PairRows::time(PairRow& row) const {
     row.gap.resize(stops);
     row.way.resize(stops);
     row.load.resize(stops * std::size_t(tiers_));
+    Front front{begin_};
     row.leave[0] = begin_;
     row.distance = 0;
     for (std::size_t p = 0; p < last; ++p) {
@@ -30,18 +31,15 @@ bool PairRows::time(PairRow& row) const {
         row.gap[p] = next.duration;
         row.way[p] = next.distance;
         row.distance += next.distance;
-        const Int arrival = row.leave[p] + row.gap[p];
-        if (p + 1 == last) {
-            row.leave[last] = arrival;
-        } else {
-            const Windows place = places_[row.node[p + 1]];
-            if (place.too_late(arrival)) return false;
-            row.leave[p + 1] = place.end_of_service(arrival);
-        }
+        front.drive(next.duration);
+        if (p + 1 < last && !front.serve(places_[row.node[p + 1]])) return false;
+        row.leave[p + 1] = front.time;
     }
+    Rear rear{end_};
     row.due[last] = end_;
     for (std::size_t p = last; p-- > 1;) {
-        row.due[p] = places_[row.node[p]].latest_arrival(row.due[p + 1] - row.gap[p]);
+        rear.serve(places_[row.node[p]], row.gap[p]);
+        row.due[p] = rear.latest;
     }
     for (Int tier = 0; tier < tiers_; ++tier) {
         Amount load = nothing;

@@ -106,22 +106,21 @@ private:
     void walk(const PairRow& row, const PairToInsert& pair, Int p, const Visit& visit) const {
         const Int last = Int(row.node.size()) - 1;
         const auto& [pickup, delivery, together] = pair;
-        const Int arrival =
-            row.leave[std::size_t(p)] + leg_from(pickup.inward, row.node[std::size_t(p)]).duration;
-        if (pickup.place.too_late(arrival)) return;
-        Int leave = pickup.place.end_of_service(arrival);
-        for (Int q = p; !delivery.place.too_late(leave); ++q) {
+        Front front{row.leave[std::size_t(p)]};
+        if (!front.serve(pickup.place, leg_from(pickup.inward, row.node[std::size_t(p)]).duration))
+            return;
+        for (Int q = p; !delivery.place.too_late(front.time); ++q) {
             const Int next = row.node[std::size_t(q + 1)];
             const Int out = q == p ? together.duration
                                    : leg_from(delivery.inward, row.node[std::size_t(q)]).duration;
-            if (delivery.is_in_time(leave + out, row.due[std::size_t(q + 1)],
+            if (delivery.is_in_time({front.time + out}, {row.due[std::size_t(q + 1)]},
                                     [&] { return leg_to(delivery.onward, next).duration; })) {
                 visit(q);
             }
             if (q + 1 == last || !fits(row, q + 1, pickup.node)) return;
-            const Int on = q == p ? leg_to(pickup.onward, next).duration : row.gap[std::size_t(q)];
-            if (leave + on > row.due[std::size_t(q + 1)]) return;
-            leave = places_[next].end_of_service(leave + on);
+            front.drive(q == p ? leg_to(pickup.onward, next).duration : row.gap[std::size_t(q)]);
+            if (front.time > row.due[std::size_t(q + 1)]) return;
+            front.serve(places_[next]);
         }
     }
 
