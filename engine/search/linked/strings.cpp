@@ -40,24 +40,6 @@ Int first_of_string(const ProblemData& data, const Searcher& searcher, const Lin
     return first;
 }
 
-// How many customers are taken out around one, and how many within are spared.
-struct Cut {
-    Int size;
-    Int spared;
-};
-
-Cut draw_cut(View<std::uint64_t, 1> rng, Int stops, double longest) {
-    Int size = 1 + Int(uniform(rng) * std::min(longest, double(stops)));
-    if (uniform(rng) < whole_trip_share && stops <= longest_whole_trip) size = stops;
-    size = std::min(size, stops);
-    Int spared = 0;
-    if (1 < size && size < stops && uniform(rng) < split_share) {
-        spared = 1;
-        while (size + spared < stops && uniform(rng) < split_more_share) ++spared;
-    }
-    return {size, spared};
-}
-
 // Whether a route is driven in time, by the times of one customer on it.
 bool is_in_time(const ProblemData& data, const Linked& linked, Int node) {
     const Link& here = linked.link[node];
@@ -75,9 +57,10 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
     const Int slot = link[customer].slot;
     const Run& run = linked.run[slot];
     const Rate& rate = data.rate[run.type];
-    const auto [size, spared] = draw_cut(searcher.rng, run.count, longest);
-    const Int first = first_of_string(data, searcher, linked, customer, size + spared);
-    const Int gap = spared > 0 ? 1 + below(searcher.rng, size - 1) : size;
+    const StopString string = draw_string(searcher.rng, longest, run.count);
+    const auto [size, spared] = string;
+    const Int first = first_of_string(data, searcher, linked, customer, string.span());
+    const Int gap = draw_gap(searcher.rng, string);
     const Int before = link[first].before;
     const Noted noted = *linked.noted;
     Int saved = cut_out(data, linked, slot, first, gap);

@@ -18,6 +18,10 @@ constexpr double longest_share = 0.25;     // of a long route, where longer stri
 constexpr double company_share = 0.5;      // how often those who go with a customer go as well
 constexpr double flight_only_share = 0.5;  // how often a drone's customer goes alone, as a string
 constexpr double make_room_share = 0.5;    // how often strings are removed around one left out
+constexpr double split_share = 0.5;        // how often a string spares some within
+constexpr double split_more_share = 0.01;  // and each time one more of them
+constexpr double whole_trip_share = 0.05;  // how often a trip is removed whole
+constexpr Int longest_whole_trip = 25;     // if it has no more stops than this
 
 // Marks strings of customers to be removed.
 class Strings {
@@ -33,37 +37,15 @@ public:
         const Trip& trip = fleet_.trip(slot, fleet_.stop(slot, p).trip);
         const Int stops_there = trip.last - trip.first - 1;
         if (stops_there == 0) return;
-        const double most = std::min(longest_, static_cast<double>(stops_there));
-        Int size = 1 + static_cast<Int>(uniform(rng_) * most);
-        if (uniform(rng_) < whole_trip_share && stops_there <= longest_whole_trip) {
-            size = stops_there;
-        }
         // A drone may have been launched at either of the depot's stops.
-        const Int middle = std::min(std::max(p, trip.first + 1), trip.last - 1);
-        mark_string(slot, trip, middle, std::min(size, stops_there));
+        const Int first = trip.first + 1, middle = std::clamp(p, first, trip.last - 1);
+        draw_around(rng_, longest_, stops_there, middle - first, [&](Int place) {
+            const Stop& stop = fleet_.stop(slot, first + place);
+            if (stop.kind == customer_stop) removed_.mark(stop.node);
+        });
     }
 
 private:
-    // Mark `size` adjacent stops of a trip around stop `p`, or all but some within.
-    void mark_string(Int slot, const Trip& trip, Int p, Int size) {
-        const Int stops_there = trip.last - trip.first - 1;
-        Int spared = 0;
-        if (size > 1 && size < stops_there && uniform(rng_) < split_share) {
-            spared = 1;
-            while (size + spared < stops_there && uniform(rng_) < split_more_share) ++spared;
-        }
-        const Int span = size + spared;
-        const Int lowest = std::max(trip.first + 1, p - span + 1);
-        const Int highest = std::min(p, trip.last - span);
-        const Int begin = lowest + below(rng_, highest - lowest + 1);
-        const Int gap = spared > 0 ? 1 + below(rng_, size - 1) : size;
-        for (Int offset = 0; offset < span; ++offset) {
-            if (offset >= gap && offset < gap + spared) continue;
-            const Stop& stop = fleet_.stop(slot, begin + offset);
-            if (stop.kind == customer_stop) removed_.mark(stop.node);
-        }
-    }
-
     const Fleet& fleet_;
     const View<std::uint64_t, 1> rng_;
     const double longest_;
@@ -82,6 +64,22 @@ bool listed(View<const Int, 1> slots, Int count, Int slot) {
 }
 
 }  // namespace
+
+StopString draw_string(View<std::uint64_t, 1> rng, double longest, Int stops) {
+    Int size = 1 + static_cast<Int>(uniform(rng) * std::min(longest, static_cast<double>(stops)));
+    if (uniform(rng) < whole_trip_share && stops <= longest_whole_trip) size = stops;
+    size = std::min(size, stops);
+    Int spared = 0;
+    if (size > 1 && size < stops && uniform(rng) < split_share) {
+        spared = 1;
+        while (size + spared < stops && uniform(rng) < split_more_share) ++spared;
+    }
+    return {size, spared};
+}
+
+Int draw_gap(View<std::uint64_t, 1> rng, const StopString& string) {
+    return string.spared > 0 ? 1 + below(rng, string.size - 1) : string.size;
+}
 
 double longest_string(const Searcher& searcher, Int trips) {
     const SearchCounts& count = *searcher.count;

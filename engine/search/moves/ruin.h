@@ -1,15 +1,41 @@
 // Removal of strings of adjacent customers.
 #pragma once
 
+#include <algorithm>
+
+#include "randomness.h"
 #include "search/route/edit.h"
 
 namespace tandem {
 
 constexpr double longest_usual_string = 10;  // stops, but where `SearchValues::longest` allows more
-constexpr double split_share = 0.5;          // how often a string spares some within
-constexpr double split_more_share = 0.01;    // and each time one more of them
-constexpr double whole_trip_share = 0.05;    // how often a trip is removed whole
-constexpr Int longest_whole_trip = 25;       // if it has no more stops than this
+
+// A string of stops, how many of them are removed, and how many within are spared.
+struct StopString {
+    Int size, spared;
+
+    Int span() const { return size + spared; }
+};
+
+// Draw a string of a row of so many stops. As a rule it removes no more than `longest`.
+StopString draw_string(View<std::uint64_t, 1> rng, double longest, Int stops);
+
+// Draw behind how many that are removed those come that are spared.
+Int draw_gap(View<std::uint64_t, 1> rng, const StopString& string);
+
+// Call `remove` with the places in such a row, from 0 on, of a string drawn around one of them.
+template <class Remove>
+void draw_around(View<std::uint64_t, 1> rng, double longest, Int stops, Int place,
+                 const Remove& remove) {
+    const StopString string = draw_string(rng, longest, stops);
+    const Int lowest = std::max(Int{0}, place - string.span() + 1);
+    const Int highest = std::min(place, stops - string.span());
+    const Int begin = lowest + below(rng, highest - lowest + 1);
+    const Int gap = draw_gap(rng, string);
+    for (Int offset = 0; offset < string.span(); ++offset) {
+        if (offset < gap || offset >= gap + string.spared) remove(begin + offset);
+    }
+}
 
 // Return how many stops a string has at most: as many as each of so many trips has on average, or
 // less.

@@ -233,25 +233,10 @@ private:
 
     // Marks adjacent stops around a node, or all but some within.
     void mark_string(const PairRow& row, Int node, double longest, Removed& removed) {
-        const View<std::uint64_t, 1> rng = searcher_.rng;
         const Int stops = Int(row.node.size()) - 2;
         const Int p = Int(std::find(row.node.begin(), row.node.end(), node) - row.node.begin());
-        Int size = 1 + Int(uniform(rng) * std::min(longest, double(stops)));
-        if (uniform(rng) < whole_trip_share && stops <= longest_whole_trip) size = stops;
-        size = std::min(size, stops);
-        Int spared = 0;
-        if (size > 1 && size < stops && uniform(rng) < split_share) {
-            spared = 1;
-            while (size + spared < stops && uniform(rng) < split_more_share) ++spared;
-        }
-        const Int lowest = std::max(Int{1}, p - size - spared + 1);
-        const Int highest = std::min(p, 1 + stops - size - spared);
-        const Int begin = lowest + below(rng, highest - lowest + 1);
-        const Int gap = spared > 0 ? 1 + below(rng, size - 1) : size;
-        for (Int offset = 0; offset < size + spared; ++offset) {
-            if (offset >= gap && offset < gap + spared) continue;
-            removed.mark(row.node[std::size_t(begin + offset)]);
-        }
+        draw_around(searcher_.rng, longest, stops, p - 1,
+                    [&](Int place) { removed.mark(row.node[std::size_t(place + 1)]); });
     }
 
     // Takes those marked out of a row; all, if the rest breaks a rule.
