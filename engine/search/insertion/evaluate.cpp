@@ -29,15 +29,15 @@
 namespace tandem {
 namespace {
 
-// The first and the last of some stops.
-struct Part {
+// The first and the last of the stops that a move changes.
+struct ChangedStops {
     Int first;
     Int last;
 };
 
 // Copies the sequence of stops `first` to `last` with their sorties to another slot; returns how
 // many sorties were skipped.
-Int copy_part(const Fleet& fleet, Int slot, Part part, Int to) {
+Int copy_part(const Fleet& fleet, Int slot, ChangedStops part, Int to) {
     const View<const Stop, 1> source = fleet.stop[slot];
     const View<Stop, 1> target = fleet.stop[to];
     for (Int p = part.first; p <= part.last; ++p) {
@@ -69,7 +69,8 @@ Int copy_part(const Fleet& fleet, Int slot, Part part, Int to) {
 //
 // `held` tells that the trip will begin later, so that all from its beginning on changes. Of one
 // who flies by itself, the whole trip has to be looked at.
-Part part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& move, bool held) {
+ChangedStops part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& move,
+                     bool held) {
     const View<const Stop, 1> stops = fleet.stop[slot];
     Int p = move.first, q = p + 1;
     if (move.kind == by_sortie) {
@@ -142,26 +143,13 @@ std::optional<DrivenPart> time_part(const ProblemData& data, const Fleet& fleet,
     BlockSums sums;
     sums.launched = launches_before(type, fleet.route[slot], fleet.sortie[slot],
                                     fleet.trip(slot, old[first].trip), first);
-    Int p = 0, s = 0, driven = 0;
-    while (p < length) {
-        Stop& stop = stops[p];
-        Int last = p;
-        const Int time = front.time;
-        if (stop.kind == start_stop) sums.launched = 0;
-        if (s < count && sorties[s].launch == p) {
-            sums.time = time;
-            sums.oldest = s;
-            last = time_block(truck, stops, sorties, p, sums);
-            if (last < 0) return std::nullopt;
-            while (s < count && sorties[s].launch <= last) ++s;
-            for (Int q = p; q < last; ++q) {
-                driven += leg(legs, stops[q].node, stops[q + 1].node).distance;
-            }
-        } else {
-            truck.time_alone(stop, time);
+    Int driven = 0;
+    for (Int p = 0; p < length;) {
+        const Int last = pass_block(truck, stops, sorties, p, sums, front);
+        if (last < 0) return std::nullopt;
+        for (Int q = p; q < last; ++q) {
+            driven += leg(legs, stops[q].node, stops[q + 1].node).distance;
         }
-        if (time > stop.hi || time < stop.lo) return std::nullopt;
-        front.pass({stop.d, stop.c}, stop.dep);
         p = last + 1;
         if (p == length) break;
         Int gap = type.reload_duration;
@@ -178,7 +166,8 @@ std::optional<DrivenPart> time_part(const ProblemData& data, const Fleet& fleet,
 }
 
 // Returns what it costs to put the stops in slot `to` in the place of a part.
-double price_part(const ProblemData& data, const Fleet& fleet, Int slot, Part part, Int to) {
+double price_part(const ProblemData& data, const Fleet& fleet, Int slot, ChangedStops part,
+                  Int to) {
     const std::optional<DrivenPart> driven_part = time_part(data, fleet, slot, part.first, to);
     if (!driven_part) return infeasible;
     auto [front, driven] = *driven_part;
@@ -383,7 +372,8 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
     const Trip& trip = fleet.trip(slot, fleet.stop(slot, there).trip);
     const Int release = release_of(data.place[0][node]);
     const bool alone = kind == new_trip || kind == flight_trip || kind == halt_trip;
-    const Part part = part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
+    const ChangedStops part =
+        part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
     const Move moved = within(move, part.first, skipped);
     if (!apply(depot, sequence_in(fleet, to), moved, node, data.pair)) return infeasible;

@@ -8,7 +8,6 @@
 #include "rules/launch_place.h"
 #include "rules/load.h"
 #include "rules/pair.h"
-#include "rules/segment.h"
 #include "rules/shift.h"
 #include "search/route/batteries.h"
 #include "search/route/lags.h"

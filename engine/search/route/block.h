@@ -11,10 +11,12 @@
 #include "rules/driving.h"
 #include "rules/hours.h"
 #include "rules/leg.h"
+#include "rules/segment.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/route/drone_data.h"
+#include "search/route/lags.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -180,5 +182,42 @@ void make_ready(const Truck& truck, View<const Stop, 1> stops, View<Sortie, 1> s
 // `sums.oldest` is the first sortie not yet over. Returns the block's last stop, -1 if not allowed.
 Int time_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties, Int first,
                BlockSums& sums);
+
+// Write the block from stop `first`, to which a truck has come, and go through it. In place.
+//
+// Sorties before `sums.oldest` are over. Returns the block's last stop, -1 if not allowed.
+inline Int pass_block(const Truck& truck, View<Stop, 1> stops, View<Sortie, 1> sorties, Int first,
+                      BlockSums& sums, PaidFront& front) {
+    Stop& stop = stops[first];
+    const Int time = front.time;
+    Int last = first;
+    if (stop.kind == start_stop) {
+        sums.launched = 0;
+        sums.first_sortie = sums.oldest;
+    }
+    if (sums.oldest < sorties.size() && sorties[sums.oldest].launch == first) {
+        sums.time = time;
+        last = time_block(truck, stops, sorties, first, sums);
+        if (last < 0) return -1;
+    } else {
+        truck.time_alone(stop, time);
+        stop.flying = stop.idle = 0;
+        stop.block = first;
+        if (lags_count(truck.data)) {
+            const Int leave = await_others(truck, stops, sorties, first, time);
+            if (leave == far) return -1;
+            stop.c = std::max(stop.c, leave);
+        }
+    }
+    if (time > stop.hi || time < stop.lo) return -1;
+    stop.arrival = time;
+    stop.before = front.busy;
+    stop.last = last;
+    front.pass({stop.d, stop.c}, stop.dep);
+    stops[last].leave = front.time;
+    stops[last].cum = front.busy;
+    stops[last].depart = front.depart;
+    return last;
+}
 
 }  // namespace tandem

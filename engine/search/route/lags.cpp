@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "search/route/block.h"
+
 namespace tandem {
 namespace {
 

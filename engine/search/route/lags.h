@@ -2,10 +2,11 @@
 #pragma once
 
 #include "rules/lag.h"
-#include "search/route/block.h"
 #include "search/route/layout.h"
 
 namespace tandem {
+
+struct Truck;
 
 // Tell whether anybody is to be served some time behind others.
 inline bool lags_count(const ProblemData& data) { return !data.lag.empty(); }

@@ -181,46 +181,16 @@ bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
     sums.driver = driver_from(truck.type, truck.begin);
     const bool rested = truck.follows && any_rest(truck.type, route);
     make_ready(truck, stops, sorties);
-    Int p = 0, s = 0;
-    while (p < length) {
-        Stop& stop = stops[p];
-        Int last = p;
-        const Int time = front.time;
-        if (stop.kind == start_stop) {
-            sums.launched = 0;
-            sums.first_sortie = s;
-        }
-        if (s < count && sorties[s].launch == p) {
-            sums.time = time;
-            sums.oldest = s;
-            last = time_block(truck, stops, sorties, p, sums);
-            if (last < 0) return false;
-            while (s < count && sorties[s].launch <= last) ++s;
-        } else {
-            truck.time_alone(stop, time);
-            stop.flying = stop.idle = 0;
-            stop.block = p;
-            if (lags_count(data)) {
-                const Int leave = await_others(truck, stops, sorties, p, time);
-                if (leave == far) return false;
-                stop.c = std::max(stop.c, leave);
-            }
-        }
-        if (time > stop.hi || time < stop.lo) return false;
-        stop.arrival = time;
-        stop.before = front.busy;
-        stop.last = last;
-        front.pass({stop.d, stop.c}, stop.dep);
-        Stop& behind = stops[last];
-        const Int leave = behind.leave = front.time;
-        behind.cum = front.busy;
-        behind.depart = front.depart;
+    for (Int p = 0; p < length;) {
+        const Int last = pass_block(truck, stops, sorties, p, sums, front);
+        if (last < 0) return false;
+        const Stop& behind = stops[last];
         front.drive(behind.gap);
         if (behind.kind != end_stop) {
             const Int next = stops[last + 1].node;
-            front.time = truck.travel(behind.node, next, behind.gap, {none, leave}).c;
+            front.time = truck.travel(behind.node, next, behind.gap, {none, behind.leave}).c;
             if (truck.pauses(behind)) {
-                front.time = truck.come(behind, next, leave, sums.driver);
+                front.time = truck.come(behind, next, behind.leave, sums.driver);
                 if (front.time == far ||
                     (rested && may_drive(truck.type, sums.driver, front.time) < 0)) {
                     return false;

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "search/route/block.h"
 #include "search/route/lags.h"
 
 namespace tandem {
