@@ -203,6 +203,18 @@ inline bool may_be_all(const VehicleType& type, const Cargo& cargo, Int tier) {
            !comes_first(type, cargo.total_picked, cargo.total_delivered);
 }
 
+// Whether a vehicle of a type may carry on one trip what two parts of it do, one behind the other.
+inline bool may_be_joined(const VehicleType& type, const Cargo& one, const Cargo& other, Int tier) {
+    return may_follow(type, one, other) && may_be_all(type, followed(one, other), tier);
+}
+
+// The cargo of stops in a row, `behind` not among them.
+inline Cargo cargo_between(View<const StopLoad, 1> stop_loads, Int first, Int behind) {
+    Cargo cargo = no_cargo;
+    for (Int p = first; p < behind; ++p) cargo = followed(cargo, cargo_at(stop_loads[p]));
+    return cargo;
+}
+
 // Lets parcels leave the truck at a stop.
 inline void add_left(StopLoad& stop_load, const Amount& amount, Int sum_of_all) {
     write_amount(plus(amount_of(stop_load.leaving), amount), stop_load.leaving);

@@ -59,12 +59,12 @@ bool halves_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, In
     for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
         const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
         const Cargo more = cargo_for(data.amount, node, tier);
-        Cargo one{}, other{};
-        for (Int q = trip.first; q <= p; ++q) one = followed(one, cargo_at(stop_loads[q]));
-        for (Int q = p + 1; q <= trip.last; ++q) other = followed(other, cargo_at(stop_loads[q]));
-        if (!(front ? may_follow(type, one, more) : may_follow(type, more, other))) return false;
-        (front ? one : other) = front ? followed(one, more) : followed(more, other);
-        if (!may_be_all(type, one, tier) || !may_be_all(type, other, tier)) return false;
+        const Cargo one = cargo_between(stop_loads, trip.first, p + 1);
+        const Cargo other = cargo_between(stop_loads, p + 1, trip.last + 1);
+        if (!may_be_joined(type, one, front ? more : no_cargo, tier) ||
+            !may_be_joined(type, front ? no_cargo : more, other, tier)) {
+            return false;
+        }
     }
     return true;
 }

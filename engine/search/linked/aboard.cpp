@@ -129,9 +129,7 @@ bool may_carry_both(const ProblemData& data, const Linked& linked, const Vehicle
         for (Int node = tail; node >= data.num_depots; node = linked.link[node].behind) {
             rest = followed(rest, cargo_for(data.amount, node, tier));
         }
-        if (!may_follow(type, front, rest) || !may_be_all(type, followed(front, rest), tier)) {
-            return false;
-        }
+        if (!may_be_joined(type, front, rest, tier)) return false;
     }
     return true;
 }

@@ -92,16 +92,11 @@ double tail_saving(const ProblemData& data, const Fleet& fleet, Cut a, Cut b) {
 // Tell whether a trip up to cut `a`, which goes on behind cut `b`, may carry all.
 bool is_cargo(const ProblemData& data, const Fleet& fleet, Cut a, Cut b, Int tier) {
     const VehicleType& type = data.type[fleet.route[a.slot].type];
-    Cargo front{};
-    for (Int p = fleet.trip(a.slot, fleet.stop(a.slot, a.stop).trip).first; p <= a.stop; ++p) {
-        front = followed(front, cargo_at(fleet.stop_load(a.slot, tier, p)));
-    }
-    Cargo rest{};
-    for (Int p = b.stop + 1;
-         p < fleet.route[b.slot].length && fleet.stop(b.slot, p).kind != start_stop; ++p) {
-        rest = followed(rest, cargo_at(fleet.stop_load(b.slot, tier, p)));
-    }
-    return may_follow(type, front, rest) && may_be_all(type, followed(front, rest), tier);
+    const Trip& one = fleet.trip(a.slot, fleet.stop(a.slot, a.stop).trip);
+    const Trip& other = fleet.trip(b.slot, fleet.stop(b.slot, b.stop).trip);
+    return may_be_joined(type, cargo_between(fleet.stop_load[a.slot][tier], one.first, a.stop + 1),
+                         cargo_between(fleet.stop_load[b.slot][tier], b.stop + 1, other.last + 1),
+                         tier);
 }
 
 // Tell whether the trip that begins before cut `a` and goes on behind cut `b` carries too much.
