@@ -56,15 +56,16 @@ void PlaceFinder::measure(const PairRow& row, const Newcomer& newcomer, End& end
     const Int opens = newcomer.place.opening(0), closes = newcomer.place.latest_allowed();
     const Int service = newcomer.place.service_duration();
     const Int *const out = end.out.data(), *const on = end.on.data() + 1;
-    const Int *const way = row.way.data(), *const leave = row.leave.data();
-    const Int* const due = row.due.data() + 1;
+    const Int* const way = row.way.data();
+    const Front* const front = row.front.data();
+    const Rear* const rear = row.rear.data() + 1;
     const Int *const further_out = end.further_out.data(), *const on_to = end.on_to.data() + 1;
     Int* const further = end.further.data();
     for (std::size_t p = 0; p + 1 < stops; ++p) {
-        const Int arrival = leave[p] + out[p];
+        const Int arrival = front[p].time + out[p];
         const Int next = std::max(arrival, opens) + service + on[p];
         const Int more = further_out[p] + on_to[p] - way[p];
-        further[p] = arrival <= closes && next <= due[p] ? more : endless;
+        further[p] = arrival <= closes && next <= rear[p].latest ? more : endless;
     }
 }
 
@@ -74,9 +75,9 @@ void PlaceFinder::scan_together(const PairRow& row, Int slot, CheapestPlace& bes
         const Int further =
             pickup_.further_out[p] + together.distance + delivery_.on_to[p + 1] - row.way[p];
         if (further >= best.further) continue;
-        Front front{row.leave[p] + pickup_.out[p]};
-        if (front.serve(pickup.place) && rows_.fits(row, Int(p), pickup.node) &&
-            delivery.is_in_time({front.time + together.duration}, {row.due[p + 1]},
+        Front front = row.front[p];
+        if (front.serve(pickup.place, pickup_.out[p]) && rows_.fits(row, Int(p), pickup.node) &&
+            delivery.is_in_time({front.time + together.duration}, row.rear[p + 1],
                                 [&] { return delivery_.on[p + 1]; })) {
             take(slot, {Int(p), Int(p)}, further, best);
         }
@@ -87,18 +88,18 @@ void PlaceFinder::scan_from(const PairRow& row, Int slot, Int p, CheapestPlace& 
     const auto& [pickup, delivery, together] = pair_;
     const std::size_t here = std::size_t(p), last = row.node.size() - 1;
     const Int further = pickup_.further[here];
-    Front front{row.leave[here] + pickup_.out[here]};
-    front.serve(pickup.place);
+    Front front = row.front[here];
+    front.serve(pickup.place, pickup_.out[here]);
     front.drive(pickup_.on[here + 1]);
     for (std::size_t q = here + 1; q < last; ++q) {
-        if (further + least_[q] >= best.further || front.time > row.due[q] ||
+        if (further + least_[q] >= best.further || !row.rear[q].allows(front) ||
             !rows_.fits(row, Int(q), pickup.node)) {
             return;
         }
         front.serve(places_[row.node[q]]);
         if (further + delivery_.further[q] < best.further &&
             delivery.is_in_time(
-                {front.time + delivery_.out[q]}, {row.due[q + 1]},
+                {front.time + delivery_.out[q]}, row.rear[q + 1],
                 [&] { return delivery_.on[q + 1]; })) {
             take(slot, {p, Int(q)}, further + delivery_.further[q], best);
         }

@@ -18,13 +18,13 @@ void PairRows::empty(PairRow& row) const {
 
 bool PairRows::time(PairRow& row) const {
     const std::size_t stops = row.node.size(), last = stops - 1;
-    row.leave.resize(stops);
-    row.due.resize(stops);
+    row.front.resize(stops);
+    row.rear.resize(stops);
     row.gap.resize(stops);
     row.way.resize(stops);
     row.load.resize(stops * std::size_t(tiers_));
     Front front{begin_};
-    row.leave[0] = begin_;
+    row.front[0] = front;
     row.distance = 0;
     for (std::size_t p = 0; p < last; ++p) {
         const Leg next = leg(legs_, row.node[p], row.node[p + 1]);
@@ -33,13 +33,13 @@ bool PairRows::time(PairRow& row) const {
         row.distance += next.distance;
         front.drive(next.duration);
         if (p + 1 < last && !front.serve(places_[row.node[p + 1]])) return false;
-        row.leave[p + 1] = front.time;
+        row.front[p + 1] = front;
     }
     Rear rear{end_};
-    row.due[last] = end_;
+    row.rear[last] = rear;
     for (std::size_t p = last; p-- > 1;) {
         rear.serve(places_[row.node[p]], row.gap[p]);
-        row.due[p] = rear.latest;
+        row.rear[p] = rear;
     }
     for (Int tier = 0; tier < tiers_; ++tier) {
         Amount load = nothing;
@@ -48,7 +48,7 @@ bool PairRows::time(PairRow& row) const {
             row.load[p * std::size_t(tiers_) + std::size_t(tier)] = load;
         }
     }
-    return row.leave[last] <= end_;
+    return row.rear[last].allows(front);
 }
 
 void PairRows::leave_out(const PairRow& row, Int one, Int other, PairRow& without) const {

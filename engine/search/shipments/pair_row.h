@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rules/load.h"
+#include "rules/segment.h"
 #include "rules/shift.h"
 #include "rules/start.h"
 #include "search/insertion/newcomer.h"
@@ -25,8 +26,8 @@ struct PairPlace {
 // The stops of a vehicle, from where it begins to where it ends.
 struct PairRow {
     std::vector<Int> node;
-    std::vector<Int> leave;    // at the earliest
-    std::vector<Int> due;      // the last arrival by which all that follow are served in time
+    std::vector<Front> front;  // up to where each is left
+    std::vector<Rear> rear;    // from where each is reached
     std::vector<Int> gap;      // how long it takes to the next
     std::vector<Int> way;      // how far it is there
     std::vector<Amount> load;  // (stop, tier) on leaving
@@ -68,7 +69,7 @@ public:
         const Int last = Int(row.node.size()) - 1;
         if (!takes_more(row)) return;
         for (Int p = 0; p < last; ++p) {
-            if (pair.pickup.place.too_late(row.leave[std::size_t(p)])) return;
+            if (pair.pickup.place.too_late(row.front[std::size_t(p)].time)) return;
             if (fits(row, p, pair.pickup.node)) {
                 walk(row, pair, p, [&](Int q) { visit(PairPlace{p, q}); });
             }
@@ -106,20 +107,20 @@ private:
     void walk(const PairRow& row, const PairToInsert& pair, Int p, const Visit& visit) const {
         const Int last = Int(row.node.size()) - 1;
         const auto& [pickup, delivery, together] = pair;
-        Front front{row.leave[std::size_t(p)]};
+        Front front = row.front[std::size_t(p)];
         if (!front.serve(pickup.place, leg_from(pickup.inward, row.node[std::size_t(p)]).duration))
             return;
         for (Int q = p; !delivery.place.too_late(front.time); ++q) {
             const Int next = row.node[std::size_t(q + 1)];
             const Int out = q == p ? together.duration
                                    : leg_from(delivery.inward, row.node[std::size_t(q)]).duration;
-            if (delivery.is_in_time({front.time + out}, {row.due[std::size_t(q + 1)]},
+            if (delivery.is_in_time({front.time + out}, row.rear[std::size_t(q + 1)],
                                     [&] { return leg_to(delivery.onward, next).duration; })) {
                 visit(q);
             }
             if (q + 1 == last || !fits(row, q + 1, pickup.node)) return;
             front.drive(q == p ? leg_to(pickup.onward, next).duration : row.gap[std::size_t(q)]);
-            if (front.time > row.due[std::size_t(q + 1)]) return;
+            if (!row.rear[std::size_t(q + 1)].allows(front)) return;
             front.serve(places_[next]);
         }
     }
