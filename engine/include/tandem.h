@@ -683,13 +683,13 @@ typedef struct tandem_chain {
     int64_t travel; /* likewise, how long the legs between them are */
 } tandem_chain;
 
-/* What a chain carries, by its first customer. */
+/* What a chain carries, by its first customer. Laid out as the engine's `Cargo`. */
 typedef struct tandem_chain_cargo {
-    int64_t delivers; /* sum over all dimensions */
-    int64_t picks;    /* likewise */
     int64_t delivered[3];
     int64_t picked[3];
     int64_t most[3]; /* that is aboard of both */
+    int64_t delivers; /* sum over all dimensions */
+    int64_t picks;    /* likewise */
 } tandem_chain_cargo;
 
 /* A customer on linked stops. Times are kept only where something limits them. A cache line. */

@@ -1,6 +1,7 @@
 #include "search/beginning/savings.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "guard.h"
 #include "rules/flown_trip.h"
@@ -18,18 +19,11 @@ namespace tandem {
 namespace {
 
 // What the chain that begins here carries.
-Cargo chain_cargo(const ChainCargo& chain) {
-    return {amount_of(chain.delivered), amount_of(chain.picked), amount_of(chain.most),
-            chain.delivers, chain.picks};
-}
+Cargo chain_cargo(const ChainCargo& chain) { return std::bit_cast<Cargo>(chain); }
 
 // Lets the chain that begins here carry a cargo.
 void set_chain_cargo(ChainCargo& chain, const Cargo& cargo) {
-    write_amount(cargo.delivered, chain.delivered);
-    write_amount(cargo.picked, chain.picked);
-    write_amount(cargo.most, chain.most);
-    chain.delivers = cargo.total_delivered;
-    chain.picks = cargo.total_picked;
+    chain = std::bit_cast<ChainCargo>(cargo);
 }
 
 // How fast a type drives from where its routes begin, in mm per ms.
