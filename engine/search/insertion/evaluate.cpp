@@ -272,14 +272,7 @@ bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, 
 class WaysAlone {
 public:
     WaysAlone(const ProblemData& data, Int k, Int node, bool by_drone)
-        : data_(data),
-          k_(k),
-          node_(node),
-          by_drone_(by_drone),
-          options_(by_drone && may_cross(data.type[k]) ? ways - from_start : 1),
-          halts_(by_drone && has_halts(data) ? data.near_halts.shape(1) : 0),
-          flights_(by_drone ? options_ * num_drone_rows(data.type, k) : 1),
-          begun_(flights_ + ways_by_halt * halts_ * num_drone_rows(data.type, k)) {}
+        : data_(data), k_(k), node_(node), by_drone_(by_drone) {}
 
     Int number() const { return begun_ * ways_to_deliver(data_, k_, node_); }
 
@@ -312,10 +305,10 @@ private:
     const Int k_;
     const Int node_;
     const bool by_drone_;
-    const Int options_;
-    const Int halts_;
-    const Int flights_;
-    const Int begun_;
+    const Int options_ = by_drone_ && may_cross(data_.type[k_]) ? ways - from_start : 1;
+    const Int halts_ = by_drone_ && has_halts(data_) ? data_.near_halts.shape(1) : 0;
+    const Int flights_ = by_drone_ ? options_ * num_drone_rows(data_.type, k_) : 1;
+    const Int begun_ = flights_ + ways_by_halt * halts_ * num_drone_rows(data_.type, k_);
 };
 
 }  // namespace

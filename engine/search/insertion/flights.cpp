@@ -41,26 +41,7 @@ Int free_until(const ProblemData& data, const Fleet& fleet, Int slot, Int launch
 class Flights {
 public:
     Flights(const Insertion& insertion, Int slot, Int row)
-        : data_(insertion.data),
-          searcher_(insertion.searcher),
-          slot_(slot),
-          row_(row),
-          node_(insertion.node),
-          stops_(searcher_.now.stop[slot]),
-          length_(searcher_.now.route[slot].length),
-          type_(data_.type[row]),
-          rate_(data_.rate[row]),
-          place_(data_.place.by_air(type_)[node_]),
-          inward_(legs_to(data_.back, type_.drone_travel, node_)),
-          onward_(legs_from(data_.leg, type_.home_travel, node_)),
-          room_(room_on(data_, searcher_.now, slot, searcher_.now.route[slot].type, node_)),
-          crosses_(data_.strategy.crossings &&
-                   !waits_for_drones(data_.type[searcher_.now.route[slot].type])),
-          best_(insertion.best.cost),
-          saved_(most_saved(data_, searcher_.now, slot, node_)),
-          idle_(idle_time(searcher_.now.route[slot])),
-          priced_(data_.evaluation[searcher_.now.route[slot].type].priced),
-          loaded_(loads_cost(data_, searcher_.now.route[slot].type)) {}
+        : insertion_(insertion), slot_(slot), row_(row) {}
 
     // Lists those from stop `launch`.
     void offer_from(Int launch) const {
@@ -87,8 +68,9 @@ public:
             const double flown = flown_cost(rate_, out.distance + home.distance);
             if (flown + late - saved_ >= best_ || !in_range(data_, type_, to.node, node_)) continue;
             if (!is_launch_place(data_.no_launch, to.node)) continue;
-            if (recovery < length_ - 1 && recovery_end(type_, front.time + home.duration) + to.gap >
-                                              stops_[recovery + 1].latest) {
+            if (recovery < route_.length - 1 &&
+                recovery_end(type_, front.time + home.duration) + to.gap >
+                    stops_[recovery + 1].latest) {
                 continue;
             }
             const Flight flight{type_, place_, out.duration, home.duration};
@@ -114,25 +96,27 @@ public:
     }
 
 private:
-    const ProblemData& data_;
-    const Searcher& searcher_;
-    Int slot_;
-    Int row_;
-    Int node_;
-    View<const Stop, 1> stops_;
-    Int length_;
-    const VehicleType& type_;
-    Rate rate_;
-    Windows place_;
-    LegRow inward_;
-    LegRow onward_;
-    Room room_;
-    bool crosses_;
-    double best_;
-    double saved_;  // at most, beside what is flown and worked
-    Int idle_;      // how long the route could work longer at no cost
-    bool priced_;
-    bool loaded_;
+    const Insertion& insertion_;
+    const Int slot_;
+    const Int row_;
+    const ProblemData& data_ = insertion_.data;
+    const Searcher& searcher_ = insertion_.searcher;
+    const Int node_ = insertion_.node;
+    const View<const Stop, 1> stops_ = searcher_.now.stop[slot_];
+    const Route& route_ = searcher_.now.route[slot_];
+    const VehicleType& type_ = data_.type[row_];
+    const Rate rate_ = data_.rate[row_];
+    const Windows place_ = data_.place.by_air(type_)[node_];
+    const LegRow inward_ = legs_to(data_.back, type_.drone_travel, node_);
+    const LegRow onward_ = legs_from(data_.leg, type_.home_travel, node_);
+    const Room room_ = room_on(data_, searcher_.now, slot_, route_.type, node_);
+    const bool crosses_ = data_.strategy.crossings && !waits_for_drones(data_.type[route_.type]);
+    const double best_ = insertion_.best.cost;
+    // At most, beside what is flown and worked.
+    const double saved_ = most_saved(data_, searcher_.now, slot_, node_);
+    const Int idle_ = idle_time(route_);  // how long the route could work longer at no cost
+    const bool priced_ = data_.evaluation[route_.type].priced;
+    const bool loaded_ = loads_cost(data_, route_.type);
 };
 
 }  // namespace

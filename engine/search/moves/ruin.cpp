@@ -23,34 +23,22 @@ constexpr double split_more_share = 0.01;  // and each time one more of them
 constexpr double whole_trip_share = 0.05;  // how often a trip is removed whole
 constexpr Int longest_whole_trip = 25;     // if it has no more stops than this
 
-// Marks strings of customers to be removed.
-class Strings {
-public:
-    Strings(const Fleet& fleet, View<std::uint64_t, 1> rng, double longest, Removed& removed)
-        : fleet_(fleet), rng_(rng), longest_(longest), removed_(removed) {}
-
-    // Mark a string around a customer, and the customer if a drone serves it.
-    void mark_around(Int node) {
-        const Int slot = fleet_.where[node].slot;
-        const Int p = stop_beside(fleet_, node);
-        if (fleet_.where[node].position < 0) removed_.mark(node);
-        const Trip& trip = fleet_.trip(slot, fleet_.stop(slot, p).trip);
-        const Int stops_there = trip.last - trip.first - 1;
-        if (stops_there == 0) return;
-        // A drone may have been launched at either of the depot's stops.
-        const Int first = trip.first + 1, middle = std::clamp(p, first, trip.last - 1);
-        draw_around(rng_, longest_, stops_there, middle - first, [&](Int place) {
-            const Stop& stop = fleet_.stop(slot, first + place);
-            if (stop.kind == customer_stop) removed_.mark(stop.node);
-        });
-    }
-
-private:
-    const Fleet& fleet_;
-    const View<std::uint64_t, 1> rng_;
-    const double longest_;
-    Removed& removed_;
-};
+// Mark a string around a customer, and the customer if a drone serves it. In place.
+void mark_around(const Fleet& fleet, View<std::uint64_t, 1> rng, double longest, Int node,
+                 Removed& removed) {
+    const Int slot = fleet.where[node].slot;
+    const Int p = stop_beside(fleet, node);
+    if (fleet.where[node].position < 0) removed.mark(node);
+    const Trip& trip = fleet.trip(slot, fleet.stop(slot, p).trip);
+    const Int stops_there = trip.last - trip.first - 1;
+    if (stops_there == 0) return;
+    // A drone may have been launched at either of the depot's stops.
+    const Int first = trip.first + 1, middle = std::clamp(p, first, trip.last - 1);
+    draw_around(rng, longest, stops_there, middle - first, [&](Int place) {
+        const Stop& stop = fleet.stop(slot, first + place);
+        if (stop.kind == customer_stop) removed.mark(stop.node);
+    });
+}
 
 // Mark all customers of a route. In place.
 void mark_all(const Fleet& fleet, Int slot, Removed& removed) {
@@ -105,7 +93,6 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
     const Fleet& fleet = searcher.now;
     const Int turn = searcher.count->turn;
     const Int before = removed.count;
-    Strings chosen(fleet, searcher.rng, longest, removed);
     Int num_touched = 0;
     Int strings = draw_strings(longest, searcher.rng);
     const Int seed = draw_seed(data, searcher, removed.absent.first(removed.count));
@@ -120,7 +107,7 @@ Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Remov
                 removed.mark(node);
             } else if (last_turn != turn) {
                 last_turn = turn;
-                chosen.mark_around(node);
+                mark_around(fleet, searcher.rng, longest, node, removed);
             }
             if (removed.count > marked) {
                 --strings;

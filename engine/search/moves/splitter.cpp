@@ -43,17 +43,7 @@ struct Operation {
 class Splitting {
 public:
     Splitting(const ProblemData& data, Int k, View<Line, 1> line, Int length, SplitScratch& scratch)
-        : data_(data),
-          k_(k),
-          type_(data.type[k]),
-          rate_(data.rate[k]),
-          drives_(data.can[k][0]),
-          flies_(data.can[k][1]),
-          places_(data.place.by_truck(type_)),
-          places_by_air_(data.place.by_air(type_)),
-          line_(line),
-          length_(length),
-          scratch_(scratch) {}
+        : data_(data), k_(k), line_(line), length_(length), scratch_(scratch) {}
 
     // Let operations begin where the line does.
     void begin() { begin_at(0, 0.0); }
@@ -217,16 +207,16 @@ private:
     }
 
     const ProblemData& data_;
-    Int k_;
-    const VehicleType& type_;
-    Rate rate_;
-    View<const bool, 1> drives_;
-    View<const bool, 1> flies_;
-    NodeTable places_;
-    NodeTable places_by_air_;
-    View<Line, 1> line_;
-    Int length_;
+    const Int k_;
+    const View<Line, 1> line_;
+    const Int length_;
     SplitScratch& scratch_;
+    const VehicleType& type_ = data_.type[k_];
+    const Rate rate_ = data_.rate[k_];
+    const View<const bool, 1> drives_ = data_.can[k_][0];
+    const View<const bool, 1> flies_ = data_.can[k_][1];
+    const NodeTable places_ = data_.place.by_truck(type_);
+    const NodeTable places_by_air_ = data_.place.by_air(type_);
 };
 
 }  // namespace

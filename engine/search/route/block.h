@@ -41,31 +41,21 @@ struct BlockSums {
 
 // A truck of a type, and what it meets on its way, looked up once for a route.
 struct Truck {
-    Truck(const ProblemData& data_of_it, Int row)
-        : data(data_of_it),
-          k(row),
-          type(data_of_it.type[row]),
-          places(data_of_it.place.by_truck(type)),
-          own(data_of_it.place[0]),
-          drones(drone_data_at(data_of_it, first_drone_row(data_of_it.type, row))),
-          speeds{type, data_of_it.profile_time[row], data_of_it.profile_factor[row]},
-          alike(!are_several(type)),
-          resting(rests_in_time(type)),
-          follows(follows_driver(type)),
-          steady(is_steady(type) && !resting) {}
+    Truck(const ProblemData& data_of_it, Int row) : data(data_of_it), k(row) {}
 
     const ProblemData& data;
     Int k;
-    const VehicleType& type;
-    NodeTable places;  // as this type meets them
-    NodeTable own;     // by the service durations that are customers' own
-    DroneData drones;  // what its first drones meet
-    Speeds speeds;
-    bool alike;        // all of its drones
-    bool resting;      // whether times hang on where its driver pauses
-    bool follows;      // and on how far it has come before
-    bool steady;       // whether all lasts as long at any time
-    Int begin = none;  // of the route, where times hang on pauses
+    const VehicleType& type = data.type[k];
+    NodeTable places = data.place.by_truck(type);  // as this type meets them
+    NodeTable own = data.place[0];  // by the service durations that are customers' own
+    // What its first drones meet.
+    DroneData drones = drone_data_at(data, first_drone_row(data.type, k));
+    Speeds speeds{type, data.profile_time[k], data.profile_factor[k]};
+    bool alike = !are_several(type);            // all of its drones
+    bool resting = rests_in_time(type);         // whether times hang on where its driver pauses
+    bool follows = follows_driver(type);        // and on how far it has come before
+    bool steady = is_steady(type) && !resting;  // whether all lasts as long at any time
+    Int begin = none;                           // of the route, where times hang on pauses
 
     // Return what the drone of a sortie meets.
     DroneData drone_data(const Sortie& sortie) const {
