@@ -13,9 +13,9 @@ from benchmarks.speed.pace import kinds, paces, table
 pytestmark = pytest.mark.slow
 
 
-def test_there_are_sixteen_kinds_of_problems() -> None:
+def test_there_are_nineteen_kinds_of_problems() -> None:
     drawn = list(kinds())
-    assert len({name for name, _ in drawn}) == len(drawn) == 16
+    assert len({name for name, _ in drawn}) == len(drawn) == 19
     assert max(problem.num_customers for _, problem in drawn) == 10_000
 
 
