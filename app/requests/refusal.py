@@ -42,6 +42,9 @@ hundreds of times the length of what it is about."""
 MAX_PARTS, BYTES_PER_PART = 200_000, 25
 """Most objects and arrays of a body: so many, and one more for so many bytes."""
 
+MAX_COLONS = 1_000_000
+"""Most colons of a body: one for each key, and those of times of day."""
+
 DECODED_AT_ONCE = 2**20
 """Bytes: a whole body as text would take up to four times its length."""
 
@@ -79,18 +82,26 @@ def require_readable(body: bytes, model: type[BaseModel]) -> None:
     """
     if len(body) < LEAST_BYTES:
         return
-    # Brackets in texts count as well, of which there are few.
-    parts, most = body.count(b"[") + body.count(b"{"), MAX_PARTS + len(body) // BYTES_PER_PART
-    if parts > most or len(body) <= LISTED_BYTES:
+    too_much = _excess(body)
+    if too_much or len(body) <= LISTED_BYTES:
         require_json(body)
-    if parts > most:
+    if too_much:
         raise InvalidRequestError([InputError(
-            code="TOO_MANY_PARTS", path="$", message=f"There are more than {most} objects and "
-            "arrays, more than any request needs: send less.")])
+            code="TOO_MANY_PARTS", path="$",
+            message=f"There are more than {too_much}, more than any request needs: send less.")])
     if len(body) > LISTED_BYTES:
         if too_large := list(early_errors(body)):
             raise InvalidRequestError(too_large)
         _require_shape(body, model)
+
+
+def _excess(body: bytes) -> str:
+    """Return what there is more of than in any request, nothing if there is no such thing."""
+    # What stands in texts counts as well, of which there are few.
+    most = MAX_PARTS + len(body) // BYTES_PER_PART
+    if body.count(b"[") + body.count(b"{") > most:
+        return f"{most} objects and arrays"
+    return f"{MAX_COLONS} keys" if body.count(b":") > MAX_COLONS else ""
 
 
 def _require_shape(body: bytes, model: type[BaseModel]) -> None:

@@ -159,8 +159,9 @@ class _Builder:
             entries = [each for each in free if isinstance(each, Mapping)]
             most = _largest([each.get("maxProperties") for each in some])
             entry = self.shape({"anyOf": entries}) if len(entries) == len(free) else Loose
-            if entry is Loose and most is not None:
-                return type("FewEntries", (LooseMap,), {"most": most})
+            if entry is Loose:
+                return type("FewEntries", (LooseMap,),
+                            {"most": MAX_LOOSE if most is None else most})
             return Annotated[dict[str, entry],  # type: ignore[valid-type]
                              Meta(max_length=most)]
         required = frozenset.intersection(*(frozenset(each.get("required", ())) for each in some))
@@ -184,7 +185,7 @@ class _Builder:
                    if isinstance(entry, Mapping)]
         most = _largest([each.get("maxItems") for each in some])
         entry = self.shape({"anyOf": entries}) if entries else Loose
-        if entry is Loose:
+        if _is_loose(entry):
             return LooseList
         listed = Annotated[list[entry], Meta(  # type: ignore[valid-type]
             min_length=min(each.get("minItems", 0) for each in some), max_length=most)]

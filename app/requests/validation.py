@@ -1,6 +1,7 @@
 """What the schema can't tell of a request: references, orders and sizes across fields."""
 
 from collections.abc import Collection, Sequence
+from itertools import islice
 
 import numpy as np
 
@@ -32,10 +33,13 @@ from model.problem import MOST_INCOMPATIBLE
 MAX_MATRIX_ERRORS = 20
 """Wrong entries listed per matrix."""
 
+MAX_VEHICLE_ERRORS = 20_000
+"""Names of vehicles listed that aren't there: each customer may have hundreds."""
+
 
 def semantic_errors(draft: Draft, policies: Collection[str] | None) -> list[InputError]:
     """Return every error that the schema can't tell."""
-    of_vehicles = list(vehicle_errors(draft))
+    of_vehicles = list(islice(vehicle_errors(draft), MAX_VEHICLE_ERRORS))
     return [
         *_id_errors("depots", draft.depots),
         *_id_errors("customers", draft.customers),

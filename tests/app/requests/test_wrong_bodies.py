@@ -161,6 +161,25 @@ def test_refusal_says_where_and_why() -> None:
         "MATRIX_VALUE", "$.matrices.truck.durations[0][0]")
 
 
+@pytest.mark.parametrize("where", [
+    b'"customers":[{"id":"1","demand":[1],"info":{%s}}]',
+    b'"customers":[{"id":"1","demand":[1],"vehicle_costs":{%s}}]',
+    b'"replan":{"plan":{"routes":[],"summary":{%s}}}',
+    b'"replan":{"plan":{"routes":[],"legs":[{%s}]}}'])
+def test_maps_are_bounded_by_their_keys_before_they_are_read(where: bytes) -> None:
+    def code(size: int) -> tuple[str, str]:
+        keys = b",".join(b'"%d":""' % index for index in range(size))
+        with pytest.raises(InvalidRequestError) as refused:
+            require_readable(b'{"depots":[],"fleet":[],' + where % keys + b"}", PlanRequest)
+        (found,) = refused.value.errors
+        return found.code, found.path
+
+    assert code(refusal.MAX_COLONS) == ("TOO_MANY_PARTS", "$")
+    fewer, path = code(refusal.MAX_COLONS // 2)
+    assert fewer != "TOO_MANY_PARTS"
+    assert path != "$"
+
+
 def test_large_valid_requests_are_let_through() -> None:
     customers = [{"id": str(index), "location": [index, 0.5], "demand": [1, 2, 3],
                   "location_index": index, "skills": ["a", "b"],

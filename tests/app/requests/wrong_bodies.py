@@ -25,11 +25,20 @@ from app.serving.settings import Settings
 SIZE = 8 * 2**20
 
 Endless = tuple[bytes, bytes, bytes]
-"""How a body begins, what it repeats, and how it ends."""
+"""How a body begins, what it repeats, and how it ends; `%d` in what it repeats is counted up."""
 
 _LEGS = b"[" + b"0," * 1999 + b"0],"
 
+_NOT_READ = (b'"depots":[],"customers":[],"fleet":[],"replan":{"plan":{"routes":[],'
+             b'"legs":[{')
+
+_PRICED = (b'{"id":"%d","location":[0,0],"demand":[1],"vehicle_costs":{'
+           + b",".join(b'"v%d":0' % name for name in range(200)) + b"}},")
+
 _PLAN: dict[str, Endless] = {
+    "keys of what isn't read": (_NOT_READ, b'"%d":0,', b'"":0}]}}'),
+    "prices of what isn't there": (b'"fleet":[],"depots":[],"customers":[', _PRICED,
+                                   b'{"id":"","location":[0,0],"demand":[1]}]'),
     "numbers for routes": (b'"replan":{"plan":{"routes":[', b"0,", b"0]}}"),
     "empty routes": (b'"replan":{"plan":{"routes":[', b"{},", b"{}]}}"),
     "routes without trips": (b'"replan":{"plan":{"routes":[',
@@ -133,7 +142,9 @@ SHAPES = {"plan": _PLAN, "vroom": _VROOM, "check": _CHECK, "explain": _EXPLAIN, 
 def body_of(shape: Endless, size: int) -> bytes:
     """Return a body of a size."""
     begin, unit, end = shape
-    return b"{" + begin + unit * (size // len(unit)) + end + b"}"
+    many = size // len(unit)
+    middle = b"".join(unit % index for index in range(many)) if b"%d" in unit else unit * many
+    return b"{" + begin + middle + end + b"}"
 
 
 def readers() -> dict[str, Callable[[bytes], object]]:
