@@ -114,7 +114,8 @@ class Writer:
         for gap, load in enumerate(loads):
             steps += self._rests(route, gap, load, steps[-1])
             if gap < len(sites):
-                halt, task = route.halts[gap], self._tasks[route.jobs[gap]]
+                halt = route.halts[gap]
+                task = self._tasks[halt.job]
                 arrival, begin = halt.arrival // TIME_SCALE, halt.start // TIME_SCALE
                 times = (halt.setup // TIME_SCALE, halt.service // TIME_SCALE, begin - arrival)
                 step = self._step(task.kind, sites[gap], loads[gap + 1], arrival, task.stated,

@@ -2,6 +2,7 @@
 
 import json
 import random
+from collections.abc import Callable
 from typing import Any
 
 import polyline
@@ -18,6 +19,7 @@ from tests.app.formats.vroom.judge import judge
 from tests.app.formats.vroom.judge import tasks_of as judged_tasks
 from tests.app.formats.vroom.reference import solve
 from tests.app.formats.vroom.sampling import sample_request
+from tests.growth import growth_of
 
 Data = dict[str, Any]
 
@@ -39,6 +41,19 @@ def written_like(reply: Data, request: Data) -> Data:
         routes.append(timed)
     times = reply["summary"]["computing_times"]
     return Writer(read, places, meant.is_timed).reply(routes, times["loading"], times["solving"])
+
+
+def test_long_routes_are_written_in_time_that_grows_as_they_do() -> None:
+    def writing(size: int) -> Callable[[], object]:
+        read = VroomRequest.model_validate_json(json.dumps({
+            "vehicles": [{"id": 1, "start": [0, 0]}],
+            "jobs": [{"id": job, "location": [job / 1000, 0]} for job in range(size)]}))
+        places, meant = find_places(read, {"car": 36.0}), translate(read)
+        route = Driver(meant, places, 0).drive(range(size))
+        assert route is not None
+        return lambda: Writer(read, places, meant.is_timed).reply([route], 0, 0)
+
+    assert growth_of(writing, 100) < 5
 
 
 @pytest.mark.parametrize("seed", range(150))
