@@ -42,8 +42,9 @@ hundreds of times the length of what it is about."""
 MAX_PARTS, BYTES_PER_PART = 200_000, 25
 """Most objects and arrays of a body: so many, and one more for so many bytes."""
 
-MAX_COLONS = 1_000_000
-"""Most colons of a body: one for each key, and those of times of day."""
+MAX_COLONS = 2_000_000
+"""Most colons of a body: one for each key, and those of times of day; 20 for each of as many
+customers as a request may have."""
 
 DECODED_AT_ONCE = 2**20
 """Bytes: a whole body as text would take up to four times its length."""
