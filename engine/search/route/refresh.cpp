@@ -213,11 +213,11 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
     if (may_rest(type)) {
         const double in_time = least_cost(data, fleet, slot);
         if (in_time >= bar) return false;
-        const double least = in_time + least_lateness(data, fleet, slot);
-        if (least >= bar) return false;
         if (joins_breaks(data, fleet.route[slot], fleet.stop[slot])) {
             return price_choices(data, fleet, slot, {in_time, bar}, settled);
         }
+        const double least = in_time + least_lateness(data, fleet, slot);
+        if (least >= bar) return false;
         if (rests_in_time(type)) {
             return (price_later(data, fleet, slot, least, settled) ||
                     begin_late(data, fleet, slot, settled)) &&
