@@ -228,7 +228,9 @@ def test_who_was_erased_before_the_day_goes_on_is_back_if_he_is_served(page: Pag
     expect(page.get_by_text("5 of 5 served")).to_be_visible()
 
 
-def test_now_is_the_present_time_for_a_plan_of_today(page: Page) -> None:
+def test_now_is_the_present_time_for_a_plan_of_today(
+        open_page: Callable[..., Page], service: str) -> None:
+    page = open_page(service, timezone_id="Europe/Berlin")  # else all later pages have the clock
     zone = datetime.timezone(datetime.timedelta(hours=1))
     page.clock.set_fixed_time(datetime.datetime(2026, 11, 26, 10, 40, 30, tzinfo=zone))
     dated = PROBLEM | {"plan_start": "2026-11-26T00:00:00+01:00", "time_zone": "Europe/Berlin"}

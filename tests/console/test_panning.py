@@ -178,3 +178,23 @@ def test_a_finger_gives_a_customer_another_place_by_the_handle(
     after = state(page, "state.request.customers.0.location")
     assert after[0] < before[0]
     assert after[1] < before[1]
+
+
+def test_a_map_that_is_closed_before_its_next_frame_draws_no_more(page: Page) -> None:
+    """`page` fails its test if the frame that was asked for finds no canvas."""
+    drawn = page.evaluate("""async () => {
+      const { MapView } = await loaded(`map/view.js`);
+      const element = document.body.appendChild(document.createElement('div'));
+      element.style.cssText = 'width: 200px; height: 200px';
+      const nothing = () => {};
+      const { map, resizes, destroy } = new MapView(element, {
+        geographic: false, config: {}, planarUnit: 1, onHover: nothing, onSelect: nothing,
+      });
+      const line = window.L.polyline([[0, 0], [1, 1]]).addTo(map);
+      map.setView([1, 1], 3, { animate: false }); // draws at once what a frame was asked for
+      const isDrawn = map.hasLayer(line);
+      destroy.call({ map, resizes });
+      for (const _ of [1, 2]) await new Promise(requestAnimationFrame);
+      return isDrawn;
+    }""")
+    assert drawn

@@ -36,6 +36,13 @@ const LIT = 5; // pixels
 const TIP_GAP = 14; // pixels between a place and its tip
 const TIP_EDGE = 4; // pixels between a tip and the map's edge
 
+/** The library draws at once and forgets the frame that it has asked for: it comes all the same. */
+const Canvas = L.Canvas.extend({
+  _redraw() {
+    if (this._ctx) L.Canvas.prototype._redraw.call(this);
+  },
+});
+
 /** Draws into an element until `destroy` is called. */
 export class MapView {
   /**
@@ -45,7 +52,7 @@ export class MapView {
   constructor(element, { geographic, config, planarUnit, onHover, onSelect }) {
     this.map = L.map(element, {
       crs: geographic ? L.CRS.EPSG3857 : L.CRS.Simple,
-      renderer: L.canvas({ padding: 0.5, tolerance: 4 }),
+      renderer: new Canvas({ padding: 0.5, tolerance: 4 }),
       zoomSnap: 0.25,
       zoomDelta: 0.5,
       wheelPxPerZoomLevel: 90,
