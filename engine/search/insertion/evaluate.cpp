@@ -15,6 +15,7 @@
 #include "rules/start.h"
 #include "rules/window.h"
 #include "search/insertion/parts_alone.h"
+#include "search/insertion/proposal.h"
 #include "search/route/block.h"
 #include "search/route/edit.h"
 #include "search/route/ends.h"
@@ -119,7 +120,7 @@ bool trips_last(const ProblemData& data, const Route& route, View<const Stop, 1>
     for (Int p = 0; p < route.length; ++p) {
         if (stops[p].kind == start_stop) first = p;
         if (stops[p].kind == end_stop && first >= 0 &&
-            !lasts_in_air(data, route.type, stops, first, p, nobody_added)) {
+            !lasts_in_air(data, route.type, stops, first, p, {})) {
             return false;
         }
     }
@@ -217,29 +218,6 @@ void give_releases(const Fleet& fleet, Int to, bool alone, const Trip& trip, Int
     }
 }
 
-// Follows a route on which no drone flies from stop `p` to its end; returns what lateness costs
-// more. In place.
-double follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
-              PaidFront& front) {
-    const Int last = route.length - 1;
-    const VehicleType& type = data.type[route.type];
-    const NodeTable places = data.place.by_truck(type);
-    double cost = 0.0;
-    for (Int q = p; q <= last; ++q) {
-        const Stop& stop = stops[q];
-        if (has_window(stop)) {
-            cost += window_cost(data, stop.node, front.time) - stop.window_cost;
-            front.serve(places[stop.node]);
-        } else if (stop.kind == start_stop) {
-            front.time = std::max(front.time, stop.release);
-        } else {
-            front.time = let_in(type, places, stop.node, front.time);
-        }
-        if (q < last) front.drive(stop.gap);
-    }
-    return cost;
-}
-
 // How many ways there are to deliver what a route fetches alone: by truck, on the sortie that
 // fetches it, or by a drone of a row from where the route ends, or from the pickup's stop and back
 // there or to the end.
@@ -310,6 +288,18 @@ private:
     const Int flights_ = by_drone_ ? options_ * num_drone_rows(data_.type, k_) : 1;
     const Int begun_ = flights_ + ways_by_halt * halts_ * num_drone_rows(data_.type, k_);
 };
+
+// As `price_stop`.
+template <class Rarer>
+double price_between(const OnTrip& on, Int p, const Newcomer& newcomer) {
+    const Stop& here = on.stops[p];
+    const Detour detour = newcomer.detour(here.node, on.stops[p + 1].node, here.leg);
+    Inserted inserted;
+    Proposal<Rarer> proposal(on, p, inserted);
+    if (!proposal.serve(newcomer, detour.out)) return infeasible;
+    const double dearer = vehicle_cost_at(on.data.vehicle_cost, on.route.type, newcomer.node);
+    return proposal.price(detour.on, dearer + on.rate.stop);
+}
 
 }  // namespace
 
@@ -383,59 +373,19 @@ double price_move(const ProblemData& data, const Fleet& fleet, const Move& move,
 }
 
 bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
-    const Evaluation& evaluation = data.evaluation[fleet.route[slot].type];
+    const Route& route = fleet.route[slot];
     const Stop& stop = fleet.stop(slot, p);
-    if (evaluation.priced &&
-        (evaluation.held_back || evaluation.retimed || fleet.route[slot].sorties > 0)) {
-        return false;
-    }
-    if (has_driving_rules(data.type[fleet.route[slot].type]) &&
-        may_have_to_rest(data, fleet, slot, p, node)) {
-        return false;
-    }
-    return stop.flying == 0 &&
+    return joins_anywhere(data, route) && stop.flying == 0 &&
+           !(has_driving_rules(data.type[route.type]) &&
+             may_have_to_rest(data, fleet, slot, p, node)) &&
            release_of(data.place[0][node]) <= fleet.trip(slot, stop.trip).release;
 }
 
 double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
                   const Newcomer& newcomer) {
-    const Route& route = fleet.route[slot];
-    const View<const Stop, 1> stops = fleet.stop[slot];
-    const Stop &here = stops[p], &behind = stops[p + 1];
-    const Int k = route.type, node = newcomer.node;
-    const VehicleType& type = data.type[k];
-    const auto [out, on, distance] = newcomer.detour(here.node, behind.node, here.leg);
-    PaidFront front = front_of(here);
-    front.drive(out.duration);
-    const Int arrival = front.time;
-    if (!front.serve(newcomer.place)) return infeasible;
-    front.drive(on.duration);
-    std::optional<Whole> whole = join(front, rear_of(behind));
-    if (!whole) return infeasible;
-    if (limits_travel(type)) {
-        const Int more = travel_between(data, type, here.node, node) +
-                         travel_between(data, type, node, behind.node) -
-                         travel_between(data, type, here.node, behind.node);
-        if (!may_travel(type, route.travel + more)) return infeasible;
-    }
-    if (!reaches(data, k, stops, fleet.trip(slot, here.trip), node)) return infeasible;
-    if (bounds_trips(type)) {
-        const Trip& trip = fleet.trip(slot, here.trip);
-        const Added added{p, node, out.duration, on.duration};
-        if (!lasts_in_air(data, k, stops, trip.first, trip.last, added)) return infeasible;
-    }
-    double cost = double(distance) * data.rate[k].distance;
-    if (loads_cost(data, k)) {
-        cost += load_more_behind(data, fleet, slot, p, node, out.distance, on.distance);
-    }
-    if (data.evaluation[k].priced) {
-        cost += window_cost(data, node, arrival) + follow(data, route, stops, p + 1, front);
-        whole = whole_of(front);
-    }
-    const double longer = longer_cost(type, data.rate[k], route, *whole);
-    if (longer == infeasible) return infeasible;
-    cost += vehicle_cost_at(data.vehicle_cost, k, node);
-    return cost + data.rate[k].stop + longer;
+    const OnTrip on(data, fleet, slot, fleet.trip(slot, fleet.stop(slot, p).trip));
+    return on.asks_more ? price_between<RarerRules>(on, p, newcomer)
+                        : price_between<NoRarerRules>(on, p, newcomer);
 }
 
 }  // namespace tandem

@@ -17,6 +17,7 @@
 #include "search/insertion/parts.h"
 #include "search/insertion/parts_alone.h"
 #include "search/insertion/trip_scan.h"
+#include "search/route/freshness.h"
 #include "search/route/goods.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -71,12 +72,7 @@ public:
                       vehicle_cost_at(data.vehicle_cost, route.type, delivery_.node)) {}
 
     // Tries all places by what is known of the stops' times.
-    void walk() {
-        for (Int p = trip.first; p < trip.last; ++p) {
-            if (pickup_.place.too_late(stops[p].leave)) return;
-            if (fits_[p]) walk_from(p);
-        }
-    }
+    void walk() { asks_more ? walk_by<RarerRules>() : walk_by<NoRarerRules>(); }
 
     // Tries the places that look cheapest, timing the route anew for each, and others if the
     // vehicle can come to none of them.
@@ -99,12 +95,6 @@ public:
     }
 
 private:
-    // How a vehicle has come to where it leaves a stop, and how much further that was.
-    struct Way {
-        PaidFront front;
-        Int further;
-    };
-
     // Where both ends may come; what that costs at least, and about.
     struct Spot {
         double about, least;
@@ -157,13 +147,6 @@ private:
 
     double cost_of(Int detour) const { return double(detour) * rate.distance + stops_cost_; }
 
-    // How much further it is to stop `q`, once a vehicle that takes the pickup behind `p` has come
-    // so much further to who is before.
-    Int driven_on(Int further, Int p, Int q) const {
-        if (q > p + 1) return further;
-        return further + distance_to(pickup_.onward, stops[q].node) - stops[p].leg;
-    }
-
     // How much further it is by the delivery behind the pickup, or behind stop `q`.
     Int delivered_behind(Int p, Int q) const {
         const Int on = distance_to(delivery_.onward, stops[q + 1].node) - stops[q].leg;
@@ -178,40 +161,47 @@ private:
         return above >= 0 && !disturbs_stack(fleet, slot, q);
     }
 
-    void walk_from(Int p) {
-        const Leg out = leg_from(pickup_.inward, stops[p].node);
-        Way way{front_of(stops[p]), out.distance};
-        if (!way.front.serve(pickup_.place, out.duration)) return;
-        Int above = 0;
-        const NodeTable places = data.place.by_truck(type);
-        for (Int q = p;; ++q) {
-            if (delivery_.place.too_late(way.front.time)) return;
-            if (above == 0) try_delivery(way, p, q);
-            if (q + 1 == trip.last || !fits_[q + 1] || !goes_past(q + 1, above)) return;
-            const Stop& next = stops[q + 1];
-            way.front.drive(q == p ? leg_to(pickup_.onward, next.node).duration : stops[q].gap);
-            if (way.front.time > next.latest) return;
-            way.further = driven_on(way.further, p, q + 1);
-            // By the triangle inequality no later delivery is nearer.
-            if (cost_of(way.further) >= best.cost) return;
-            if (next.kind != customer_stop) return;
-            way.front.serve(places[next.node]);
+    template <class Rarer>
+    void walk_by() {
+        for (Int p = trip.first; p < trip.last; ++p) {
+            if (pickup_.place.too_late(stops[p].leave)) return;
+            if (fits_[p] && stops[p].flying == 0) walk_from<Rarer>(p);
         }
     }
 
-    void try_delivery(const Way& way, Int p, Int q) {
-        const double least = cost_of(way.further + delivered_behind(p, q));
-        if (least >= best.cost) return;
-        const Stop& behind = stops[q + 1];
+    template <class Rarer>
+    void walk_from(Int p) {
+        Proposal<Rarer> way(*this, p, inserted_);
+        if (!way.serve(pickup_, leg_from(pickup_.inward, stops[p].node))) return;
+        Int above = 0;
+        for (Int q = p;; q = way.behind()) {
+            if (delivery_.place.too_late(way.front().time)) return;
+            if (above == 0) try_delivery(way, p, q);
+            if (!may_pass(q + 1, above)) return;
+            const Stop &here = stops[q], &next = stops[q + 1];
+            const Leg on = q == p ? leg_to(pickup_.onward, next.node) : Leg{here.gap, here.leg};
+            // By the triangle inequality no later delivery is nearer.
+            if (!way.pass(on) || cost_of(way.further()) >= best.cost) return;
+        }
+    }
+
+    // Whether the shipment may be aboard on a block of stops, and one more comes behind it.
+    bool may_pass(Int first, Int& above) const {
+        const Int last = first < trip.last ? stops[first].last : trip.last;
+        for (Int q = first; q <= last; ++q) {
+            if (q == trip.last || !fits_[q] || !goes_past(q, above)) return false;
+        }
+        return true;
+    }
+
+    template <class Rarer>
+    void try_delivery(const Proposal<Rarer>& without, Int p, Int q) {
+        if (cost_of(without.further() + delivered_behind(p, q)) >= best.cost) return;
+        Proposal<Rarer> way = without;
         const Leg out = q == p ? leg_to(pickup_.onward, delivery_.node)
                                : leg_from(delivery_.inward, stops[q].node);
-        PaidFront front = way.front;
-        if (!front.serve(delivery_.place, out.duration)) return;
-        front.drive(leg_to(delivery_.onward, behind.node).duration);
-        const std::optional<Whole> whole = join(front, rear_of(behind));
-        if (!whole) return;
-        const bool is_timed = data.evaluation[route.type].timed;
-        const double cost = least + (is_timed ? longer_cost(type, rate, route, *whole) : 0.0);
+        if (!way.serve(delivery_, out)) return;
+        const double cost = way.price(leg_to(delivery_.onward, stops[q + 1].node), stops_cost_);
         if (cost < infeasible && best.takes(cost)) best.move = move_of(both_ends, p, q);
     }
 
@@ -220,6 +210,7 @@ private:
     const View<bool, 1> fits_;
     const double time_rate_;
     const double stops_cost_;
+    Inserted inserted_;
 };
 
 // Call `visit` with the truck, `nowhere`, and the first drone of each row that may serve an end.
@@ -238,14 +229,6 @@ bool may_bring_within(const ProblemData& data, Int k, Int drone, Int delivery) {
     return data.visits[row] > 1 && data.can(row, 1, delivery);
 }
 
-// Whether all that matters of a route's times is known at its stops.
-bool is_walked(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    return !data.evaluation[route.type].priced && route.sorties == 0 &&
-           !bounds_trips(data.type[route.type]) && !has_driving_rules(data.type[route.type]) &&
-           !limits_travel(data.type[route.type]);
-}
-
 // Whether a part of a shipment comes from the depot, or its trip has to wait for it there.
 bool comes_in_part(const ProblemData& data, Int delivery) {
     return release_of(data.place[0][delivery]) > 0 || total_delivered(data.amount, delivery) > 0;
@@ -258,8 +241,10 @@ void scan_pair(const Insertion& insertion, Int slot) {
     const Fleet& fleet = searcher.now;
     const Int k = fleet.route[slot].type;
     if (!data.can(k, 0, node)) return;
-    const bool walked =
-        is_walked(data, fleet, slot) && !comes_in_part(data, data.pair[node].partner);
+    const bool walked = joins_anywhere(data, fleet.route[slot]) &&
+                        !(data.evaluation[k].priced && holds_count(data, k)) &&
+                        !has_driving_rules(data.type[k]) &&
+                        !comes_in_part(data, data.pair[node].partner);
     for (Int index = 0; index < fleet.route[slot].trips; ++index) {
         const Trip& trip = fleet.trip(slot, index);
         if (!goods_may_join(data, fleet, slot, index, node)) continue;

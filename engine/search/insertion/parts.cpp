@@ -50,19 +50,21 @@ public:
 
     void scan() {
         for (Int number = 0; number < count_; ++number) note_limit(number);
-        follow({trip.first, none_here, 0, 0, {stops[trip.first].leave}, 0, 0});
+        for (Int p = trip.first; p < trip.last; ++p) {
+            if (is_walked_ && stops[p].flying > 0) continue;
+            take_others({Proposal<RarerRules>(*this, p, inserted_)});
+        }
     }
 
 private:
     static constexpr Int none_here = -1;
 
-    // Behind which stop a vehicle is, and at which pickup there; which it has been at, and at how
-    // many; how it has come there, how much further that was, and how much more is aboard.
+    // How a vehicle has come behind a stop, and to which pickup there; which it has been at, and at
+    // how many; how much more is aboard.
     struct Way {
-        Int behind, here;
-        Int taken, rank;
-        Front front;
-        Int further, aboard;
+        Proposal<RarerRules> on;
+        Int here = none_here;
+        Int taken = 0, rank = 0, aboard = 0;
     };
 
     const Newcomer& pickup(Int number) const { return pickup_[std::size_t(number)]; }
@@ -80,14 +82,10 @@ private:
         limit_[std::size_t(number)] = least.dearest();
     }
 
-    Leg leg_to_pickup(const Way& way, Int number) const {
-        if (way.here != none_here) return leg_to(pickup(way.here).onward, pickup(number).node);
-        return leg_from(pickup(number).inward, stops[way.behind].node);
-    }
-
-    Leg leg_to_delivery(const Way& way) const {
-        if (way.here != none_here) return leg_to(pickup(way.here).onward, delivery_.node);
-        return leg_from(delivery_.inward, stops[way.behind].node);
+    // The leg to an end from where a vehicle is.
+    Leg leg_to_end(const Way& way, const Newcomer& end) const {
+        if (way.here != none_here) return leg_to(pickup(way.here).onward, end.node);
+        return leg_from(end.inward, stops[way.on.behind()].node);
     }
 
     // Whether so much more may be aboard behind a stop, of what is compared first.
@@ -98,63 +96,60 @@ private:
     // Whether a pickup is tried right behind a stop.
     bool is_near(const Way& way, Int number) const {
         if (way.here != none_here) return true;
-        return detour(pickup(number), way.behind).distance <= limit_[std::size_t(number)];
+        return detour(pickup(number), way.on.behind()).distance <= limit_[std::size_t(number)];
     }
 
-    // Takes what is left to be picked up, at all places from here on.
-    void follow(Way way) {
+    // Takes each pickup that is left.
+    void take_others(const Way& way) {
+        for (Int number = 0; number < count_; ++number) {
+            if ((way.taken >> number & 1) == 0 && is_near(way, number)) take(way, number);
+        }
+    }
+
+    // Takes a pickup, and what is left then at all places from here on.
+    void take(Way way, Int number) {
+        if (++steps_ > most_steps || data.deadline.passed()) return;
+        const Newcomer& newcomer = pickup(number);
+        const bool is_served = way.on.serve(newcomer, leg_to_end(way, newcomer));
+        way.aboard += picked_of(data.amount, newcomer.node, 0)[0];
+        if (is_too_far(way.on.further()) || !holds_more(way.on.behind(), way.aboard)) return;
+        if (!is_served && is_walked_) return;
+        end_[std::size_t(way.rank++)] = picked_behind(way.on.behind(), number);
+        way.taken |= Int{1} << number;
+        way.here = number;
         do {
-            for (Int number = 0; number < count_; ++number) {
-                if ((way.taken >> number & 1) == 0 && is_near(way, number)) take(way, number);
-            }
+            take_others(way);
             if (way.rank == count_) deliver(way);
         } while (drive_on(way));
     }
 
-    void take(Way way, Int number) {
-        if (++steps_ > most_steps || data.deadline.passed()) return;
-        const Leg out = leg_to_pickup(way, number);
-        const Newcomer& newcomer = pickup(number);
-        way.further += out.distance;
-        way.aboard += picked_of(data.amount, newcomer.node, 0)[0];
-        if (is_too_far(way.further) || !holds_more(way.behind, way.aboard)) return;
-        if (!way.front.serve(newcomer.place, out.duration) && is_walked_) return;
-        end_[std::size_t(way.rank++)] = picked_behind(way.behind, number);
-        way.taken |= Int{1} << number;
-        way.here = number;
-        follow(way);
-    }
-
     // Drives to the next stop. False if that is the last, or too late, or costs too much.
     bool drive_on(Way& way) const {
-        const Stop &stop = stops[way.behind], &next = stops[way.behind + 1];
-        if (way.behind + 1 == trip.last) return false;
-        ++way.behind;
-        if (way.taken == 0) {
-            way.front = {next.leave};
-            return true;
-        }
-        Int gap = stop.gap;
-        if (way.here != none_here) {
-            const Leg on = leg_to(pickup(way.here).onward, next.node);
-            way.further += on.distance - stop.leg;
-            gap = on.duration;
-        }
+        const Int behind = way.on.behind(), first = behind + 1;
+        const Int last = is_walked_ ? stops[first].last : first;
+        if (last == trip.last) return false;
+        const Leg on = way.here == none_here ? Leg{stops[behind].gap, stops[behind].leg}
+                                             : leg_to(pickup(way.here).onward, stops[first].node);
         way.here = none_here;
-        if (is_too_far(way.further) || !holds_more(way.behind, way.aboard)) return false;
-        if (!is_walked_) return true;
-        way.front.drive(gap);
-        if (next.kind != customer_stop || way.front.time > next.latest) return false;
-        return way.front.serve(data.place.by_truck(type)[next.node]);
+        for (Int q = first; q <= last; ++q) {
+            if (!holds_more(q, way.aboard)) return false;
+        }
+        if (!is_walked_) {
+            way.on.skip(on);
+        } else if (!way.on.pass(on)) {
+            return false;
+        }
+        return !is_too_far(way.on.further());
     }
 
     void deliver(const Way& way) {
-        const Leg out = leg_to_delivery(way);
-        const Stop &stop = stops[way.behind], &next = stops[way.behind + 1];
-        const Int on = distance_to(delivery_.onward, next.node) - stop.leg;
-        if (is_too_far(way.further + out.distance + on)) return;
-        if (is_walked_ && delivery_.place.too_late(way.front.time + out.duration)) return;
-        Move move = move_of(all_ends, end_[0] / most_pickups, way.behind);
+        Proposal<RarerRules> whole = way.on;
+        const Int behind = whole.behind();
+        const Leg on = leg_to(delivery_.onward, stops[behind + 1].node);
+        const bool is_served = whole.serve(delivery_, leg_to_end(way, delivery_));
+        if (is_too_far(whole.further() + on.distance - stops[behind].leg)) return;
+        if (is_walked_ && (!is_served || whole.price(on, stops_cost_) >= best.cost)) return;
+        Move move = move_of(all_ends, end_[0] / most_pickups, behind);
         move.sortie = nowhere;
         std::copy(end_.begin(), end_.end(), move.end);
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
@@ -168,6 +163,7 @@ private:
     std::array<Int, most_pickups> limit_{};
     Int steps_ = 0;
     std::array<std::int32_t, most_pickups> end_{};
+    Inserted inserted_;
 };
 
 }  // namespace

@@ -11,23 +11,17 @@
 #include "search/insertion/best.h"
 #include "search/insertion/end_place.h"
 #include "search/insertion/offers.h"
+#include "search/insertion/proposal.h"
 #include "search/route/drone_data.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {
 
-struct TripScan {
+struct TripScan : OnTrip {
     TripScan(const Insertion& insertion, Int of_slot, const Trip& tried)
-        : data(insertion.data),
-          fleet(insertion.searcher.now),
+        : OnTrip(insertion.data, insertion.searcher.now, of_slot, tried),
           best(insertion.best),
-          node(insertion.node),
-          slot(of_slot),
-          trip(tried),
-          route(fleet.route[slot]),
-          type(data.type[route.type]),
-          rate(data.rate[route.type]),
-          stops(fleet.stop[slot]) {}
+          node(insertion.node) {}
 
     Newcomer newcomer(Int end) const { return newcomer_for(data, type, end); }
 
@@ -184,16 +178,8 @@ struct TripScan {
         return is_launch_place(data.no_launch, here) && in_range(data, drone, here, customer);
     }
 
-    const ProblemData& data;
-    const Fleet& fleet;
     Best& best;
     const Int node;  // the first pickup
-    const Int slot;
-    const Trip& trip;
-    const Route& route;
-    const VehicleType& type;
-    const Rate& rate;
-    const View<const Stop, 1> stops;
 };
 
 }  // namespace tandem

@@ -40,7 +40,7 @@ Charge charge_of(const VehicleType& type, const Trip& trip, const Charge& before
 Int taken_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
              const Trip& trip) {
     return battery_of(data.type[route.type]) -
-           follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).left();
+           follow_trip(data, route.type, stops, trip.first, trip.last, {}, true).left();
 }
 
 // Write when vehicles of other routes than that in a slot are charged. In place: `data.plugging`.

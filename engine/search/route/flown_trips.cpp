@@ -15,24 +15,26 @@ Int start_of(View<const Stop, 1> stops, const Trip& trip) { return stops[trip.fi
 // Return what a timed trip leaves of a full battery.
 Int left_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 const Trip& trip) {
-    return follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).left();
+    return follow_trip(data, route.type, stops, trip.first, trip.last, {}, true).left();
 }
 
 }  // namespace
 
 FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first,
-                      Int last, const Added& added, bool waits) {
+                      Int last, View<const Added, 1> added, bool waits) {
     const VehicleType& type = data.type[k];
     const NodeTable places = data.place.by_air(type);
-    Int weight = added.node < 0 ? 0 : weight_brought(places[added.node]);
+    Int weight = 0;
+    for (const Added& one : added) weight += weight_brought(places[one.node]);
     for (Int p = first + 1; p < last; ++p) weight += weight_brought(places[stops[p].node]);
     FlownTrip trip(type, weight);
+    const Added* next = added.begin();
     for (Int p = first; p < last; ++p) {
         Int gap = stops[p].gap;
         bool from_depot = p == first;
-        if (p == added.behind) {
-            trip.fly_to(places[added.node], added.out, from_depot, 0);
-            gap = added.on;
+        for (; next != added.end() && next->behind == p; ++next) {
+            trip.fly_to(places[next->node], next->out, from_depot, 0);
+            gap = next->on;
             from_depot = false;
         }
         if (p + 1 == last) {
@@ -55,13 +57,18 @@ bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Tr
 }
 
 bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first, Int last,
-                  const Added& added) {
+                  View<const Added, 1> added) {
     const VehicleType& type = data.type[k];
+    const NodeTable places = data.place.by_truck(type);
     Int busy = 0;
-    for (Int p = first; p < last; ++p) busy += stops[p].d + stops[p].gap;
-    if (added.node >= 0) {
-        busy += added.out + added.on - stops[added.behind].gap +
-                data.place.by_truck(type)[added.node].service_duration();
+    const Added* next = added.begin();
+    for (Int p = first; p < last; ++p) {
+        Int gap = stops[p].gap;
+        for (; next != added.end() && next->behind == p; ++next) {
+            busy += next->out + places[next->node].service_duration();
+            gap = next->on;
+        }
+        busy += stops[p].d + gap;
     }
     if (busy > longest_in_air(type)) return false;
     return !is_limited(type) || follow_trip(data, k, stops, first, last, added, false).left() >= 0;
@@ -72,9 +79,8 @@ Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 
     const VehicleType& type = data.type[route.type];
     const Int excess = stops[trip.last].leave - start_of(stops, trip) - longest_in_air(type);
     if (!is_limited(type)) return excess;
-    return std::max(
-        excess,
-        follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true).excess());
+    return std::max(excess,
+                    follow_trip(data, route.type, stops, trip.first, trip.last, {}, true).excess());
 }
 
 Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
@@ -87,8 +93,7 @@ Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop,
 
 Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                      const Trip& trip, const Charge& before) {
-    const FlownTrip flown =
-        follow_trip(data, route.type, stops, trip.first, trip.last, nobody_added, true);
+    const FlownTrip flown = follow_trip(data, route.type, stops, trip.first, trip.last, {}, true);
     return flown.left() < 0 ? far : flown.excess_of_charge(before, start_of(stops, trip));
 }
 

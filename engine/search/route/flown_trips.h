@@ -6,7 +6,8 @@
 
 namespace tandem {
 
-// A customer who is put behind a stop, with how long the legs there and on take.
+// A customer who is put behind a stop, perhaps behind others there, with how long the legs there
+// and on take; on, where he is the last.
 struct Added {
     Int behind;
     Int node;
@@ -14,21 +15,19 @@ struct Added {
     Int on;
 };
 
-constexpr Added nobody_added = {nowhere, nowhere, 0, 0};
-
 // Return what is left of a trip from stop `first` to `last`, whose legs are known.
 //
 // `waits`: by the windows that are met when its stops are reached; else as if nobody waited.
 FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first,
-                      Int last, const Added& added, bool waits);
+                      Int last, View<const Added, 1> added, bool waits);
 
 // Tell whether a customer is near enough to where a trip begins and ends.
 bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip,
              Int customer);
 
-// Tell whether a trip from stop `first` to `last` lasts, with somebody added, if nobody waits.
+// Tell whether a trip from stop `first` to `last` lasts, with some added, if nobody waits.
 bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first, Int last,
-                  const Added& added);
+                  View<const Added, 1> added);
 
 // Return by how much later a timed trip has to begin at least to last; at most 0 if it does, `far`
 // if it can't.

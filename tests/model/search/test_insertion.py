@@ -26,22 +26,23 @@ pytestmark = pytest.mark.slow
 
 MINUTE = 60_000
 CUSTOMERS = 7
+SHIPMENTS = 4
 SEEDS = 40  # some of which let neither a blink nor a dear route of its own spoil the insertion
 
 Trips = tuple[tuple[int, ...], ...]
 
 
-def problem_with_trips(seed: int) -> Problem:
+def problem_with_trips(seed: int, number: int = CUSTOMERS) -> Problem:
     """Return a problem where distance alone costs, with several trips, windows and releases."""
     rng = np.random.default_rng(seed)
-    place = rng.integers(-6, 7, (CUSTOMERS + 1, 2))
+    place = rng.integers(-6, 7, (number + 1, 2))
     legs = np.abs(place[:, None] - place).sum(axis=2)
     travel = Travel((2 * MINUTE * legs).astype(np.int64), (MM_PER_KM * legs).astype(np.int64))
     customers = tuple(
         Customer(str(index), (int(rng.integers(1, 4)) * 1000,), int(rng.integers(0, 3)) * MINUTE,
                  latest=int(rng.integers(60, 240)) * MINUTE if rng.random() < 0.5 else UNLIMITED,
                  release_time=int(rng.integers(0, 50)) * MINUTE)
-        for index in range(CUSTOMERS))
+        for index in range(number))
     truck = VehicleType(
         "truck", 2, (6000,), 0, fixed_cost=60.0, cost_per_km=1.0, max_trips=4,
         reload_duration=2 * MINUTE, latest=int(rng.integers(250, 400)) * MINUTE,
@@ -50,10 +51,10 @@ def problem_with_trips(seed: int) -> Problem:
                    unassigned_cost=1000.0)
 
 
-def problem_by_time(seed: int) -> Problem:
+def problem_by_time(seed: int, number: int = CUSTOMERS) -> Problem:
     """Return the same where hours cost, every other time, and windows may be missed at a cost."""
     rng = np.random.default_rng(seed)
-    problem = problem_with_trips(seed)
+    problem = problem_with_trips(seed, number)
     is_soft, is_timed = seed % 4 > 0, seed % 4 != 1
     customers = tuple(
         replace(customer, earliest=opens, latest=opens + int(rng.integers(10, 60)) * MINUTE,
@@ -63,6 +64,29 @@ def problem_by_time(seed: int) -> Problem:
         for opens in [customer.release_time + int(rng.integers(15, 60)) * MINUTE])
     truck = replace(problem.vehicle_types[0], cost_per_hour=6.0 if is_timed else 0.0)
     return replace(problem, customers=customers, vehicle_types=(truck,))
+
+
+def problem_of_shipments(seed: int) -> Problem:
+    """Return one of shipments that several rules price: by lateness, by load, or by travel."""
+    rng = np.random.default_rng(seed)
+    problem = problem_by_time(seed - seed % 4 + 2, 2 * SHIPMENTS)
+    windows = ({"late_cost_per_hour": 200.0} if seed % 3 == 0
+               else {"earliest": 0, "latest": UNLIMITED, "late_cost_per_hour": None})
+    ends = tuple(replace(customer, demand=(0,), release_time=0, **windows)
+                 for customer in problem.customers)
+    truck = replace(problem.vehicle_types[0], count=1, max_trips=1, max_trip_distance=None,
+                    cost_per_load_km=1.0 if seed % 3 == 1 else 0.0,
+                    max_travel_duration=100 * MINUTE if seed % 3 == 2 else None)
+    shipments = tuple(Shipment(str(pickup), pickup, pickup + 1, (int(rng.integers(1, 5)) * 1000,))
+                      for pickup in range(1, 2 * SHIPMENTS, 2))
+    return replace(problem, customers=ends, vehicle_types=(truck,), shipments=shipments)
+
+
+def with_shipment(trip: tuple[int, ...], pickup: int) -> Iterator[Trips]:
+    """Yield all ways to put a shipment on a route of one trip."""
+    for first in range(len(trip) + 1):
+        for last in range(first, len(trip) + 1):
+            yield ((*trip[:first], pickup, *trip[first:last], pickup + 1, *trip[last:]),)
 
 
 def trips_of(route: Route) -> Trips:
@@ -140,6 +164,29 @@ def test_a_customer_goes_where_that_costs_least(problem: Problem) -> None:
         rest = without(plan, problem, node)
         expected = least_cost(problem, data, rest, node)
         found = min(inserted_cost(problem, data, rest, seed) for seed in range(SEEDS))
+        assert found == pytest.approx(expected)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_shipment_goes_where_that_costs_least(seed: int) -> None:
+    problem = problem_of_shipments(seed)
+    nobody = Solution((), tuple(range(1, 2 * SHIPMENTS + 1)))
+    plan = improve(problem, pack([problem]), nobody, SearchConfig(turns=20)).solution
+    data = make_data(problem, pack([problem]))
+    served = {node for route in plan.routes for node in trips_of(route)[0]}
+    for pickup in sorted(served)[::2]:
+        left = [tuple(node for node in trips_of(route)[0] if node not in (pickup, pickup + 1))
+                for route in plan.routes]
+        routes = [(trip,) for trip in left if trip]
+        ways = [[*routes[:index], way, *routes[index + 1:]]
+                for index, (trip,) in enumerate(routes) for way in with_shipment(trip, pickup)]
+        if len(routes) < problem.vehicle_types[0].count:
+            ways.append([*routes, ((pickup, pickup + 1),)])
+        expected = min(cost_of(problem, data, way) for way in ways)
+        rest = Solution(tuple(
+            schedule(problem, RouteDecision(0, number, (TripDecision((0, *trip, 0)),)))
+            for number, (trip,) in enumerate(routes)), (pickup, pickup + 1))
+        found = min(inserted_cost(problem, data, rest, each) for each in range(SEEDS))
         assert found == pytest.approx(expected)
 
 

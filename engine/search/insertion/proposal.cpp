@@ -1,0 +1,127 @@
+#include "search/insertion/proposal.h"
+
+#include "rules/hours.h"
+#include "rules/start.h"
+#include "search/route/ends.h"
+#include "search/route/stop_loads.h"
+
+namespace tandem {
+namespace {
+
+// Follows a route on which no drone flies from stop `p` to its end; returns what lateness costs
+// more. In place.
+double follow(const ProblemData& data, const Route& route, View<const Stop, 1> stops, Int p,
+              PaidFront& front) {
+    const Int last = route.length - 1;
+    const VehicleType& type = data.type[route.type];
+    const NodeTable places = data.place.by_truck(type);
+    double cost = 0.0;
+    for (Int q = p; q <= last; ++q) {
+        const Stop& stop = stops[q];
+        if (has_window(stop)) {
+            cost += window_cost(data, stop.node, front.time) - stop.window_cost;
+            front.serve(places[stop.node]);
+        } else if (stop.kind == start_stop) {
+            front.time = std::max(front.time, stop.release);
+        } else {
+            front.time = let_in(type, places, stop.node, front.time);
+        }
+        if (q < last) front.drive(stop.gap);
+    }
+    return cost;
+}
+
+}  // namespace
+
+void RarerRules::drive(const OnTrip& on, Int behind, Int to, const Leg& leg) {
+    const Stop& stop = on.stops[behind];
+    if (limits_travel(on.type)) {
+        travel_ += travel_between(on.data, on.type, here_ == nowhere ? stop.node : here_, to);
+    }
+    if (loads_cost(on.data, on.route.type)) {
+        const Int load = on.fleet.stop_load(on.slot, 0, behind).load + on.type.carried;
+        carried_ += double(load + aboard_) * double(leg.distance);
+    }
+}
+
+void RarerRules::serve(const OnTrip& on, const Whereabouts& at, const Newcomer& newcomer,
+                       const Leg& out) {
+    const Int node = newcomer.node;
+    drive(on, at.behind, node, out);
+    if (loads_cost(on.data, on.route.type)) {
+        const Int driven = on.fleet.stop_load(on.slot, 0, at.behind).driven + at.further;
+        carried_ +=
+            double(delivered_of(on.data.amount, node, 0)[0]) * double(driven + out.distance);
+        aboard_ += picked_of(on.data.amount, node, 0)[0];
+    }
+    if (bounds_trips(on.type)) {
+        inserted_[std::size_t(count_++)] = {at.behind, node, out.duration, 0};
+    }
+    if (on.evaluation.priced) {
+        windows_ += window_cost(on.data, node, at.front.time + out.duration);
+    }
+    is_near_ = is_near_ && reaches(on.data, on.route.type, on.stops, on.trip, node);
+    here_ = node;
+}
+
+void RarerRules::pass(const OnTrip& on, const Whereabouts& at, const Leg& leg) {
+    const Stop &stop = on.stops[at.behind], &next = on.stops[at.behind + 1];
+    drive(on, at.behind, next.node, leg);
+    if (limits_travel(on.type)) {
+        travel_ -= travel_between(on.data, on.type, stop.node, next.node);
+    }
+    if (loads_cost(on.data, on.route.type)) {
+        const View<const StopLoad, 1> stop_loads = on.fleet.stop_load[on.slot][0];
+        carried_ -= double(stop_loads[at.behind].load + on.type.carried) * double(stop.leg);
+        const Int within = stop_loads[next.last].driven - stop_loads[at.behind + 1].driven;
+        carried_ += double(aboard_) * double(within);
+    }
+    if (here_ != nowhere && bounds_trips(on.type)) {
+        inserted_[std::size_t(count_ - 1)].on = leg.duration;
+    }
+    if (on.evaluation.priced && has_window(next)) {
+        windows_ += window_cost(on.data, next.node, at.front.time) - next.window_cost;
+    }
+    here_ = nowhere;
+}
+
+bool RarerRules::allow(const OnTrip& on, const Whereabouts& at, const Leg& leg) const {
+    const Int here = on.stops[at.behind].node, next = on.stops[at.behind + 1].node;
+    if (limits_travel(on.type)) {
+        const Int travel = on.route.travel + travel_ +
+                           travel_between(on.data, on.type, here_ == nowhere ? here : here_, next) -
+                           travel_between(on.data, on.type, here, next);
+        if (!may_travel(on.type, travel)) return false;
+    }
+    if (bounds_trips(on.type)) {
+        if (here_ != nowhere) inserted_[std::size_t(count_ - 1)].on = leg.duration;
+        const View<const Added, 1> added{inserted_.data(), {count_}};
+        if (!lasts_in_air(on.data, on.route.type, on.stops, on.trip.first, on.trip.last, added)) {
+            return false;
+        }
+    }
+    return is_near_;
+}
+
+double RarerRules::cost(const OnTrip& on, const Whereabouts& at, const Leg& leg,
+                        Whole& whole) const {
+    double cost = 0.0;
+    if (loads_cost(on.data, on.route.type)) {
+        const View<const StopLoad, 1> stop_loads = on.fleet.stop_load[on.slot][0];
+        const Int load = stop_loads[at.behind].load + on.type.carried;
+        const double carried =
+            carried_ + double(load + aboard_) * double(leg.distance) -
+            double(load) * double(on.stops[at.behind].leg) +
+            double(aboard_) * double(on.trip.distance - stop_loads[at.behind + 1].driven);
+        cost += load_cost(on.rate, carried);
+    }
+    if (on.evaluation.priced) {
+        PaidFront front = at.front;
+        front.drive(leg.duration);
+        cost += windows_ + follow(on.data, on.route, on.stops, at.behind + 1, front);
+        whole = whole_of(front);
+    }
+    return cost;
+}
+
+}  // namespace tandem
