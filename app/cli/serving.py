@@ -21,6 +21,13 @@ from app.serving.observe.logs import log_config
 from app.serving.observe.metrics import MULTIPROCESS_DIR
 from app.serving.settings import Settings
 
+IDLE_SECONDS = 75
+"""How long a connection is kept for a further request: longer than clients and proxies keep theirs.
+
+Whoever has kept one just as long as the service (5 s for uvicorn and for httpx, a minute for most
+proxies) at times asks on one that is being closed, and can't tell whether that was heard.
+"""
+
 HEALTHCHECK_SECONDS = 30
 """How long a process may not answer its parent, which then starts another in its place."""
 
@@ -58,6 +65,7 @@ def run_server(settings: Settings, host: str, port: int, workers: int) -> None:
         "http": HttpProtocol,
         "access_log": False,
         "server_header": False,
+        "timeout_keep_alive": IDLE_SECONDS,
         "timeout_graceful_shutdown": settings.shutdown_seconds,
         "log_config": log_config(settings.log_format, settings.log_level,
                                  traced=settings.otlp_endpoint is not None),

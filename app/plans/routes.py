@@ -30,7 +30,7 @@ CHECK_ERROR_RESPONSES = {status: response for status, response in ERROR_RESPONSE
 """A plan of whatever kind is an answer."""
 
 
-def get_desk(request: Request) -> PlanDesk:
+async def get_desk(request: Request) -> PlanDesk:
     """Return who has plans made for this application."""
     desk: PlanDesk = request.app.state.plans
     return desk

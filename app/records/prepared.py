@@ -111,7 +111,7 @@ class PreparedDatabase:
         self._misfit = misfit
 
 
-def get_database(request: Request) -> PreparedDatabase:
+async def get_database(request: Request) -> PreparedDatabase:
     """Return the database of this application's jobs and dispatches."""
     database: PreparedDatabase = request.app.state.jobs.database
     return database

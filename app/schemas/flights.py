@@ -44,7 +44,7 @@ class WpmlInput(Input):
     aircraft_variant: AircraftNumber = Field(0, description=VARIANT_TEXT)
 
 
-def wpml_asked(
+async def wpml_asked(
     exit_on_rc_lost: Annotated[ExitOnLost, Query(description=EXIT_TEXT)] = "goContinue",
     rc_lost_action: Annotated[LostAction, Query(description=LOST_TEXT)] = "hover",
     fly_to_wayline: Annotated[FlyToWayline, Query(description=TO_WAYLINE_TEXT)] = "safely",

@@ -78,7 +78,7 @@ Webhook = Annotated[str | None, Query(
     "has it. A call that fails is repeated for some hours.")]
 
 
-def get_desk(request: Request) -> JobDesk:
+async def get_desk(request: Request) -> JobDesk:
     """Return where to turn to about this application's jobs."""
     desk: JobDesk = request.app.state.jobs
     return desk

@@ -59,7 +59,7 @@ SHARE_TOKEN = APIKeyHeader(name="X-Share-Token", scheme_name="ShareToken", auto_
 _TAG = re.compile(r'(W/)?"([^"]*)"')
 
 
-def get_desk(request: Request) -> KeptDesk:
+async def get_desk(request: Request) -> KeptDesk:
     """Return where to turn to about kept plans."""
     desk: KeptDesk = request.app.state.kept
     return desk

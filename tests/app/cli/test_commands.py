@@ -86,3 +86,5 @@ def test_serve_runs_the_application(monkeypatch: pytest.MonkeyPatch) -> None:
     assert CliRunner().invoke(commands.cli, ["serve", "--port", "81"]).exit_code == 0
     (options,) = calls
     assert (options["host"], options["port"]) == ("127.0.0.1", 81)
+    # A proxy that keeps connections for a minute asks on none that is being closed.
+    assert options["timeout_keep_alive"] > 60

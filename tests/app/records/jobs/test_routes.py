@@ -4,6 +4,7 @@ import json
 import threading
 import uuid
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from functools import partial
 from http.server import BaseHTTPRequestHandler, HTTPServer
 from itertools import pairwise
@@ -13,11 +14,12 @@ import httpx
 import pytest
 from standardwebhooks import Webhook
 
+from app.maps.streets.gallery import Gallery
 from app.records.jobs.schemas import JobListReply, JobReply, ProgressEvent
 from tests.app.records.jobs.stepping import (
     BROKEN_SEED, NUM_CUSTOMERS, RAISING_SEED, ended, read, request_of, submit,
 )
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -25,6 +27,9 @@ Job = dict[str, Any]
 
 FULL_COST = 2.0 * NUM_CUSTOMERS
 EMPTY_COST = 100.0 * NUM_CUSTOMERS
+
+OF_ALL = 40
+"""Threads that AnyIO has for all endpoints that are plain functions."""
 
 SECRET = "whsec_MDEyMzQ1Njc4OTAxMjM0NTY3ODkwMTIzNDU2Nzg5MDE="
 
@@ -183,6 +188,27 @@ def test_pages_list_each_job_once_the_youngest_first(jobs: httpx.Client) -> None
         cursor = {"cursor": page["next"]}
     assert listed[:5] == ids[::-1]
     assert len(set(listed)) == len(listed)
+
+
+def test_list_needs_no_thread_that_others_wait_in(
+        jobs: httpx.Client, monkeypatch: pytest.MonkeyPatch) -> None:
+    arrived = threading.Semaphore(0)
+    go_on = threading.Event()
+
+    def find(gallery: Gallery, name: str) -> None:
+        arrived.release()
+        go_on.wait()
+
+    monkeypatch.setattr(Gallery, "find", find)
+    with ThreadPoolExecutor(OF_ALL) as pool:
+        tiles = [pool.submit(jobs.get, "/map/city/0/0/0") for _ in range(OF_ALL)]
+        try:
+            for _ in tiles:
+                assert arrived.acquire(timeout=PATIENCE)
+            assert jobs.get("/jobs").status_code == 200
+        finally:
+            go_on.set()
+        assert {tile.result().status_code for tile in tiles} == {404}
 
 
 def test_list_is_filtered_by_state(jobs: httpx.Client) -> None:
