@@ -25,6 +25,7 @@ import httpx
 import typer
 from tqdm import tqdm
 
+from app.serving.load.courtesy import NICENESS
 from benchmarks.fuzz.api import service
 from benchmarks.speed.dear_requests import (
     PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
@@ -141,18 +142,28 @@ def _about(path: str, genes: Genes, request: Data, plan: Data) -> Data:
 
 
 def processor_time(process: int) -> float:
-    """Return the seconds of the processor that a process and its children took so far."""
+    """Return the seconds of the processor that a process and its children took so far.
+
+    Threads that stand back are left out while they run: they are those of a job beside.
+    """
     ticks, waiting = 0, [process]
     while waiting:
         each = waiting.pop()
         try:
-            ticks += sum(map(int, Path(f"/proc/{each}/stat").read_text().rsplit(")", 1)[1]
-                             .split()[11:15]))
+            ticks += sum(map(int, _counts(Path(f"/proc/{each}"))[11:15]))
             for task in Path(f"/proc/{each}/task").iterdir():
+                counts = _counts(task)
+                if int(counts[16]) >= NICENESS:
+                    ticks -= sum(map(int, counts[11:13]))
                 waiting += map(int, (task / "children").read_text().split())
         except FileNotFoundError:
             continue
     return ticks / os.sysconf("SC_CLK_TCK")
+
+
+def _counts(folder: Path) -> list[str]:
+    """Return what Linux tells of a process or thread from the third field of `stat` on."""
+    return (folder / "stat").read_text().rsplit(")", 1)[1].split()
 
 
 @dataclass(frozen=True)
@@ -204,7 +215,7 @@ def main(
                     typer.Option(help="One endpoint; else most requests go to /plan.")] = None,
     beside: Annotated[bool, typer.Option(help="Have a job run beside.")] = False,
     by_processor: Annotated[bool, typer.Option(
-        help="Count the service's processor time, not the clock's (Linux).")] = False,
+        help="Count the processor time of what is asked, not the clock's (Linux).")] = False,
     folder: Annotated[Path, typer.Option(help="For the finds.")] = Path("runs/dearest"),
 ) -> None:
     """Look for requests that take much longer than their time limit."""

@@ -4,7 +4,10 @@ The search itself is `python -m benchmarks.speed.dearest`.
 """
 
 import json
+import os
 import random
+import sys
+import threading
 import time
 from collections.abc import Callable
 from contextlib import nullcontext
@@ -20,10 +23,11 @@ import typer
 from app.formats.vroom.schemas import VroomRequest
 from app.requests.reading import read_request
 from app.schemas.request import PlanRequest
+from app.serving.load.courtesy import NICENESS, stand_back
 from benchmarks.speed.dear_requests import (
     KINDS, LARGEST, PLAN, Genes, changed_genes, gene, mixed_genes, random_genes, request_of,
 )
-from benchmarks.speed.dearest import Asker, Companion, Search, main
+from benchmarks.speed.dearest import Asker, Companion, Search, main, processor_time
 
 pytestmark = pytest.mark.slow
 
@@ -147,6 +151,37 @@ def test_a_job_runs_beside_what_is_asked_for() -> None:
         beside.measure("/vroom", random_genes(random.Random(0), "/vroom"))
     told = [path for method, path in asked if method == "POST"]
     assert told == ["/jobs", "/vroom", "/vroom", "/jobs", "/vroom"]
+
+
+@pytest.mark.skipif(sys.platform != "linux" or os.nice(0) >= NICENESS,
+                    reason="no thread stands back of this process's others")
+def test_processor_time_leaves_out_what_stands_back() -> None:
+    done, may_end = threading.Event(), threading.Event()
+
+    def work(begin: Callable[[], None]) -> float:
+        """Take half a second of the processor; return what is counted of it."""
+        before = processor_time(os.getpid())
+
+        def spend() -> None:
+            begin()
+            end = time.thread_time() + 0.5
+            while time.thread_time() < end:
+                pass
+            done.set()
+            may_end.wait()
+
+        thread = threading.Thread(target=spend)
+        thread.start()
+        done.wait()
+        counted = processor_time(os.getpid()) - before
+        may_end.set()
+        thread.join()
+        done.clear()
+        may_end.clear()
+        return counted
+
+    assert work(lambda: None) > 0.4
+    assert work(stand_back) < 0.3
 
 
 def test_the_job_beside_is_a_valid_request() -> None:
