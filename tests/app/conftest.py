@@ -16,6 +16,7 @@ import pytest
 import uvicorn
 from sqlalchemy import Connection, Engine, event
 
+from app.cli.serving import IDLE_SECONDS
 from app.database.connections import make_engine
 from app.main import create_app
 from app.plans import explaining, task
@@ -165,7 +166,7 @@ def serving(planner: Planner | None,
     listener.listen()
     # Nor does it close a connection just when a client that was busy for 5 s asks on it again.
     server = uvicorn.Server(uvicorn.Config(app, log_level=logging.CRITICAL + 1,
-                                           timeout_keep_alive=int(PATIENCE)))
+                                           timeout_keep_alive=IDLE_SECONDS))
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
     thread.start()
     address = f"http://127.0.0.1:{listener.getsockname()[1]}"

@@ -12,6 +12,7 @@ from app.serving.children.line import Line
 from app.serving.children.pool import Pool
 from app.serving.children.starting import threads
 from app.serving.observe.metrics import Metrics
+from tests.conftest import SOON
 
 begun = threading.Semaphore(0)
 may_end = threading.Event()
@@ -25,7 +26,7 @@ def never() -> bool:
 def wait(line: Line, should_stop: Callable[[], bool]) -> None:
     """Wait until all may end."""
     begun.release()
-    may_end.wait(20)
+    may_end.wait()
 
 
 def answer(line: Line, should_stop: Callable[[], bool]) -> int:
@@ -39,10 +40,10 @@ def test_plans_wait_for_no_checks_of_jobs() -> None:
     with ThreadPoolExecutor(2 * CHECKED_AT_ONCE) as clients:
         for _ in range(2 * CHECKED_AT_ONCE):
             clients.submit(desk.check, wait, should_stop=never)
-        for _ in range(CHECKED_AT_ONCE):
-            assert begun.acquire(timeout=10)
-        patience = time.monotonic() + 2
         try:
+            for _ in range(CHECKED_AT_ONCE):
+                assert begun.acquire(timeout=SOON)
+            patience = time.monotonic() + SOON
             assert desk.do(answer, should_stop=lambda: time.monotonic() > patience) == 42
         finally:
             may_end.set()

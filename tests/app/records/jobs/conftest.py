@@ -15,6 +15,7 @@ import pytest
 import uvicorn
 from sqlalchemy import create_engine, text
 
+from app.cli.serving import IDLE_SECONDS
 from app.main import create_app
 from app.records.jobs import order, planning, studies, webhook
 from app.serving.settings import Settings
@@ -101,7 +102,7 @@ def settings(request: pytest.FixtureRequest, tmp_path: Path) -> Settings:
 def serving(settings: Settings, planner: SteppingPlanner | None = None) -> Iterator[httpx.Client]:
     """Serve on loopback and work on jobs in this process."""
     server = uvicorn.Server(uvicorn.Config(create_app(settings, planner or SteppingPlanner()),
-                                           log_config=None))
+                                           log_config=None, timeout_keep_alive=IDLE_SECONDS))
     with socket.create_server(("127.0.0.1", 0)) as listener:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()

@@ -13,6 +13,7 @@ from pathlib import Path
 import httpx
 import uvicorn
 
+from app.cli.serving import IDLE_SECONDS
 from app.cli.commands import main
 from app.main import create_app
 from app.serving.settings import Settings
@@ -25,12 +26,14 @@ FORKING.set_forkserver_preload([__name__, "app.cli.serving"])
 
 def stepping(port: int) -> None:
     """Serve the planner whose plans get better while time passes."""
-    uvicorn.run(create_app(Settings(), SteppingPlanner()), port=port)
+    uvicorn.run(create_app(Settings(), SteppingPlanner()), port=port,
+                timeout_keep_alive=IDLE_SECONDS)
 
 
 def halfway(port: int) -> None:
     """Serve that planner, which ends no search by itself."""
-    uvicorn.run(create_app(Settings(), SteppingPlanner(comes_to=0.5)), port=port)
+    uvicorn.run(create_app(Settings(), SteppingPlanner(comes_to=0.5)), port=port,
+                timeout_keep_alive=IDLE_SECONDS)
 
 
 def truly(port: int) -> None:

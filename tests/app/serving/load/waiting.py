@@ -12,6 +12,7 @@ from typing import Any
 import httpx
 import uvicorn
 
+from app.cli.serving import IDLE_SECONDS
 from app.main import create_app
 from app.serving.load.protocol import HttpProtocol
 from app.serving.settings import Settings
@@ -70,7 +71,8 @@ def main() -> None:
     """Serve until told to stop."""
     settings = Settings()
     uvicorn.run(create_app(settings, WaitingPlanner()), port=int(sys.argv[1]), http=HttpProtocol,
-                log_level="critical", timeout_graceful_shutdown=settings.shutdown_seconds)
+                log_level="critical", timeout_keep_alive=IDLE_SECONDS,
+                timeout_graceful_shutdown=settings.shutdown_seconds)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from typing import Any
 import httpx
 import uvicorn
 
+from app.cli.serving import IDLE_SECONDS
 from app.main import create_app
 from app.serving.observe.logs import log_config
 from app.serving.settings import Settings
@@ -97,7 +98,7 @@ def main() -> None:
     logs = log_config(settings.log_format, settings.log_level,
                       traced=settings.otlp_endpoint is not None)
     uvicorn.run(create_app(settings, CrashingPlanner()), port=int(sys.argv[1]), access_log=False,
-                log_config=logs)
+                log_config=logs, timeout_keep_alive=IDLE_SECONDS)
 
 
 if __name__ == "__main__":
