@@ -10,7 +10,7 @@ from typing import Any
 
 import httpx
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, expect
+from playwright.sync_api import Browser, BrowserContext, Page, Route, expect
 from sqlalchemy import text
 
 from app.serving.settings import Settings
@@ -18,6 +18,8 @@ from tests.app.conftest import FirstFitPlanner, opened, ready, serving
 from tests.app.records.dispatches.days import (
     DEPART, FIRST, LAUNCH, PLAN, PROBLEM, dispatched, event, holding,
 )
+from tests.conftest import eventually
+from tests.console.serving import new_context
 from tests.console.steps import open_example, open_file, open_tab, planned, state
 from tests.console.test_everyone import findings
 
@@ -45,7 +47,7 @@ def client(settings: Settings) -> Iterator[httpx.Client]:
 @pytest.fixture
 def phone(browser: Browser) -> Iterator[BrowserContext]:
     """Return a phone's browser."""
-    context = browser.new_context(**PHONE)
+    context = new_context(browser, **PHONE)
     yield context
     context.close()
 
@@ -160,7 +162,7 @@ def test_day_is_told_in_the_language_of_the_phone_and_loads_in_their_units(
         client: httpx.Client, browser: Browser) -> None:
     dimensions = [{"name": "weight", "unit": "kg"}]
     sent = dispatched(client, problem=PROBLEM | {"load_dimensions": dimensions})
-    phone = browser.new_context(**PHONE | {"locale": "de-AT"})
+    phone = new_context(browser, **PHONE | {"locale": "de-AT"})
     page = open_page(phone, sent["links"][0])
     expect(page.locator("html")).to_have_attribute("lang", "de")
     expect(page.get_by_role("status")).to_have_text("Alles ist gesendet.")
@@ -182,6 +184,26 @@ def test_day_is_told_in_the_language_of_the_phone_and_loads_in_their_units(
     standing = client.get(f"/dispatches/{sent['id']}").json()["links"][0]["standing"]
     # The service knows some reasons, whatever the language in which they were tapped.
     assert standing[1]["reason"] == "Too much wind"
+    phone.close()
+
+
+@pytest.mark.parametrize("locale", ["en-GB", "de-AT"])
+def test_nothing_moves_under_the_thumb_when_it_is_sent(
+        client: httpx.Client, browser: Browser, locale: str) -> None:
+    sent = dispatched(client)
+    phone = new_context(browser, **PHONE | {"locale": locale})
+    waiting: list[Route] = []
+    phone.route("**/events", lambda route: waiting.append(route))
+    page = open_page(phone, sent["links"][0])
+    page.locator("li[aria-current=step] .good").click()
+    status = page.get_by_role("status")
+    expect(status).to_have_class("unsent")
+    failed = page.locator("li.launch .bad")
+    before = failed.bounding_box()
+    eventually(lambda: page.evaluate("1") and waiting)
+    waiting[0].continue_()
+    expect(status).not_to_have_class("unsent")
+    assert failed.bounding_box() == before
     phone.close()
 
 

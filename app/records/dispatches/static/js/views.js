@@ -143,7 +143,8 @@ function Step({ day, step, isNext, standing, navigator, link, onTell }) {
     <button type="button" class="head" aria-expanded=${shown} onClick=${() => setOpen(!shown)}>
       <span class="time">${clock(day, step.kind === 'stop' ? step.arrival : step.time)}</span>
       <span class="title">${titleOf(step)}</span>
-      <span class="state">${told}${isUnsent ? ` ${t('state.unsent')}` : ''}</span>
+      <span class="state">${told} ${told &&
+        html`<span class=${isUnsent ? '' : 'sent'}>${t('state.unsent')}</span>`}</span>
     </button>
     ${shown && html`<div class="body">
       <${Facts} day=${day} step=${step} />

@@ -57,7 +57,7 @@ export default {
   state: {
     done: 'erledigt',
     failed: 'gescheitert',
-    unsent: '(nicht gesendet)',
+    unsent: '(wartet)',
   },
   fact: {
     planned: 'Geplant',
