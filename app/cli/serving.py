@@ -1,6 +1,7 @@
 """`tandem serve`: runs the service as one process, or several on one port."""
 
 import os
+import socket
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -32,6 +33,26 @@ HEALTHCHECK_SECONDS = 30
 """How long a process may not answer its parent, which then starts another in its place."""
 
 
+class PortTakenError(OSError):
+    """Something else listens on the service's port."""
+
+
+def check_port(host: str, port: int) -> None:
+    """Make sure that nobody listens there yet, before anything is loaded and jobs are worked on.
+
+    Raises
+    ------
+    PortTakenError
+        If somebody does.
+    """
+    try:
+        socket.create_connection((host, port), timeout=1.0).close()
+    except OSError:
+        return
+    raise PortTakenError(f"Something listens on port {port} of {host} already: end it, or name "
+                         "another port by --port, or PORT=8001 of make.")
+
+
 def serve(
     host: Annotated[str, typer.Option(help="Address to listen on.")] = "127.0.0.1",
     port: Annotated[int, typer.Option(help="Port to listen on.", min=0, max=65535)] = 8000,
@@ -42,13 +63,10 @@ def serve(
     settings = Settings()
     try:
         check_exposure(settings, host)
-    except ExposedError as error:
-        typer.echo(str(error), err=True)
-        raise typer.Exit(EXIT_BAD_INPUT) from error
-    try:
+        check_port(host, port)
         if settings.database_url is None or settings.role != "api":
             check_folder(settings.data_dir)
-    except FolderError as error:
+    except (ExposedError, PortTakenError, FolderError) as error:
         typer.echo(str(error), err=True)
         raise typer.Exit(EXIT_BAD_INPUT) from error
     with roads_of(settings):

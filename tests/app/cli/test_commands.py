@@ -1,6 +1,7 @@
 """The `tandem` command on files."""
 
 import json
+import socket
 from pathlib import Path
 from typing import Any
 from unittest.mock import Mock
@@ -12,6 +13,7 @@ from app.cli import commands, planning
 from app.cli.file_errors import EXIT_BAD_INPUT
 from app.schemas.request import PlanRequest
 from model.planner import Planner
+from tests.conftest import free_port
 
 Request = dict[str, Any]
 
@@ -83,8 +85,21 @@ def test_what_is_no_plan_is_refused(tmp_path: Path, smallest: Request) -> None:
 def test_serve_runs_the_application(monkeypatch: pytest.MonkeyPatch) -> None:
     calls: list[dict[str, Any]] = []
     monkeypatch.setattr("uvicorn.run", lambda app, **options: calls.append(options))
-    assert CliRunner().invoke(commands.cli, ["serve", "--port", "81"]).exit_code == 0
+    port = free_port()
+    assert CliRunner().invoke(commands.cli, ["serve", "--port", str(port)]).exit_code == 0
     (options,) = calls
-    assert (options["host"], options["port"]) == ("127.0.0.1", 81)
+    assert (options["host"], options["port"]) == ("127.0.0.1", port)
     # A proxy that keeps connections for a minute asks on none that is being closed.
     assert options["timeout_keep_alive"] > 60
+
+
+def test_a_port_that_is_taken_is_told_before_anything_begins(
+        monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[object] = []
+    monkeypatch.setattr("uvicorn.run", lambda app, **options: calls.append(app))
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = str(other.getsockname()[1])
+        told = CliRunner().invoke(commands.cli, ["serve", "--port", port])
+    assert told.exit_code == EXIT_BAD_INPUT
+    assert f"Something listens on port {port} of 127.0.0.1 already" in told.stderr
+    assert calls == []
