@@ -65,13 +65,13 @@ class SteppingPlanner:
         began = time.perf_counter() if received_at is None else received_at
         fewest = 0 if start is None else problem.num_customers - len(start.unassigned)
         plan = partial_plan(problem, fewest) if start is None else start
-        first_cost, turns = cost_of(problem, plan), 0
+        first_cost, turns, reached = cost_of(problem, plan), 0, -1.0
         listener.on_progress(Progress(first_cost, 0, lambda: plan))
         while not listener.should_stop() and (share := self._share(options, began, turns)) < 1:
             threading.Event().wait(PAUSE)
-            if share == self._comes_to:
+            if share == reached:
                 continue
-            turns += 1
+            turns, reached = turns + 1, share
             plan = partial_plan(problem, round(fewest + share * (problem.num_customers - fewest)))
             listener.on_progress(Progress(cost_of(problem, plan), turns, partial(self._same, plan)))
         if self._share(options, began, turns) >= 1:

@@ -10,7 +10,7 @@ import pytest
 
 from tests.app.records.jobs.served import Served
 from tests.app.records.jobs.stepping import request_of
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -28,7 +28,7 @@ def receiver(answers: Event) -> Iterator[tuple[int, list[Call]]]:
         def do_POST(self) -> None:
             body = self.rfile.read(int(self.headers["content-length"]))
             taken.append((self.headers["webhook-id"], body))
-            answers.wait(30)
+            answers.wait(PATIENCE)
             self.send_response(204)
             self.end_headers()
 
