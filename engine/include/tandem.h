@@ -247,14 +247,14 @@ typedef struct tandem_point {
 
 /* What is aboard around a stop of a trip, of one tier; sums are over all dimensions. */
 typedef struct tandem_stop_load {
-    int64_t leaves; /* sum of the parcels that leave the truck there */
-    int64_t comes;  /* sum of what comes aboard there */
-    int64_t stacks; /* shipments that come aboard, less those that leave */
-    int64_t picked; /* sum of what was picked up before, and of a stack the shipments on it */
-    int64_t due;    /* sum of what is delivered behind, and likewise */
-    int64_t given;  /* sum of what is delivered on the whole trip */
-    int64_t load;   /* on leaving, in the first dimension */
-    int64_t driven; /* how far the trip has come */
+    int64_t leaves;    /* sum of the parcels that leave the truck there */
+    int64_t comes;     /* sum of what comes aboard there */
+    int64_t stacks;    /* shipments that come aboard, less those that leave */
+    int64_t picked;    /* sum of what was picked up before, and of a stack the shipments on it */
+    int64_t due;       /* sum of what is delivered behind, and likewise */
+    int64_t given;     /* sum of what is delivered on the whole trip */
+    int64_t driven;    /* how far the trip has come */
+    int64_t aboard[3]; /* on leaving */
     int64_t leaving[3];
     int64_t coming[3];
     int64_t before[3]; /* the most that is aboard before the stop */
@@ -687,7 +687,7 @@ typedef struct tandem_chain {
 typedef struct tandem_chain_cargo {
     int64_t delivered[3];
     int64_t picked[3];
-    int64_t most[3]; /* that is aboard of both */
+    int64_t most[3];  /* that is aboard of both */
     int64_t delivers; /* sum over all dimensions */
     int64_t picks;    /* likewise */
 } tandem_chain_cargo;
@@ -1225,9 +1225,9 @@ typedef struct tandem_problem_data {
                                     and how many in the last row; none where nobody waits */
     tandem_f64_2d vehicle_cost;  /* (type, node) of being served by it, none likewise */
     tandem_bool_1d
-        no_launch; /* (node,) no drone takes off or is recovered there; none where any may */
+        no_launch;       /* (node,) no drone takes off or is recovered there; none where any may */
     tandem_i64_1d zones; /* (node,) bits of the zones with hours that hold it; none likewise */
-    tandem_hub_1d hub; /* (depot,) none where all have enough */
+    tandem_hub_1d hub;   /* (depot,) none where all have enough */
     tandem_bool_2d
         halts; /* (type, depot) launch sites where it may stop; (0, 0) if there are none */
     tandem_i64_1d halt_after;    /* (depot,) who is served before a stop there, or -1 */

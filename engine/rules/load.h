@@ -257,7 +257,7 @@ bool weigh_trip(const VehicleType& type, Stops first, Stops behind, Int tier) {
         stop_load.given = given;
         picked += stop_load.comes;
         load = plus(minus(load, amount_of(stop_load.leaving)), amount_of(stop_load.coming));
-        stop_load.load = load[0];
+        write_amount(load, stop_load.aboard);
         write_amount(load, stop_load.behind);
         most = larger(most, load);
     }

@@ -78,7 +78,6 @@ Scratch::Scratch(Int longest, PartScratch part, Int num_nodes, Int most_moved, I
       moved_customers(num_nodes),
       key(num_nodes),
       moved(most_moved),
-      fits(most_moved),
       offer(most_offers),
       least(most_offers) {
     std::fill(served.view().begin(), served.view().end(), Served{nobody, 0, false});

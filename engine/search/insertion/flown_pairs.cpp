@@ -32,9 +32,7 @@ using EndPlaces = Cheapest<EndPlace, most_places>;
 class FlownPairScan : TripScan {
 public:
     FlownPairScan(const Insertion& insertion, Int of_slot, const Trip& tried)
-        : TripScan(insertion, of_slot, tried),
-          delivery_(data.pair[node].partner),
-          fits_(insertion.searcher.scratch->fits) {}
+        : TripScan(insertion, of_slot, tried), delivery_(data.pair[node].partner) {}
 
     void scan() {
         EndPlaces pickups, deliveries;
@@ -84,10 +82,10 @@ private:
             return;
         }
         const Int first = pickup.aboard() / 2, behind = (delivery.leaves() + 1) / 2;
-        if (std::all_of(&fits_[first], &fits_[first] + (behind - first),
-                        [](bool fits) { return fits; })) {
-            pairs_.add({cost, pickup, delivery});
+        for (Int p = first; p < behind; ++p) {
+            if (!fits(p)) return;
         }
+        pairs_.add({cost, pickup, delivery});
     }
 
     // Whether others are flown to from and to the same stops.
@@ -130,7 +128,6 @@ private:
     }
 
     const Int delivery_;
-    const View<bool, 1> fits_;
     Cheapest<PairPlace, most_priced> pairs_;
 };
 

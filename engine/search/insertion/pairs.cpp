@@ -32,25 +32,6 @@ constexpr Int ends_of_pair = 2;
 constexpr Int most_timed = 16;  // places on a trip that are timed at once
 constexpr Int most_tried = 4;   // so many, one after another, until the vehicle can come to one
 
-// Marks the stops of a trip that a vehicle may leave with a shipment's amount more aboard.
-void mark_fits(const ProblemData& data, const Fleet& fleet, Int slot, const Trip& trip, Int pickup,
-               View<bool, 1> fits) {
-    const VehicleType& type = data.type[fleet.route[slot].type];
-    std::fill(&fits[trip.first], &fits[trip.last] + 1, true);
-    for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
-        const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][tier];
-        Amount load = picked_of(data.amount, pickup, tier);
-        for (Int p = trip.first; p <= trip.last; ++p) {
-            load = plus(load, amount_of(stop_loads[p].leaving));
-        }
-        for (Int p = trip.first; p < trip.last; ++p) {
-            const Amount leaving = amount_of(stop_loads[p].leaving);
-            load = plus(minus(load, leaving), amount_of(stop_loads[p].coming));
-            fits[p] = fits[p] && holds_in(type, load, tier);
-        }
-    }
-}
-
 // Whether a shipment that is aboard on arrival at a stop, or leaving it, is in the way of what the
 // stop unloads from a stack, or lies under what comes aboard.
 bool disturbs_stack(const Fleet& fleet, Int slot, Int p) {
@@ -65,7 +46,6 @@ public:
         : TripScan(insertion, of_slot, tried),
           pickup_(newcomer(node)),
           delivery_(newcomer(data.pair[node].partner)),
-          fits_(insertion.searcher.scratch->fits),
           time_rate_(data.evaluation[route.type].timed ? rate.time : 0.0),
           stops_cost_(double(ends_of_pair) * rate.stop +
                       vehicle_cost_at(data.vehicle_cost, route.type, pickup_.node) +
@@ -116,7 +96,7 @@ private:
             if (!front.serve(pickup_.place, out.duration)) continue;
             const Leg apart = more_behind(pickup_, p);
             Int above = 0;
-            for (Int q = p; q < trip.last && fits_[q]; ++q) {
+            for (Int q = p; q < trip.last && fits(q); ++q) {
                 if (q > p && !goes_past(q, above)) break;
                 if (delivery_.place.too_late(std::max(front.time, stops[q].leave))) break;
                 if (above > 0) continue;
@@ -139,10 +119,9 @@ private:
 
     // How much longer and further it is by both ends behind a stop, from which `out` leads.
     Leg more_together(const Leg& out, Int p) const {
-        const Leg aboard = leg_to(pickup_.onward, delivery_.node);
         const Leg on = leg_to(delivery_.onward, stops[p + 1].node);
-        return {out.duration + aboard.duration + on.duration - stops[p].gap,
-                out.distance + aboard.distance + on.distance - stops[p].leg};
+        return {out.duration + aboard_.duration + on.duration - stops[p].gap,
+                out.distance + aboard_.distance + on.distance - stops[p].leg};
     }
 
     double cost_of(Int detour) const { return double(detour) * rate.distance + stops_cost_; }
@@ -150,7 +129,7 @@ private:
     // How much further it is by the delivery behind the pickup, or behind stop `q`.
     Int delivered_behind(Int p, Int q) const {
         const Int on = distance_to(delivery_.onward, stops[q + 1].node) - stops[q].leg;
-        if (q == p) return distance_to(pickup_.onward, delivery_.node) + on;
+        if (q == p) return aboard_.distance + on;
         return distance_from(delivery_.inward, stops[q].node) + on;
     }
 
@@ -165,23 +144,27 @@ private:
     void walk_by() {
         for (Int p = trip.first; p < trip.last; ++p) {
             if (pickup_.place.too_late(stops[p].leave)) return;
-            if (fits_[p] && stops[p].flying == 0) walk_from<Rarer>(p);
+            if (fits(p) && stops[p].flying == 0) walk_from<Rarer>(p);
         }
     }
 
     template <class Rarer>
     void walk_from(Int p) {
+        const Leg out = leg_from(pickup_.inward, stops[p].node);
+        const Leg on = leg_to(pickup_.onward, stops[p + 1].node);
+        const Int together = out.distance + delivered_behind(p, p);
+        // By the triangle inequality it is no less further to deliver later.
+        const Int later = out.distance + on.distance - stops[p].leg;
+        if (cost_of(std::min(together, later)) >= best.cost) return;
         Proposal<Rarer> way(*this, p, inserted_);
-        if (!way.serve(pickup_, leg_from(pickup_.inward, stops[p].node))) return;
+        if (!way.serve(pickup_, out)) return;
         Int above = 0;
         for (Int q = p;; q = way.behind()) {
             if (delivery_.place.too_late(way.front().time)) return;
             if (above == 0) try_delivery(way, p, q);
             if (!may_pass(q + 1, above)) return;
-            const Stop &here = stops[q], &next = stops[q + 1];
-            const Leg on = q == p ? leg_to(pickup_.onward, next.node) : Leg{here.gap, here.leg};
-            // By the triangle inequality no later delivery is nearer.
-            if (!way.pass(on) || cost_of(way.further()) >= best.cost) return;
+            if (!way.pass(q == p ? on : Leg{stops[q].gap, stops[q].leg})) return;
+            if (cost_of(way.further()) >= best.cost) return;
         }
     }
 
@@ -189,7 +172,7 @@ private:
     bool may_pass(Int first, Int& above) const {
         const Int last = first < trip.last ? stops[first].last : trip.last;
         for (Int q = first; q <= last; ++q) {
-            if (q == trip.last || !fits_[q] || !goes_past(q, above)) return false;
+            if (q == trip.last || !fits(q) || !goes_past(q, above)) return false;
         }
         return true;
     }
@@ -198,8 +181,7 @@ private:
     void try_delivery(const Proposal<Rarer>& without, Int p, Int q) {
         if (cost_of(without.further() + delivered_behind(p, q)) >= best.cost) return;
         Proposal<Rarer> way = without;
-        const Leg out = q == p ? leg_to(pickup_.onward, delivery_.node)
-                               : leg_from(delivery_.inward, stops[q].node);
+        const Leg out = q == p ? aboard_ : leg_from(delivery_.inward, stops[q].node);
         if (!way.serve(delivery_, out)) return;
         const double cost = way.price(leg_to(delivery_.onward, stops[q + 1].node), stops_cost_);
         if (cost < infeasible && best.takes(cost)) best.move = move_of(both_ends, p, q);
@@ -207,7 +189,7 @@ private:
 
     const Newcomer pickup_;
     const Newcomer delivery_;
-    const View<bool, 1> fits_;
+    const Leg aboard_ = leg_to(pickup_.onward, delivery_.node);
     const double time_rate_;
     const double stops_cost_;
     Inserted inserted_;
@@ -256,7 +238,6 @@ void scan_pair(const Insertion& insertion, Int slot) {
             scan_flown_parts(insertion, slot, trip);
             continue;
         }
-        mark_fits(data, fleet, slot, trip, node, searcher.scratch->fits);
         if (allows_stops(data.type[k], stops_on(trip) + ends_of_pair)) {
             PairScan scan(insertion, slot, trip);
             walked ? scan.walk() : scan.time_cheapest();

@@ -90,7 +90,7 @@ private:
 
     // Whether so much more may be aboard behind a stop, of what is compared first.
     bool holds_more(Int behind, Int aboard) const {
-        return fleet.stop_load(slot, 0, behind).load + aboard <= capacity_of(type)[0];
+        return fleet.stop_load(slot, 0, behind).aboard[0] + aboard <= capacity_of(type)[0];
     }
 
     // Whether a pickup is tried right behind a stop.

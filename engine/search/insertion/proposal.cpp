@@ -39,7 +39,7 @@ void RarerRules::drive(const OnTrip& on, Int behind, Int to, const Leg& leg) {
         travel_ += travel_between(on.data, on.type, here_ == nowhere ? stop.node : here_, to);
     }
     if (loads_cost(on.data, on.route.type)) {
-        const Int load = on.fleet.stop_load(on.slot, 0, behind).load + on.type.carried;
+        const Int load = on.fleet.stop_load(on.slot, 0, behind).aboard[0] + on.type.carried;
         carried_ += double(load + aboard_) * double(leg.distance);
     }
 }
@@ -72,7 +72,7 @@ void RarerRules::pass(const OnTrip& on, const Whereabouts& at, const Leg& leg) {
     }
     if (loads_cost(on.data, on.route.type)) {
         const View<const StopLoad, 1> stop_loads = on.fleet.stop_load[on.slot][0];
-        carried_ -= double(stop_loads[at.behind].load + on.type.carried) * double(stop.leg);
+        carried_ -= double(stop_loads[at.behind].aboard[0] + on.type.carried) * double(stop.leg);
         const Int within = stop_loads[next.last].driven - stop_loads[at.behind + 1].driven;
         carried_ += double(aboard_) * double(within);
     }
@@ -108,7 +108,7 @@ double RarerRules::cost(const OnTrip& on, const Whereabouts& at, const Leg& leg,
     double cost = 0.0;
     if (loads_cost(on.data, on.route.type)) {
         const View<const StopLoad, 1> stop_loads = on.fleet.stop_load[on.slot][0];
-        const Int load = stop_loads[at.behind].load + on.type.carried;
+        const Int load = stop_loads[at.behind].aboard[0] + on.type.carried;
         const double carried =
             carried_ + double(load + aboard_) * double(leg.distance) -
             double(load) * double(on.stops[at.behind].leg) +

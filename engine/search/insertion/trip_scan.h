@@ -31,6 +31,18 @@ struct TripScan : OnTrip {
         return end.detour(stop.node, stops[behind + 1].node, stop.leg);
     }
 
+    // Whether a stop may be left with the shipment aboard as well, if the trip goes on there.
+    bool fits(Int p) const {
+        if (p == trip.last) return true;
+        for (Int tier = 0; tier < tiers_aboard(fleet); ++tier) {
+            const Amount aboard = amount_of(fleet.stop_load(slot, tier, p).aboard);
+            if (!holds_in(type, plus(aboard, picked_of(data.amount, node, tier)), tier)) {
+                return false;
+            }
+        }
+        return true;
+    }
+
     // Whether what costs at least so much may be passed over.
     bool is_dear(double least) const { return data.strategy.give_up_early && least >= best.cost; }
 

@@ -149,7 +149,7 @@ double load_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     const View<const StopLoad, 1> stop_loads = fleet.stop_load[slot][0];
     double carried = 0.0;
     for (Int p = 0; p < fleet.route[slot].length; ++p) {
-        const Int load = stop_loads[p].load + data.type[k].carried;
+        const Int load = stop_loads[p].aboard[0] + data.type[k].carried;
         carried += static_cast<double>(load) * static_cast<double>(fleet.stop(slot, p).leg);
     }
     return load_cost(data.rate[k], carried);
@@ -172,7 +172,7 @@ double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, I
     const Int k = fleet.route[slot].type;
     const Int parcel = delivered_of(data.amount, node, 0)[0];
     const Int taken = picked_of(data.amount, node, 0)[0];
-    const Int load = fleet.stop_load(slot, 0, p).load + data.type[k].carried;
+    const Int load = fleet.stop_load(slot, 0, p).aboard[0] + data.type[k].carried;
     const Int detour = out + on - fleet.stop(slot, p).leg;
     const double legs = static_cast<double>(load) * static_cast<double>(detour) +
                         static_cast<double>(parcel) * static_cast<double>(out) +
