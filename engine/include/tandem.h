@@ -1508,10 +1508,7 @@ int tandem_move_shipments(const tandem_problem_data* data, const tandem_searcher
    route serves, in order, ended by -1. Not `done`: the routes are the best ones, or as before. */
 int tandem_exchange_routes(const tandem_problem_data* data, const tandem_searcher* searcher,
                            const tandem_i64_1d* one, const tandem_i64_1d* other, int64_t* done);
-/* Ruin and recreate so many times where all are ends of shipments that windows and loads alone
-   limit, as `search/shipments` says. Not `done`: it goes on from the best routes, by other ways. */
-int tandem_anneal_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,
-                            tandem_scratch* scratch, int64_t turns, int64_t* done);
+
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */

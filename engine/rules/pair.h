@@ -17,6 +17,12 @@ inline bool is_paired(View<const Pair, 1> pairs, Int node) {
     return some_paired(pairs) && pairs[node].partner >= 0;
 }
 
+// Whether all nodes from one on are ends of shipments.
+inline bool all_paired(View<const Pair, 1> pairs, Int first) {
+    return some_paired(pairs) && std::all_of(&pairs[first], pairs.end(),
+                                             [](const Pair& pair) { return pair.partner >= 0; });
+}
+
 // Whether a shipment is picked up at a node.
 inline bool is_pickup(View<const Pair, 1> pairs, Int node) {
     return is_paired(pairs, node) && pairs[node].is_delivery == 0;

@@ -41,15 +41,6 @@ def can_eject(data: ProblemData) -> bool:
     return bool(once and anyhow and paired and data.place.shape[2] == 1 and not own)
 
 
-def can_be_rows(data: ProblemData) -> bool:
-    """Tell whether routes can be rows of shipments, whose ways alone cost."""
-    how, fairness, kind = data.evaluation[0], data.fairness, data.type[0]
-    whole = fairness.makespan > 0 or fairness.balance > 0 or fairness.min_vehicles > 0
-    return can_eject(data) and bool(
-        how["by_detour"] and not how["timed"] and not whole
-        and kind["drones"] == 0 and not kind["flies"])
-
-
 def by_ejection(data: ProblemData, searcher: Searcher, workers: list[Worker], span: Span,
                 gently: bool = False) -> Callable[[], bool] | None:
     """Return what inserts all shipments left out among the routes; None where that can't be.

@@ -17,7 +17,7 @@ from model.search.beginning.construct import begin_anew, begin_by_types
 from model.search.beginning.packing import (
     comes_by_trips, packed_anew, packed_plan, timed, with_single_trips)
 from model.search.beginning.translate import best_plan, make_searcher
-from model.search.ejection import by_ejection, can_be_rows
+from model.search.ejection import by_ejection
 from model.search.fewer_flown import FewerFlown, fewer_may_pay
 from model.search.fewer_vehicles import FEWER_SHARE, search_fewer
 from model.search.first_plan import first_plan
@@ -263,8 +263,8 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     limits.reading = task.reading(*_size(whole))
     heat = Heat.of(data, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
-    workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=room,
-                      in_rows=can_be_rows(data)) for room in linked]
+    workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=room)
+               for room in linked]
 
     node = numbering.node.tolist()
 

@@ -5,7 +5,6 @@ import time
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from model.engine.library import call
 from model.engine.packing import Packed, packed
 from model.engine.pausing import EndedError
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
@@ -52,7 +51,6 @@ class Worker:
     limits: Limits
     heat: Heat
     linked: Linked | None = None  # where its routes can be linked
-    in_rows: bool = False  # its routes can be rows of shipments
     span: Span = WHOLE
     cooling: Span | None = None  # whose first temperature was set
     turns: int = 0
@@ -152,9 +150,7 @@ class Worker:
             self.cooling = span
         value.longest = self._longest_string()
         began, before = time.perf_counter(), int(self.searcher.count.turn)
-        if self.in_rows and self.searcher.count.active > 0:
-            self.in_rows = bool(call("tandem_anneal_shipments", *self.given, self.scratch, turns))
-        elif self.tied is None:
+        if self.tied is None:
             anneal(*self.given, turns, ANY, self.scratch)
         else:
             anneal_linked(*self.given, self.tied, turns, self.scratch)

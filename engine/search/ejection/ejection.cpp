@@ -126,7 +126,7 @@ private:
         std::optional<PairPlace> chosen;
         Int least = 0;
         rows_.for_each_place(row, pair, [&](PairPlace place) {
-            const Int longer = PairRows::longer_by(row, pair, place);
+            const Int longer = PairRows::more_by(row, pair, place).duration;
             if (!chosen || longer < least || (longer == least && below(searcher_.rng, 2) == 0)) {
                 least = longer;
                 chosen = place;
@@ -268,7 +268,7 @@ private:
                   PairPlace place) const {
         if (!rise_) return true;
         const Int saved = time_on(from) - time_on(without_);
-        const Int longer = PairRows::longer_by(others, pair, place) - saved;
+        const Int longer = PairRows::more_by(others, pair, place).duration - saved;
         return double(longer) <= -*rise_ * std::log(1.0 - uniform(searcher_.rng));
     }
 

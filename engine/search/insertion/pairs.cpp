@@ -144,7 +144,7 @@ private:
     void walk_by() {
         for (Int p = trip.first; p < trip.last; ++p) {
             if (pickup_.place.too_late(stops[p].leave)) return;
-            if (fits(p) && stops[p].flying == 0) walk_from<Rarer>(p);
+            if (stops[p].flying == 0) walk_from<Rarer>(p);
         }
     }
 
@@ -155,16 +155,15 @@ private:
         const Int together = out.distance + delivered_behind(p, p);
         // By the triangle inequality it is no less further to deliver later.
         const Int later = out.distance + on.distance - stops[p].leg;
-        if (cost_of(std::min(together, later)) >= best.cost) return;
+        if (cost_of(std::min(together, later)) >= best.cost || !fits(p)) return;
         Proposal<Rarer> way(*this, p, inserted_);
         if (!way.serve(pickup_, out)) return;
         Int above = 0;
         for (Int q = p;; q = way.behind()) {
             if (delivery_.place.too_late(way.front().time)) return;
             if (above == 0) try_delivery(way, p, q);
-            if (!may_pass(q + 1, above)) return;
+            if (cost_of(later) >= best.cost || !may_pass(q + 1, above)) return;
             if (!way.pass(q == p ? on : Leg{stops[q].gap, stops[q].leg})) return;
-            if (cost_of(way.further()) >= best.cost) return;
         }
     }
 

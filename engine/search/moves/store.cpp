@@ -41,6 +41,7 @@ public:
           resplit_(data, searcher),
           best_part_(data, searcher),
           small_moves_(data, searcher),
+          all_paired_(all_paired(data.pair, data.num_depots)),
           plan_cost_(plan_cost(data, searcher)) {}
 
     void ruin(Int first) {
@@ -72,7 +73,9 @@ public:
     Int parts() const {
         if (data_.strategy.small_moves) return 2 + resplits_now();
         if (data_.strategy.resplit) return 1 + resplits;
-        return data_.strategy.fly_shipments ? 1 + moved_ends : 1;
+        if (data_.strategy.fly_shipments) return 1 + moved_ends;
+        // Tails of routes hold whole shipments but seldom.
+        return all_paired_ ? 0 : 1;
     }
 
     // Swaps tails of routes first, then plans trips anew, and anneals some by small moves last.
@@ -194,6 +197,7 @@ private:
     Resplit resplit_;
     BestPart best_part_;
     SmallMoves small_moves_;
+    const bool all_paired_;
     double plan_cost_;  // of the routes as they are, but for this turn
 };
 

@@ -10,7 +10,6 @@
 #include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
-#include "search/shipments/cheapest_place.h"
 #include "search/shipments/rows.h"
 
 namespace tandem {
@@ -29,7 +28,6 @@ public:
         : data_(data),
           searcher_(searcher),
           rows_(data, tiers_aboard(searcher.now)),
-          finder_(data, rows_, searcher.rng, searcher.now.stop.shape(1)),
           one_(rows_of(one)),
           other_(rows_of(other)),
           server_(std::size_t(data.num_nodes), nowhere),
@@ -163,16 +161,25 @@ private:
         std::erase_if(missing_, [&](Int pickup) { return insert(pickup); });
     }
 
+    // Inserts a shipment where it is least further, unless that is overlooked.
     bool insert(Int pickup) {
-        CheapestPlace best;
-        finder_.begin(pickup);
-        for (std::size_t index = 0; index < made_.size(); ++index) {
-            finder_.scan(made_[index], Int(index), best);
+        const PairToInsert pair = rows_.pair_of(pickup);
+        PairRow* chosen = nullptr;
+        PairPlace best{};
+        Int least = 0;
+        for (PairRow& row : made_) {
+            rows_.for_each_place(row, pair, [&](PairPlace place) {
+                const Int further = PairRows::more_by(row, pair, place).distance;
+                if (chosen != nullptr && further >= least) return;
+                if (uniform(searcher_.rng) < data_.strategy.blink) return;
+                chosen = &row;
+                best = place;
+                least = further;
+            });
         }
-        if (best.slot == nowhere) return false;
-        PairRow& row = made_[std::size_t(best.slot)];
-        rows_.insert(row, pickup, best.place);
-        rows_.time(row);
+        if (chosen == nullptr) return false;
+        rows_.insert(*chosen, pickup, best);
+        rows_.time(*chosen);
         return true;
     }
 
@@ -201,7 +208,6 @@ private:
     const ProblemData& data_;
     Searcher& searcher_;
     const PairRows rows_;
-    PlaceFinder finder_;
     std::vector<PairRow> one_, other_, made_;
     std::vector<Int> common_;  // (route, route of the other) shipments that both serve
     std::vector<Int> server_;  // (node,) of a pickup, which of the one plan's routes serves it

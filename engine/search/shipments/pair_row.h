@@ -76,15 +76,25 @@ public:
         }
     }
 
-    // How much longer the ways of a row take by a shipment at a place.
-    static Int longer_by(const PairRow& row, const PairToInsert& pair, PairPlace place) {
+    // How much longer the ways of a row take by a shipment at a place, and how much further they
+    // are.
+    static Leg more_by(const PairRow& row, const PairToInsert& pair, PairPlace place) {
         const auto& [pickup, delivery, together] = pair;
         const std::size_t p = std::size_t(place.p), q = std::size_t(place.q);
-        const Int out = leg_from(pickup.inward, row.node[p]).duration;
-        const Int back = leg_to(delivery.onward, row.node[q + 1]).duration - row.gap[q];
-        if (p == q) return out + together.duration + back;
-        return out + leg_to(pickup.onward, row.node[p + 1]).duration - row.gap[p] +
-               leg_from(delivery.inward, row.node[q]).duration + back;
+        Leg more{-row.gap[q], -row.way[q]};
+        const auto add = [&](const Leg& way) {
+            more = {more.duration + way.duration, more.distance + way.distance};
+        };
+        add(leg_from(pickup.inward, row.node[p]));
+        add(leg_to(delivery.onward, row.node[q + 1]));
+        if (p == q) {
+            add(together);
+        } else {
+            add({-row.gap[p], -row.way[p]});
+            add(leg_to(pickup.onward, row.node[p + 1]));
+            add(leg_from(delivery.inward, row.node[q]));
+        }
+        return more;
     }
 
     // Whether a vehicle may stop for one shipment more.

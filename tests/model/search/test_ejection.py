@@ -11,7 +11,7 @@ from model.judge.check import check
 from model.problem import Problem, VehicleType
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import best_plan, make_searcher
-from model.search.ejection import can_be_rows, can_eject
+from model.search.ejection import can_eject
 from model.search.problem_data import make_data
 from model.search.route.engine import ANY, anneal
 from model.search.route.layout import ProblemData
@@ -124,8 +124,6 @@ def test_shipments_are_ejected_only_where_windows_and_loads_alone_limit() -> Non
     assert can_eject(make_data(problem, pack([problem])))
     paid = replace(problem, vehicle_types=(_truck(problem, cost_per_hour=1.0),))
     assert can_eject(make_data(paid, pack([paid])))
-    assert can_be_rows(make_data(problem, pack([problem])))
-    assert not can_be_rows(make_data(paid, pack([paid])))
     others = [planted(0, 2, False)]
     others.extend(replace(problem, vehicle_types=(_truck(problem, **changes),)) for changes in (
         {"lifo": True}, {"max_trips": 2}, {"max_working_duration": 500_000},

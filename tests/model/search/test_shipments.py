@@ -1,4 +1,4 @@
-"""Routes of shipments as rows are changed within rules, and cost what the judge says."""
+"""Routes of shipments are changed within rules, and cost what the judge says."""
 
 from copy import deepcopy
 from dataclasses import replace
@@ -7,14 +7,12 @@ import numpy as np
 import pytest
 
 from model.engine.instance import pack
-from model.engine.library import call
 from model.judge.check import check
 from model.problem import Problem, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import best_plan, make_searcher
-from model.search.ejection import can_be_rows
 from model.search.problem_data import make_data
-from model.search.route.engine import Scratch
+from model.search.route.engine import ANY, Scratch, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.solution import Solution
@@ -62,14 +60,13 @@ def begun(problem: Problem) -> tuple[ProblemData, Searcher]:
 def test_plans_keep_rules_and_cost_what_they_are_said_to(seed: int, scan_all: bool) -> None:
     problem = various(seed)
     data, searcher = begun(problem)
-    assert can_be_rows(data)
     data = data._replace(strategy=data.strategy._replace(scan_all=scan_all))
     first = float(searcher.value.best)
     with Scratch(data, searcher) as scratch:
         for temperature in (5.0, 1.0, 0.01):
             searcher.value.temperature, searcher.value.longest = temperature, 10.0
             searcher.value.cooling = 1.0
-            assert call("tandem_anneal_shipments", data, searcher, scratch, 150)
+            anneal(data, searcher, 150, ANY, scratch)
             assert len(searcher.active[:searcher.count.active]) == searcher.now.used[0]
             for routes in (searcher, _as_they_are(searcher)):
                 plan = check(problem, best_plan(data, routes, range(data.num_nodes)))
