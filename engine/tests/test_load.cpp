@@ -47,7 +47,7 @@ TEST_CASE("the most is aboard between deliveries and pickups") {
     CHECK(stop_loads[2].before[0] == 7);
     CHECK(stop_loads[2].behind[0] == 8);
     CHECK(stop_loads[3].behind[0] == 5);
-    CHECK(stop_loads[1].load == 4);
+    CHECK(stop_loads[1].aboard[0] == 4);
     CHECK(stop_loads[3].picked == 5);
     CHECK(stop_loads[1].due == 4);
     CHECK(stop_loads[1].given == 7);
