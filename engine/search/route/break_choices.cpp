@@ -412,10 +412,15 @@ private:
 
 }  // namespace
 
+bool has_breaks_alone(const ProblemData& data, Int k) {
+    const VehicleType& type = data.type[k];
+    return has_breaks(type) && !has_driving_rules(type) && !orders_cross(data) &&
+           !shares_chargers(type);
+}
+
 bool joins_breaks(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    const VehicleType& type = data.type[route.type];
-    return has_breaks(type) && !has_driving_rules(type) && is_steady(type) && route.sorties == 0 &&
-           !orders_cross(data) && !shares_chargers(type) &&
+    return has_breaks_alone(data, route.type) && is_steady(data.type[route.type]) &&
+           route.sorties == 0 &&
            std::none_of(&stops[0], &stops[0] + route.length, [&](const Stop& stop) {
                return stop.kind == customer_stop && times_cost(data.price[stop.node]);
            });

@@ -15,6 +15,9 @@ struct BreakChoice {
     Int working;  // how long it works, at least
 };
 
+// Tell whether drivers of a type pause for stated breaks alone, and nobody else hangs on when.
+bool has_breaks_alone(const ProblemData& data, Int k);
+
 // Tell whether breaks of a loaded route are chosen so: its times are joined by `TimeSegment`.
 //
 // Not where speeds change, drones fly, drivers rest by rules, customers cost by when they are

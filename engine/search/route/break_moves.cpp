@@ -17,6 +17,7 @@
 #include "search/route/least_cost.h"
 #include "search/route/placed_breaks.h"
 #include "search/route/pricing.h"
+#include "search/route/rest_placing.h"
 #include "search/route/routes.h"
 #include "search/route/settling.h"
 
@@ -157,7 +158,7 @@ Int begin_without_breaks(const ProblemData& data, const Fleet& fleet, Int slot) 
     const View<Trip, 1> trips = fleet.trip[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
     stops[0].release = trips[0].release;
-    clear_breaks(route, stops);
+    clear_rests(data.type[route.type], stops.first(route.length));
     clear_holds(route, stops, trips);
     route.placed = breaks_left_out;
     if (!drive_forward(data, route, stops, sorties) ||
@@ -185,11 +186,10 @@ bool price_from(const ProblemData& data, const Fleet& fleet, Int slot, Int begin
     return price_loaded(data, fleet, slot, settled);
 }
 
-// Tell whether breaks of a route may be told apart by cost: nobody else hangs on it.
-bool has_breaks_alone(const ProblemData& data, const Route& route) {
-    const VehicleType& type = data.type[route.type];
-    return has_breaks(type) && !has_driving_rules(type) && !orders_cross(data) &&
-           !shares_chargers(type) && (!holds_count(data, route.type) || route.trips == 1);
+// Tell whether breaks of a route may be told apart by cost.
+bool tells_breaks_apart(const ProblemData& data, const Route& route) {
+    return has_breaks_alone(data, route.type) &&
+           (!holds_count(data, route.type) || route.trips == 1);
 }
 
 // Return what it costs that customers are served too late, or waited for, on a priced route.
@@ -212,7 +212,7 @@ double missed_windows(const ProblemData& data, const Fleet& fleet, Int slot) {
 // that begins as soon as it may.
 bool is_soonest_least_late(const ProblemData& data, const Route& route) {
     return data.evaluation[route.type].priced && route.sorties == 0 && !lags_count(data) &&
-           has_breaks_alone(data, route);
+           tells_breaks_apart(data, route);
 }
 
 // Return what it costs that customers of a route are served too late that begins as soon as it
@@ -232,8 +232,9 @@ double lateness_as_placed(const ProblemData& data, const Fleet& fleet, Int slot)
 }  // namespace
 
 double least_lateness(const ProblemData& data, const Fleet& fleet, Int slot) {
-    if (!is_soonest_least_late(data, fleet.route[slot])) return 0.0;
-    clear_breaks(fleet.route[slot], fleet.stop[slot]);
+    const Route& route = fleet.route[slot];
+    if (!is_soonest_least_late(data, route)) return 0.0;
+    clear_rests(data.type[route.type], fleet.stop[slot].first(route.length));
     return lateness_as_placed(data, fleet, slot);
 }
 
@@ -244,10 +245,10 @@ bool price_choices(const ProblemData& data, const Fleet& fleet, Int slot, const 
     const VehicleType& type = data.type[route.type];
     const Rate& rate = data.rate[route.type];
     clear_holds(route, stops, fleet.trip[slot]);
-    clear_breaks(route, stops);
+    clear_rests(type, stops.first(route.length));
     // Whoever takes breaks is later everywhere.
     if (!drive_as_placed(data, route, stops, fleet.sortie[slot])) return false;
-    if (!any_break_due(type, route, stops)) {
+    if (!lacks_break(type, route, stops)) {
         route.placed = breaks_left_out;
         if (price_driven(data, fleet, slot, settled) &&
             fleet.cost[slot] <= bounds.in_time * (1.0 + rounding)) {
@@ -287,7 +288,7 @@ bool price_choices(const ProblemData& data, const Fleet& fleet, Int slot, const 
 
 bool begin_late(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
     const Route& route = fleet.route[slot];
-    if (!has_breaks_alone(data, route) || !any_follows_departure(data.type[route.type])) {
+    if (!tells_breaks_apart(data, route) || !any_follows_departure(data.type[route.type])) {
         return false;
     }
     const Int begin = begin_without_breaks(data, fleet, slot);
@@ -296,7 +297,7 @@ bool begin_late(const ProblemData& data, const Fleet& fleet, Int slot, bool& set
 
 bool may_move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double least) {
     const Route& route = fleet.route[slot];
-    return has_breaks_alone(data, route) && fleet.cost[slot] > least * (1.0 + rounding) &&
+    return tells_breaks_apart(data, route) && fleet.cost[slot] > least * (1.0 + rounding) &&
            (data.type[route.type].drones > 0 || missed_windows(data, fleet, slot) > 0.0);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "search/route/block.h"
+#include "search/route/rest_placing.h"
 #include "search/route/waits.h"
 
 namespace tandem {
@@ -285,7 +286,7 @@ private:
             }
         }
         if (best == nullptr) return false;
-        for (Stop& stop : stops_) stop.rests = 0;
+        clear_rests(type_, stops_);
         for (Int number = 0; number < taken; ++number) {
             const auto index = static_cast<std::size_t>(number);
             Stop& stop = stops_[best->stop[index]];
@@ -308,19 +309,6 @@ private:
 };
 
 }  // namespace
-
-void clear_breaks(const Route& route, View<Stop, 1> stops) {
-    for (Stop& stop : stops.first(route.length)) stop.rests = 0;
-}
-
-bool any_break_due(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
-    const Int begin = begin_of(type, stops);
-    Int next = 0;
-    for (const Stop& stop : stops.first(route.length)) {
-        next = Rests(stop.rests).next(next);
-    }
-    return !none_due(type, next, begin, route.end);
-}
 
 bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops) {
     const Int begin = begin_of(type, stops);

@@ -41,13 +41,7 @@ inline Int unpaid_on(const VehicleType& type, View<const Stop, 1> stops) {
     return unpaid;
 }
 
-// Let a route have no breaks. In place.
-void clear_breaks(const Route& route, View<Stop, 1> stops);
-
 // Tell whether a timed route lacks a break.
-bool any_break_due(const VehicleType& type, const Route& route, View<const Stop, 1> stops);
-
-// The same of one that may have breaks that aren't due, in front of others that are.
 bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops);
 
 // Write between which stops of a route breaks are taken, so that it ends as soon as possible. In

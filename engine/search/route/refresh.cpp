@@ -17,7 +17,6 @@
 #include "rules/window.h"
 #include "search/route/break_choices.h"
 #include "search/route/break_moves.h"
-#include "search/route/breaks.h"
 #include "search/route/charging.h"
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
@@ -28,6 +27,7 @@
 #include "search/route/least_cost.h"
 #include "search/route/pricing.h"
 #include "search/route/rarer.h"
+#include "search/route/rest_placing.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
 #include "search/route/settling.h"
@@ -103,7 +103,7 @@ void look_around(const ProblemData& data, const Fleet& fleet, Int slot, bool set
     if (joins_breaks(data, route, stops) && (settled || route.placed == breaks_kept)) {
         // Whoever is inserted behind a stop may be reached by other breaks.
         stops[0].release = fleet.trip(slot, 0).release;
-        clear_breaks(route, stops);
+        clear_rests(data.type[route.type], stops.first(route.length));
         clear_holds(route, stops, fleet.trip[slot]);
         drive_as_placed(data, route, stops, fleet.sortie[slot]);
         note_soonest(data, route, stops);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "rules/driving.h"
 #include "search/route/waits.h"
@@ -58,31 +59,28 @@ public:
     static constexpr std::size_t all = 48;
 
     // So many at most, where speeds change until `changing`.
-    RestLabels(std::size_t most, Int changing) : most_(most), changing_(changing) {}
+    RestLabels(std::size_t most, Int changing) : most_(most), changing_(changing) {
+        label_.reserve(few);
+    }
 
     const RestLabel* begin() const { return label_.data(); }
-    const RestLabel* end() const { return label_.data() + count_; }
-    void clear() { count_ = 0; }
+    const RestLabel* end() const { return label_.data() + label_.size(); }
+    void clear() { label_.clear(); }
 
     // Keep a label unless another is no worse; where there are too many, that goes which is last.
     // Tell whether it is kept.
     bool add(const RestLabel& label) {
-        std::size_t kept = 0;
-        for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label_[index], label, changing_)) return false;
+        for (const RestLabel& other : label_) {
+            if (is_no_worse(other, label, changing_)) return false;
         }
-        for (std::size_t index = 0; index < count_; ++index) {
-            if (is_no_worse(label, label_[index], changing_)) continue;
-            if (kept != index) label_[kept] = label_[index];
-            ++kept;
-        }
-        count_ = kept;
-        if (count_ < most_) {
-            label_[count_++] = label;
+        std::erase_if(label_,
+                      [&](const RestLabel& other) { return is_no_worse(label, other, changing_); });
+        if (label_.size() < most_) {
+            label_.push_back(label);
             return true;
         }
         RestLabel& last = *std::max_element(
-            label_.begin(), label_.begin() + count_,
+            label_.begin(), label_.end(),
             [](const RestLabel& one, const RestLabel& other) { return one.time < other.time; });
         if (label.time >= last.time) return false;
         last = label;
@@ -90,10 +88,11 @@ public:
     }
 
 private:
-    std::array<RestLabel, all> label_;
+    static constexpr std::size_t few = 8;  // are mostly enough
+
+    std::vector<RestLabel> label_;
     std::size_t most_;
     Int changing_;
-    std::size_t count_ = 0;
 };
 
 // The rests of all labels, each of which knows its last one.

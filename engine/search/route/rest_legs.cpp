@@ -93,16 +93,17 @@ bool RestLegs::come(RestLabel label, const RestedLeg& leg) {
 }
 
 // Tell whether a way may be better than the best known, somewhere on the leg.
-bool RestLegs::may_be_best(RestLabel label, const RestedLeg& leg) const {
-    route_.arrive(label, way_, leg, left_);
-    if (label.time + leg.left() > route_.stops[way_.p + 1].latest) return false;
+bool RestLegs::may_be_best(const RestLabel& label, const RestedLeg& leg) const {
+    if (leg.time() + way_.setup + leg.left() > route_.stops[way_.p + 1].latest) return false;
     if (label.next < route_.due.count() &&
         leg.time() > break_of(type_, route_.due[label.next], route_.truck.begin).latest) {
         return false;
     }
     if (!best_.is_known()) return true;
+    RestLabel there = label;
+    route_.arrive(there, way_, leg, left_);
     const Ahead ahead{way_.ahead.driving + leg.left(), way_.ahead.lasting + leg.left()};
-    return best_.may_be_better(route_.bound_of(label, label.time, ahead));
+    return best_.may_be_better(route_.bound_of(there, there.time, ahead));
 }
 
 }  // namespace tandem

@@ -21,7 +21,7 @@ private:
     void take(RestLabel next, const RestedLeg& leg, Int number, RestPlace place);
     bool come(RestLabel label, const RestedLeg& leg);
     bool is_put_off(const RestedLeg& leg, Int number) const;
-    bool may_be_best(RestLabel label, const RestedLeg& leg) const;
+    bool may_be_best(const RestLabel& label, const RestedLeg& leg) const;
 
     const RestRoute& route_;
     const VehicleType& type_;

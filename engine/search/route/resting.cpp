@@ -81,7 +81,7 @@ bool drive_with_pauses(const ProblemData& data, Route& route, View<Stop, 1> stop
         const Int driving =
             follows_driver(type) ? route.travel : driving_on(data, type, stops.first(route.length));
         const Int begin = counted_begin(type, begin_of(type, stops));
-        if (!any_break_due(type, route, stops) && needs_no_rest(type, driving, route.end - begin)) {
+        if (!lacks_break(type, route, stops) && needs_no_rest(type, driving, route.end - begin)) {
             route.driving = driving;
             return true;
         }

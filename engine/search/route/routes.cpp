@@ -15,6 +15,7 @@
 #include "search/route/flown_trips.h"
 #include "search/route/lags.h"
 #include "search/route/rarer.h"
+#include "search/route/rest_placing.h"
 #include "search/route/resting.h"
 
 namespace tandem {
@@ -159,13 +160,13 @@ bool drive_forward(const ProblemData& data, Route& route, View<Stop, 1> stops,
         return drive_as_placed(data, route, stops, sorties) &&
                (route.placed == breaks_left_out || !lacks_break(type, route, stops));
     }
-    clear_breaks(route, stops);
+    clear_rests(type, stops.first(route.length));
     const bool driven = drive_as_placed(data, route, stops, sorties);
-    if (driven && !any_break_due(type, route, stops)) return true;
+    if (driven && !lacks_break(type, route, stops)) return true;
     // Whoever takes breaks is later everywhere, which helps drones alone.
     if (!driven && route.sorties == 0) return false;
     return place_breaks(data, route, stops, sorties) &&
-           drive_as_placed(data, route, stops, sorties) && !any_break_due(type, route, stops);
+           drive_as_placed(data, route, stops, sorties) && !lacks_break(type, route, stops);
 }
 
 bool drive_as_placed(const ProblemData& data, Route& route, View<Stop, 1> stops,
