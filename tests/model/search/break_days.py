@@ -43,24 +43,29 @@ def _breaks(rng: np.random.Generator) -> tuple[Break, ...]:
     return tuple(breaks)
 
 
-def _customer(rng: np.random.Generator, name: int, may_be_timed: bool) -> Customer:
+def _customer(rng: np.random.Generator, name: int, may_be_timed: bool,
+              is_soft: bool) -> Customer:
     customer = Customer(str(name), (1,), service_duration=_minutes(rng, 0, 3))
     if rng.random() < 0.6:
         earliest = _minutes(rng, 0, 30)
         customer = replace(customer, earliest=earliest, latest=earliest + _minutes(rng, 0, 12))
+        if is_soft:
+            customer = replace(customer, early_cost_per_hour=float(rng.integers(0, 2)) * 20,
+                               late_cost_per_hour=float(rng.integers(1, 4)) * 20)
     if may_be_timed and rng.random() < 0.3:
         customer = replace(customer, max_time_aboard=_minutes(rng, 4, 20))
     return customer
 
 
-def small_day(rng: np.random.Generator) -> Problem:
+def small_day(rng: np.random.Generator, is_soft: bool = False) -> Problem:
     """Draw a day."""
+    is_soft = is_soft and bool(rng.random() < 0.7)
     is_shipped = bool(rng.random() < 0.3)
     count = 4 if is_shipped else int(rng.integers(1, 4))
     steps = rng.integers(1, 8, (count + 1, count + 1))
     steps = np.minimum(steps, steps.T)
     np.fill_diagonal(steps, 0)
-    customers = [_customer(rng, index, not is_shipped) for index in range(count)]
+    customers = [_customer(rng, index, not is_shipped, is_soft) for index in range(count)]
     shipments: tuple[Shipment, ...] = ()
     relations: tuple[Relation, ...] = ()
     if is_shipped:
@@ -105,8 +110,8 @@ class Clock:
                      for origin in range(size)]
 
     def cost(self, drive: Drive) -> float | None:
-        """Return what working on a drive costs."""
-        time = drive.start
+        """Return what working on a drive costs, and windows that it misses."""
+        time, missed = drive.start, 0.0
         starts: dict[int, int] = {}
         row = (0, *drive.nodes, 0)
         for leg, (origin, node) in enumerate(pairwise(row)):
@@ -120,8 +125,15 @@ class Clock:
                 if start is None:
                     return None
                 starts[node] = start
+                missed += self._missed(node, arrival, start)
                 time = start + self.problem.customers[node - 1].service_duration
-        return self._end(drive, time)
+        working = self._end(drive, time)
+        return None if working is None else working + missed
+
+    def _missed(self, node: int, arrival: int, start: int) -> float:
+        customer = self.problem.customers[node - 1]
+        return (max(0, start - customer.latest) * (customer.late_cost_per_hour or 0.0)
+                + max(0, customer.earliest - arrival) * customer.early_cost_per_hour) / 3_600_000
 
     def _end(self, drive: Drive, end: int) -> float | None:
         taken = {number for number, _, _ in drive.places}
@@ -158,7 +170,7 @@ class Clock:
         lags = [(starts[relation.nodes[0]], relation) for relation in self.problem.relations
                 if relation.nodes[1] == node and relation.nodes[0] in starts]
         ready = max([time, *(start + relation.min_lag for start, relation in lags)])
-        if ready > customer.latest:
+        if ready > customer.latest and customer.late_cost_per_hour is None:
             return None
         start = max(ready, customer.earliest)
         if any(relation.max_lag is not None and start - before > relation.max_lag
@@ -251,11 +263,12 @@ def found(problem: Problem, turns: int) -> float:
 
 def main(days: Annotated[int, typer.Option(help="How many are enumerated.")] = 300,
          seed: Annotated[int, typer.Option(help="Seed of the first; later ones count on.")] = 0,
-         turns: Annotated[int, typer.Option(help="Turns of the search.")] = 20_000) -> None:
+         turns: Annotated[int, typer.Option(help="Turns of the search.")] = 20_000,
+         soft: Annotated[bool, typer.Option(help="Some windows are soft.")] = False) -> None:
     """Compare the search with enumeration."""
     missed = lost = 0
     for number in range(seed, seed + days):
-        problem = small_day(np.random.default_rng(number))
+        problem = small_day(np.random.default_rng(number), soft)
         least = cheapest(problem)
         cost = found(problem, 300)
         if cost > least + 1e-6:
