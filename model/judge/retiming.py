@@ -52,9 +52,17 @@ def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past)
     best = _best_timed(problem, decision, path, past)
     if any(violation.code in ("BREAK", "DRIVING") for violation in best.judged.violations) or (
             has_needless_break(problem, best.route)):
-        trips = tuple([replace(trip, breaks=()) for trip in decision.trips])
-        rested = with_due_breaks(problem, replace(decision, trips=trips))
-        best = min(best, _best_timed(problem, rested, path, past), key=lambda timed: timed.rank)
+        # Which breaks are due, and where, hangs on when a route begins.
+        bare = replace(decision, trips=tuple([replace(trip, breaks=())
+                                              for trip in decision.trips]))
+        late = _best_timed(problem, bare, path, past).route.trips
+        begun = replace(bare, trips=tuple([
+            replace(trip, start=timed.stops[0].arrival)
+            for trip, timed in zip(bare.trips, late, strict=True)]))
+        for tried in (bare, begun):
+            rested = with_due_breaks(problem, tried)
+            best = min(best, _best_timed(problem, rested, path, past),
+                       key=lambda timed: timed.rank)
     return best
 
 
