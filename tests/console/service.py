@@ -12,7 +12,7 @@ from typing import Any
 from unittest.mock import patch
 
 from app.cli.commands import main
-from app.plans import explaining, task
+from app.plans import explaining, fitting, task
 from app.schemas import openapi
 from model.planner import Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -44,12 +44,16 @@ def hurry_examples(given: Path, folder: Path) -> None:
         (folder / path.name).write_text(json.dumps(request), "utf-8")
 
 
+# Processes that plan import this module, too: they begin as the one does that serves.
+for place, name, value in (
+        (Planner, "plan", plan_hurriedly),
+        # However busy the machine, replies say why somebody is left out and where one fits.
+        (task, "EXPLAINING", PATIENCE), (explaining, "REASONS_SECONDS", PATIENCE),
+        (fitting, "LEAST_TRYING", PATIENCE)):
+    setattr(place, name, value)
+
 if __name__ == "__main__":
     with TemporaryDirectory() as examples:
         hurry_examples(openapi.EXAMPLES_DIR, Path(examples))
-        with (patch.object(openapi, "EXAMPLES_DIR", Path(examples)),
-              patch.object(Planner, "plan", plan_hurriedly),
-              # However busy the machine, replies say why somebody is left out.
-              patch.object(task, "EXPLAINING", PATIENCE),
-              patch.object(explaining, "REASONS_SECONDS", PATIENCE)):
+        with patch.object(openapi, "EXAMPLES_DIR", Path(examples)):
             main()
