@@ -49,17 +49,6 @@ public:
     View() = default;
     View(T* data, const std::array<std::int64_t, N>& shape) : data_(data), shape_(shape) {}
 
-    // From a plain C array of `tandem.h`: `data` and `shape`.
-    template <class Array>
-        requires requires(const Array& from) {
-            from.data;
-            from.shape[N - 1];
-        }
-    View(const Array& from) : data_(from.data) {
-        static_assert(sizeof(from.shape) == N * sizeof(std::int64_t));
-        for (std::size_t axis = 0; axis < N; ++axis) shape_[axis] = from.shape[axis];
-    }
-
     // A view that doesn't write of one that may.
     template <class Other>
         requires std::is_same_v<const Other, T>

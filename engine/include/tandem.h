@@ -5,8 +5,17 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+/* Rows that others own, without gaps; in the engine, a view of them. */
 #ifdef __cplusplus
+#include "view.h"
+#define TANDEM_ROWS(name, row, axes) using name = tandem::View<row, axes>
 extern "C" {
+#else
+#define TANDEM_ROWS(name, row, axes) \
+    typedef struct name {            \
+        row* data;                   \
+        int64_t shape[axes];         \
+    } name
 #endif
 #pragma GCC visibility push(default)
 
@@ -755,286 +764,76 @@ typedef struct tandem_least {
 
 /* Arrays of others, row by row. */
 
-typedef struct tandem_bool_1d {
-    bool* data;
-    int64_t shape[1];
-} tandem_bool_1d;
-typedef struct tandem_bool_2d {
-    bool* data;
-    int64_t shape[2];
-} tandem_bool_2d;
-typedef struct tandem_bool_3d {
-    bool* data;
-    int64_t shape[3];
-} tandem_bool_3d;
-typedef struct tandem_chain_1d {
-    tandem_chain* data;
-    int64_t shape[1];
-} tandem_chain_1d;
-typedef struct tandem_chain_cargo_2d {
-    tandem_chain_cargo* data;
-    int64_t shape[2];
-} tandem_chain_cargo_2d;
-typedef struct tandem_cost_1d {
-    tandem_cost* data;
-    int64_t shape[1];
-} tandem_cost_1d;
-typedef struct tandem_drone_2d {
-    tandem_drone* data;
-    int64_t shape[2];
-} tandem_drone_2d;
-typedef struct tandem_entry_1d {
-    tandem_entry* data;
-    int64_t shape[1];
-} tandem_entry_1d;
-typedef struct tandem_evaluation_1d {
-    tandem_evaluation* data;
-    int64_t shape[1];
-} tandem_evaluation_1d;
-typedef struct tandem_f32_1d {
-    float* data;
-    int64_t shape[1];
-} tandem_f32_1d;
-typedef struct tandem_f32_2d {
-    float* data;
-    int64_t shape[2];
-} tandem_f32_2d;
-typedef struct tandem_f32_3d {
-    float* data;
-    int64_t shape[3];
-} tandem_f32_3d;
-typedef struct tandem_f32_4d {
-    float* data;
-    int64_t shape[4];
-} tandem_f32_4d;
-typedef struct tandem_f64_1d {
-    double* data;
-    int64_t shape[1];
-} tandem_f64_1d;
-typedef struct tandem_f64_2d {
-    double* data;
-    int64_t shape[2];
-} tandem_f64_2d;
-typedef struct tandem_f64_3d {
-    double* data;
-    int64_t shape[3];
-} tandem_f64_3d;
-typedef struct tandem_goods_1d {
-    tandem_goods* data;
-    int64_t shape[1];
-} tandem_goods_1d;
-typedef struct tandem_goods_2d {
-    tandem_goods* data;
-    int64_t shape[2];
-} tandem_goods_2d;
-typedef struct tandem_hub_1d {
-    tandem_hub* data;
-    int64_t shape[1];
-} tandem_hub_1d;
-typedef struct tandem_hub_2d {
-    tandem_hub* data;
-    int64_t shape[2];
-} tandem_hub_2d;
-typedef struct tandem_stop_load_2d {
-    tandem_stop_load* data;
-    int64_t shape[2];
-} tandem_stop_load_2d;
-typedef struct tandem_stop_load_3d {
-    tandem_stop_load* data;
-    int64_t shape[3];
-} tandem_stop_load_3d;
-typedef struct tandem_i32_1d {
-    int32_t* data;
-    int64_t shape[1];
-} tandem_i32_1d;
-typedef struct tandem_i32_2d {
-    int32_t* data;
-    int64_t shape[2];
-} tandem_i32_2d;
-typedef struct tandem_i32_3d {
-    int32_t* data;
-    int64_t shape[3];
-} tandem_i32_3d;
-typedef struct tandem_i32_4d {
-    int32_t* data;
-    int64_t shape[4];
-} tandem_i32_4d;
-typedef struct tandem_i64_1d {
-    int64_t* data;
-    int64_t shape[1];
-} tandem_i64_1d;
-typedef struct tandem_i64_2d {
-    int64_t* data;
-    int64_t shape[2];
-} tandem_i64_2d;
-typedef struct tandem_i64_3d {
-    int64_t* data;
-    int64_t shape[3];
-} tandem_i64_3d;
-typedef struct tandem_i64_4d {
-    int64_t* data;
-    int64_t shape[4];
-} tandem_i64_4d;
-typedef struct tandem_i64_5d {
-    int64_t* data;
-    int64_t shape[5];
-} tandem_i64_5d;
-typedef struct tandem_lag_2d {
-    tandem_lag* data;
-    int64_t shape[2];
-} tandem_lag_2d;
-typedef struct tandem_lag_3d {
-    tandem_lag* data;
-    int64_t shape[3];
-} tandem_lag_3d;
-typedef struct tandem_leg_law_1d {
-    tandem_leg_law* data;
-    int64_t shape[1];
-} tandem_leg_law_1d;
-typedef struct tandem_link_1d {
-    tandem_link* data;
-    int64_t shape[1];
-} tandem_link_1d;
-typedef struct tandem_log_lengths_1d {
-    tandem_log_lengths* data;
-    int64_t shape[1];
-} tandem_log_lengths_1d;
-typedef struct tandem_logged_sortie_2d {
-    tandem_logged_sortie* data;
-    int64_t shape[2];
-} tandem_logged_sortie_2d;
-typedef struct tandem_logged_stop_2d {
-    tandem_logged_stop* data;
-    int64_t shape[2];
-} tandem_logged_stop_2d;
-typedef struct tandem_logged_trip_2d {
-    tandem_logged_trip* data;
-    int64_t shape[2];
-} tandem_logged_trip_2d;
-typedef struct tandem_moment_1d {
-    tandem_moment* data;
-    int64_t shape[1];
-} tandem_moment_1d;
-typedef struct tandem_move_2d {
-    tandem_move* data;
-    int64_t shape[2];
-} tandem_move_2d;
-typedef struct tandem_node_2d {
-    tandem_node* data;
-    int64_t shape[2];
-} tandem_node_2d;
-typedef struct tandem_node_3d {
-    tandem_node* data;
-    int64_t shape[3];
-} tandem_node_3d;
-typedef struct tandem_node_4d {
-    tandem_node* data;
-    int64_t shape[4];
-} tandem_node_4d;
-typedef struct tandem_operation_2d {
-    tandem_operation* data;
-    int64_t shape[2];
-} tandem_operation_2d;
-typedef struct tandem_outlook_1d {
-    tandem_outlook* data;
-    int64_t shape[1];
-} tandem_outlook_1d;
-typedef struct tandem_outlook_2d {
-    tandem_outlook* data;
-    int64_t shape[2];
-} tandem_outlook_2d;
-typedef struct tandem_pair_1d {
-    tandem_pair* data;
-    int64_t shape[1];
-} tandem_pair_1d;
-typedef struct tandem_pair_2d {
-    tandem_pair* data;
-    int64_t shape[2];
-} tandem_pair_2d;
-typedef struct tandem_piece_1d {
-    tandem_piece* data;
-    int64_t shape[1];
-} tandem_piece_1d;
-typedef struct tandem_place_1d {
-    tandem_place* data;
-    int64_t shape[1];
-} tandem_place_1d;
-typedef struct tandem_point_1d {
-    tandem_point* data;
-    int64_t shape[1];
-} tandem_point_1d;
-typedef struct tandem_price_1d {
-    tandem_price* data;
-    int64_t shape[1];
-} tandem_price_1d;
-typedef struct tandem_price_2d {
-    tandem_price* data;
-    int64_t shape[2];
-} tandem_price_2d;
-typedef struct tandem_rate_1d {
-    tandem_rate* data;
-    int64_t shape[1];
-} tandem_rate_1d;
-typedef struct tandem_rate_2d {
-    tandem_rate* data;
-    int64_t shape[2];
-} tandem_rate_2d;
-typedef struct tandem_route_1d {
-    tandem_route* data;
-    int64_t shape[1];
-} tandem_route_1d;
-typedef struct tandem_run_1d {
-    tandem_run* data;
-    int64_t shape[1];
-} tandem_run_1d;
-typedef struct tandem_setup_1d {
-    tandem_setup* data;
-    int64_t shape[1];
-} tandem_setup_1d;
-typedef struct tandem_setup_2d {
-    tandem_setup* data;
-    int64_t shape[2];
-} tandem_setup_2d;
-typedef struct tandem_size_1d {
-    tandem_size* data;
-    int64_t shape[1];
-} tandem_size_1d;
-typedef struct tandem_sortie_2d {
-    tandem_sortie* data;
-    int64_t shape[2];
-} tandem_sortie_2d;
-typedef struct tandem_plugging_1d {
-    tandem_plugging* data;
-    int64_t shape[1];
-} tandem_plugging_1d;
-typedef struct tandem_span_1d {
-    tandem_span* data;
-    int64_t shape[1];
-} tandem_span_1d;
-typedef struct tandem_stop_2d {
-    tandem_stop* data;
-    int64_t shape[2];
-} tandem_stop_2d;
-typedef struct tandem_trip_2d {
-    tandem_trip* data;
-    int64_t shape[2];
-} tandem_trip_2d;
-typedef struct tandem_u64_1d {
-    uint64_t* data;
-    int64_t shape[1];
-} tandem_u64_1d;
-typedef struct tandem_vehicle_1d {
-    tandem_vehicle* data;
-    int64_t shape[1];
-} tandem_vehicle_1d;
-typedef struct tandem_vehicle_type_1d {
-    tandem_vehicle_type* data;
-    int64_t shape[1];
-} tandem_vehicle_type_1d;
-typedef struct tandem_vehicle_type_2d {
-    tandem_vehicle_type* data;
-    int64_t shape[2];
-} tandem_vehicle_type_2d;
+TANDEM_ROWS(tandem_bool_1d, bool, 1);
+TANDEM_ROWS(tandem_bool_2d, bool, 2);
+TANDEM_ROWS(tandem_bool_3d, bool, 3);
+TANDEM_ROWS(tandem_chain_1d, tandem_chain, 1);
+TANDEM_ROWS(tandem_chain_cargo_2d, tandem_chain_cargo, 2);
+TANDEM_ROWS(tandem_cost_1d, tandem_cost, 1);
+TANDEM_ROWS(tandem_drone_2d, tandem_drone, 2);
+TANDEM_ROWS(tandem_entry_1d, tandem_entry, 1);
+TANDEM_ROWS(tandem_evaluation_1d, const tandem_evaluation, 1);
+TANDEM_ROWS(tandem_f32_1d, float, 1);
+TANDEM_ROWS(tandem_f32_2d, float, 2);
+TANDEM_ROWS(tandem_f32_3d, float, 3);
+TANDEM_ROWS(tandem_f32_4d, float, 4);
+TANDEM_ROWS(tandem_f64_1d, double, 1);
+TANDEM_ROWS(tandem_f64_2d, double, 2);
+TANDEM_ROWS(tandem_f64_3d, double, 3);
+TANDEM_ROWS(tandem_goods_1d, const tandem_goods, 1);
+TANDEM_ROWS(tandem_goods_2d, const tandem_goods, 2);
+TANDEM_ROWS(tandem_hub_1d, tandem_hub, 1);
+TANDEM_ROWS(tandem_hub_2d, tandem_hub, 2);
+TANDEM_ROWS(tandem_stop_load_2d, tandem_stop_load, 2);
+TANDEM_ROWS(tandem_stop_load_3d, tandem_stop_load, 3);
+TANDEM_ROWS(tandem_i32_1d, int32_t, 1);
+TANDEM_ROWS(tandem_i32_2d, int32_t, 2);
+TANDEM_ROWS(tandem_i32_3d, int32_t, 3);
+TANDEM_ROWS(tandem_i32_4d, const int32_t, 4);
+TANDEM_ROWS(tandem_i64_1d, int64_t, 1);
+TANDEM_ROWS(tandem_i64_2d, int64_t, 2);
+TANDEM_ROWS(tandem_i64_3d, int64_t, 3);
+TANDEM_ROWS(tandem_i64_4d, const int64_t, 4);
+TANDEM_ROWS(tandem_i64_5d, const int64_t, 5);
+TANDEM_ROWS(tandem_lag_2d, const tandem_lag, 2);
+TANDEM_ROWS(tandem_lag_3d, const tandem_lag, 3);
+TANDEM_ROWS(tandem_leg_law_1d, const tandem_leg_law, 1);
+TANDEM_ROWS(tandem_link_1d, tandem_link, 1);
+TANDEM_ROWS(tandem_log_lengths_1d, tandem_log_lengths, 1);
+TANDEM_ROWS(tandem_logged_sortie_2d, tandem_logged_sortie, 2);
+TANDEM_ROWS(tandem_logged_stop_2d, tandem_logged_stop, 2);
+TANDEM_ROWS(tandem_logged_trip_2d, tandem_logged_trip, 2);
+TANDEM_ROWS(tandem_moment_1d, tandem_moment, 1);
+TANDEM_ROWS(tandem_move_2d, tandem_move, 2);
+TANDEM_ROWS(tandem_node_2d, const tandem_node, 2);
+TANDEM_ROWS(tandem_node_3d, const tandem_node, 3);
+TANDEM_ROWS(tandem_node_4d, const tandem_node, 4);
+TANDEM_ROWS(tandem_operation_2d, tandem_operation, 2);
+TANDEM_ROWS(tandem_outlook_1d, tandem_outlook, 1);
+TANDEM_ROWS(tandem_outlook_2d, tandem_outlook, 2);
+TANDEM_ROWS(tandem_pair_1d, const tandem_pair, 1);
+TANDEM_ROWS(tandem_pair_2d, const tandem_pair, 2);
+TANDEM_ROWS(tandem_piece_1d, tandem_piece, 1);
+TANDEM_ROWS(tandem_place_1d, tandem_place, 1);
+TANDEM_ROWS(tandem_point_1d, const tandem_point, 1);
+TANDEM_ROWS(tandem_price_1d, const tandem_price, 1);
+TANDEM_ROWS(tandem_price_2d, const tandem_price, 2);
+TANDEM_ROWS(tandem_rate_1d, const tandem_rate, 1);
+TANDEM_ROWS(tandem_rate_2d, const tandem_rate, 2);
+TANDEM_ROWS(tandem_route_1d, tandem_route, 1);
+TANDEM_ROWS(tandem_run_1d, tandem_run, 1);
+TANDEM_ROWS(tandem_setup_1d, const tandem_setup, 1);
+TANDEM_ROWS(tandem_setup_2d, const tandem_setup, 2);
+TANDEM_ROWS(tandem_size_1d, const tandem_size, 1);
+TANDEM_ROWS(tandem_sortie_2d, tandem_sortie, 2);
+TANDEM_ROWS(tandem_plugging_1d, tandem_plugging, 1);
+TANDEM_ROWS(tandem_span_1d, tandem_span, 1);
+TANDEM_ROWS(tandem_stop_2d, tandem_stop, 2);
+TANDEM_ROWS(tandem_trip_2d, tandem_trip, 2);
+TANDEM_ROWS(tandem_u64_1d, uint64_t, 1);
+TANDEM_ROWS(tandem_vehicle_1d, tandem_vehicle, 1);
+TANDEM_ROWS(tandem_vehicle_type_1d, const tandem_vehicle_type, 1);
+TANDEM_ROWS(tandem_vehicle_type_2d, const tandem_vehicle_type, 2);
 
 typedef struct tandem_cells {
     tandem_f64_2d low;    /* (cell, axis) */

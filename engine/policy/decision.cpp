@@ -305,8 +305,8 @@ int tandem_candidate_scores(const tandem_step_weights* weights, const tandem_f32
                             const tandem_observation* seen, int64_t r,
                             const tandem_f32_1d* scores) {
     return guarded([&] {
-        const StepWeights of_step = step_weights_of(*weights);
-        const Observation observation = observation_of(*seen);
+        const StepWeights& of_step = *weights;
+        const Observation& observation = *seen;
         Decider decider(of_step, observation.token.shape(1));
         decider.score(*memory, seen_of(observation, r), *scores);
     });

@@ -430,8 +430,8 @@ namespace {
 // Observe rollouts one after another; returns the largest count.
 Int observe_all(const tandem_scene& from, State& state, Int first, Int behind, Int scratch,
                 const Observation& seen) {
-    const Instance instance = instance_of(from.instance);
-    const Scales scale = scales_of(from.scale);
+    const Instance& instance = from.instance;
+    const Scales& scale = from.scale;
     Int most = 0;
     for (Int r = first; r < behind; ++r) {
         observe({instance, scale, from.type_token}, state, r, scratch, seen_of(seen, r));
@@ -445,8 +445,8 @@ Int observe_all(const tandem_scene& from, State& state, Int first, Int behind, I
 int tandem_observe(const tandem_scene* scene, const tandem_state* state, int64_t first,
                    int64_t behind, int64_t scratch, const tandem_observation* seen, int64_t* most) {
     return guarded([&] {
-        State running = state_of(*state);
-        *most = observe_all(*scene, running, first, behind, scratch, observation_of(*seen));
+        State running = *state;
+        *most = observe_all(*scene, running, first, behind, scratch, *seen);
     });
 }
 
@@ -454,9 +454,9 @@ int tandem_step(const tandem_scene* scene, const tandem_state* state, int64_t fi
                 int64_t scratch, const tandem_i64_1d* choice, const tandem_observation* seen,
                 int64_t* most) {
     return guarded([&] {
-        const Instance instance = instance_of(scene->instance);
-        State running = state_of(*state);
-        const Observation observation = observation_of(*seen);
+        const Instance& instance = scene->instance;
+        State running = *state;
+        const Observation& observation = *seen;
         const View<Int, 1> chosen(*choice);
         for (Int r = first; r < behind; ++r) {
             // Rollouts without a candidate stay as they are.

@@ -157,8 +157,8 @@ using namespace tandem;
 int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_u64_1d* random,
                   int64_t* choice) {
     return guarded([&] {
-        const Int count = scores->shape[0];
-        std::vector<float> padded(scores->data, scores->data + count);
+        const Int count = scores->size();
+        std::vector<float> padded(scores->begin(), scores->end());
         padded.resize(in_lanes(count));
         *choice = choose(padded, count, temperature, *random);
     });
@@ -168,11 +168,11 @@ int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_2d* mem
                     const tandem_scene* scene, const tandem_state* state, int64_t r,
                     const tandem_course* course, const tandem_i64_1d* alarm, int64_t* count) {
     return guarded([&] {
-        const Instance instance = instance_of(scene->instance);
-        const Scales scale = scales_of(scene->scale);
-        State running = state_of(*state);
+        const Instance& instance = scene->instance;
+        const Scales& scale = scene->scale;
+        State running = *state;
         *count = roll_out(
-            step_weights_of(*weights), {instance, scale, scene->type_token}, running, r,
+            *weights, {instance, scale, scene->type_token}, running, r,
             {*memory, course->temperature, course->random, course->kept, course->actions}, *alarm);
     });
 }

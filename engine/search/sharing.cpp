@@ -104,8 +104,7 @@ extern "C" int tandem_take_part(const tandem_problem_data* data, const tandem_se
                                 const tandem_i64_1d* spare) {
     return guarded([&] {
         Searcher taking = searcher_of(*part);
-        take_part(data_of(*data), searcher_of(*whole), taking, View<Int, 1>(*owner), number,
-                  View<Int, 1>(*missing), View<Int, 1>(*spare));
+        take_part(data_of(*data), searcher_of(*whole), taking, *owner, number, *missing, *spare);
     });
 }
 

@@ -432,8 +432,8 @@ extern "C" {
 int tandem_mark_fresh(const tandem_instance* instance, const tandem_state* state,
                       std::int64_t scratch) {
     return guarded([&] {
-        State rows = state_of(*state);
-        mark_fresh(instance_of(*instance), rows, scratch);
+        State rows = *state;
+        mark_fresh(*instance, rows, scratch);
     });
 }
 
@@ -441,47 +441,47 @@ int tandem_legal_actions(const tandem_instance* instance, const tandem_state* st
                          std::int64_t scratch, const tandem_i64_1d* actions,
                          const tandem_outlook_1d* outlooks, std::int64_t* found) {
     return guarded([&] {
-        State rows = state_of(*state);
-        *found = legal_actions(instance_of(*instance), rows, r, scratch, *actions, *outlooks);
+        State rows = *state;
+        *found = legal_actions(*instance, rows, r, scratch, *actions, *outlooks);
     });
 }
 
 int tandem_apply(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
                  std::int64_t action) {
     return guarded([&] {
-        State rows = state_of(*state);
-        apply(instance_of(*instance), rows, r, action);
+        State rows = *state;
+        apply(*instance, rows, r, action);
     });
 }
 
 int tandem_apply_route(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
                        const tandem_i64_1d* actions, std::int64_t first, std::int64_t* behind) {
     return guarded([&] {
-        State rows = state_of(*state);
-        *behind = apply_route(instance_of(*instance), rows, r, *actions, first);
+        State rows = *state;
+        *behind = apply_route(*instance, rows, r, *actions, first);
     });
 }
 
 int tandem_price_routes(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
                         const tandem_i64_1d* actions, const tandem_cost_1d* price) {
     return guarded([&] {
-        State rows = state_of(*state);
-        price_routes(instance_of(*instance), rows, r, *actions, *price);
+        State rows = *state;
+        price_routes(*instance, rows, r, *actions, *price);
     });
 }
 
 int tandem_close_vehicle(const tandem_instance* instance, const tandem_state* state,
                          std::int64_t r) {
     return guarded([&] {
-        State rows = state_of(*state);
-        close_vehicle(instance_of(*instance), rows, r);
+        State rows = *state;
+        close_vehicle(*instance, rows, r);
     });
 }
 
 int tandem_finish(const tandem_instance* instance, const tandem_state* state, std::int64_t r) {
     return guarded([&] {
-        State rows = state_of(*state);
-        finish(instance_of(*instance), rows, r);
+        State rows = *state;
+        finish(*instance, rows, r);
     });
 }
 

@@ -13,18 +13,7 @@ using LogLengths = tandem_log_lengths;
 using Vehicle = tandem_vehicle;
 using Drone = tandem_drone;
 using Outlook = tandem_outlook;
-
-struct VehicleLogs {
-    View<LogLengths, 1> count;     // (rollout,)
-    View<LoggedTrip, 2> trip;      // (rollout, trip)
-    View<LoggedStop, 2> stop;      // (rollout, stop)
-    View<Operation, 2> op;         // (rollout, op)
-    View<LoggedSortie, 2> sortie;  // (rollout, sortie)
-};
-
-inline VehicleLogs vehicle_logs_of(const tandem_vehicle_logs& from) {
-    return {from.count, from.trip, from.stop, from.op, from.sortie};
-}
+using VehicleLogs = tandem_vehicle_logs;
 
 // What one vehicle does, in order.
 struct VehicleLog {
@@ -98,25 +87,6 @@ struct DroneKind {
 
 // Running plans, a row per rollout, then scratch rows. Times in ms since plan start; those of
 // sorties in flight are as if they were launched at once, in the log and in `drone`.
-struct State {
-    View<std::int64_t, 1> problem;       // (rollout,) row in the Instance
-    View<bool, 2> served;                // (rollout, node)
-    View<std::int64_t, 1> num_unserved;  // (rollout,)
-    View<std::int64_t, 2> used;          // (rollout, type) vehicles opened
-    View<Hub, 2> taken;                  // (rollout, depot) by vehicles closed, or (rollout, 0)
-    View<std::int64_t, 2> starts;        // (rollout, node) by vehicles closed, or (rollout, 0)
-    View<bool, 1> done;                  // (rollout,)
-    View<Vehicle, 1> vehicle;            // (rollout,) the open one
-    View<Drone, 2> drone;                // (rollout, drone) its drones
-    VehicleLogs log;
-    View<Cost, 1> cost;   // (rollout,) of the vehicles closed so far
-    View<bool, 3> fresh;  // (problem, type, node) servable alone by a fresh vehicle
-};
-
-inline State state_of(const tandem_state& from) {
-    return {from.problem, from.served, from.num_unserved, from.used,  from.taken,
-            from.starts,  from.done,   from.vehicle,      from.drone, vehicle_logs_of(from.log),
-            from.cost,    from.fresh};
-}
+using State = tandem_state;
 
 }  // namespace tandem

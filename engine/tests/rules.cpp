@@ -159,16 +159,15 @@ void clocked(const tandem_vehicle_type* type, const int64_t* times, int64_t chan
 
 void all_legs(const tandem_legs* legs, const tandem_legs* back, int64_t travel, int64_t nodes,
               int64_t* found) {
-    const Legs onwards = legs_of(*legs), inwards = legs_of(*back);
     const View<Int, 4> entry(found, {3, nodes, nodes, 2});
     const View<Int, 2> near(found + 3 * nodes * nodes * 2, {nodes, nodes});
     const auto note = [&](Int way, Int origin, Int to, const Leg& one) {
         write(&entry(way, origin, to, 0), {one.duration, one.distance});
     };
-    const TravelLegs every = legs_of(onwards, travel);
+    const TravelLegs every = legs_of(*legs, travel);
     for (Int here = 0; here < nodes; ++here) {
-        const LegRow onward = legs_from(onwards, travel, here);
-        const LegRow inward = legs_to(inwards, travel, here);
+        const LegRow onward = legs_from(*legs, travel, here);
+        const LegRow inward = legs_to(*back, travel, here);
         for (Int there = 0; there < nodes; ++there) {
             note(0, here, there, leg(every, here, there));
             note(1, here, there, leg_to(onward, there));
@@ -180,11 +179,10 @@ void all_legs(const tandem_legs* legs, const tandem_legs* back, int64_t travel, 
 
 void all_distances(const tandem_legs* legs, const tandem_legs* back, int64_t travel, int64_t nodes,
                    int64_t* found) {
-    const Legs onwards = legs_of(*legs), inwards = legs_of(*back);
     const View<Int, 3> entry(found, {2, nodes, nodes});
     for (Int here = 0; here < nodes; ++here) {
-        const LegRow onward = legs_from(onwards, travel, here);
-        const LegRow inward = legs_to(inwards, travel, here);
+        const LegRow onward = legs_from(*legs, travel, here);
+        const LegRow inward = legs_to(*back, travel, here);
         for (Int there = 0; there < nodes; ++there) {
             entry(0, here, there) = distance_to(onward, there);
             entry(1, there, here) = distance_from(inward, there);

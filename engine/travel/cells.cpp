@@ -153,6 +153,5 @@ void write_nearest_in(const Cells& cells, Int begin, Int end, View<std::int32_t,
 
 extern "C" int tandem_write_nearest_in(const tandem_cells* cells, int64_t begin, int64_t end,
                                        const tandem_i32_2d* nearest) {
-    return tandem::guarded(
-        [&] { tandem::write_nearest_in(tandem::cells_of(*cells), begin, end, *nearest); });
+    return tandem::guarded([&] { tandem::write_nearest_in(*cells, begin, end, *nearest); });
 }

@@ -293,8 +293,7 @@ extern "C" int tandem_fly_around(const tandem_sights* outward, const tandem_sigh
                                  bool mutual, int64_t first, int64_t last,
                                  const tandem_f64_2d* distance, const tandem_f64_2d* duration) {
     return tandem::guarded([&] {
-        const tandem::Network network{tandem::sights_of(*outward), tandem::sights_of(*between),
-                                      tandem::sights_of(*inward), tandem::turns_of(*turns)};
+        const tandem::Network network{*outward, *between, *inward, {*turns}};
         tandem::fly_around(network, {*wanted, *order, mutual, first, last}, {*distance, *duration});
     });
 }

@@ -97,9 +97,11 @@ def _pointers() -> dict[str, Any]:
 
 
 def _declarations(text: str) -> str:
-    """Return a C header without what the preprocessor and C++ alone read."""
+    """Return a C header without what C++ alone reads, and as the preprocessor leaves it."""
     text = re.sub(r"^#ifdef __cplusplus$.*?^#endif$", "", text, flags=re.MULTILINE | re.DOTALL)
-    return re.sub(r"^#.*$", "", text, flags=re.MULTILINE)
+    text = re.sub(r"^#.*$", "", text, flags=re.MULTILINE)
+    return re.sub(r"\bTANDEM_ROWS\((\w+), ([\w ]+), (\d)\)",
+                  r"typedef struct \1 { \2* data; int64_t shape[\3]; } \1", text)
 
 
 def dtype_of(name: str) -> np.dtype[Any]:

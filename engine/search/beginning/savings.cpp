@@ -309,7 +309,7 @@ using namespace tandem;
 
 extern "C" int tandem_length_of(const tandem_problem_data* data, int64_t k,
                                 const tandem_chain_1d* chain, int64_t* length) {
-    return guarded([&] { *length = length_of(data_of(*data), k, View<Chain, 1>(*chain)); });
+    return guarded([&] { *length = length_of(data_of(*data), k, *chain); });
 }
 
 extern "C" int tandem_write_nearest_types(const tandem_problem_data* data,

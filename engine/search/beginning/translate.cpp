@@ -174,7 +174,7 @@ using namespace tandem;
 extern "C" int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
                                   const tandem_f64_3d* alone) {
     return guarded([&] {
-        Fleet routes = fleet_of(*fleet);
+        Fleet routes = *fleet;
         alone_costs(data_of(*data), routes, *alone);
     });
 }
@@ -195,7 +195,7 @@ extern "C" int tandem_leg_cost(const tandem_problem_data* data, const tandem_sea
 extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet,
                                    int64_t slot) {
     return guarded([&] {
-        Fleet routes = fleet_of(*fleet);
+        Fleet routes = *fleet;
         if (!finish_route(data_of(*data), routes, slot)) {
             throw std::invalid_argument("nobody can drive the route");
         }
@@ -208,9 +208,8 @@ extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types,
                                  const tandem_broken_leg* leg, tandem_driver* driver,
                                  const tandem_i64_2d* times) {
     return guarded([&] {
-        const Speeds speeds{View<VehicleType, 1>(*types)[k], View<Int, 2>(*profile_time)[k],
-                            View<Int, 2>(*profile_factor)[k]};
-        const View<Int, 2> written(*times);
+        const Speeds speeds{(*types)[k], (*profile_time)[k], (*profile_factor)[k]};
+        const View<Int, 2> written = *times;
         const Rests rests(leg->rests);
         RestedLeg rested(speeds, leg->begin, *driver, leg->stood, leg->leave, leg->duration);
         for (Int index = 0; index < rests.count(); ++index) {
@@ -228,12 +227,11 @@ extern "C" int tandem_break_times(const tandem_vehicle_type_1d* types,
                                   const tandem_i64_2d* profile_factor, int64_t k,
                                   const tandem_broken_leg* leg, const tandem_i64_2d* times) {
     return guarded([&] {
-        const VehicleType& type = View<VehicleType, 1>(*types)[k];
-        const View<Int, 2> written(*times);
+        const VehicleType& type = (*types)[k];
+        const View<Int, 2> written = *times;
         const Rests rests(leg->rests);
         const auto travel = [&](Int leave) {
-            return leg_end(type, View<Int, 2>(*profile_time)[k], View<Int, 2>(*profile_factor)[k],
-                           leg->duration, leave);
+            return leg_end(type, (*profile_time)[k], (*profile_factor)[k], leg->duration, leave);
         };
         BrokenLeg broken(type, leg->begin, leg->leave, travel);
         for (Int index = 0; index < rests.count(); ++index) {
@@ -249,10 +247,9 @@ extern "C" int tandem_break_times(const tandem_vehicle_type_1d* types,
 extern "C" int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
                                      const tandem_i64_1d* arrivals, const tandem_i64_1d* starts) {
     return guarded([&] {
-        const NodeTable places{View<Node, 2>(*place)};
-        const View<Int, 1> node = *nodes;
-        for (Int index = 0; index < node.size(); ++index) {
-            starts->data[index] = places[node[index]].start_of_service(arrivals->data[index]);
+        const NodeTable places = *place;
+        for (Int index = 0; index < nodes->size(); ++index) {
+            (*starts)[index] = places[(*nodes)[index]].start_of_service((*arrivals)[index]);
         }
     });
 }
@@ -262,12 +259,10 @@ extern "C" int tandem_sortie_ends(const tandem_node_3d* places, const tandem_veh
                                   const tandem_i64_1d* arrivals, int64_t begin,
                                   const tandem_i64_1d* ends, int64_t* aboard) {
     return guarded([&] {
-        const View<const VehicleType, 1> rows = View<VehicleType, 1>(*types);
-        const VehicleType& type = rows[row_of_drone(rows, k, drone)];
-        const NodeTable by_air = NodeTables(View<Node, 3>(*places)).by_air(type);
-        const View<Int, 1> node = *nodes;
-        for (Int index = 0; index < node.size(); ++index) {
-            ends->data[index] = by_air[node[index]].end_of_service(arrivals->data[index]);
+        const VehicleType& type = (*types)[row_of_drone(*types, k, drone)];
+        const NodeTable by_air = NodeTables(*places).by_air(type);
+        for (Int index = 0; index < nodes->size(); ++index) {
+            (*ends)[index] = by_air[(*nodes)[index]].end_of_service((*arrivals)[index]);
         }
         *aboard = recovery_end(type, begin);
     });

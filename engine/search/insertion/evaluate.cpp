@@ -393,7 +393,7 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
 extern "C" int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
                                  const tandem_move* move, int64_t node, double* cost) {
     return tandem::guarded([&] {
-        tandem::Fleet routes = tandem::fleet_of(*fleet);
+        tandem::Fleet routes = *fleet;
         *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node, tandem::infeasible);
     });
 }

@@ -152,7 +152,7 @@ extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
                                     tandem_scratch* scratch, int64_t turns) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = linked_of(*linked);
+        Linked routes = *linked;
         const ProblemData problem = data_of(*data);
         scratch->lend_to(problem, searching);
         anneal_linked(problem, searching, routes, turns);
@@ -164,7 +164,7 @@ extern "C" int tandem_insert_linked(const tandem_problem_data* data,
                                     tandem_scratch* scratch, int64_t order) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = linked_of(*linked);
+        Linked routes = *linked;
         const ProblemData problem = data_of(*data);
         scratch->lend_to(problem, searching);
         insert_linked(problem, searching, routes, order);

@@ -161,7 +161,7 @@ using namespace tandem;
 
 extern "C" int tandem_measure_near(const tandem_problem_data* data, const tandem_linked* linked) {
     return guarded([&] {
-        Linked routes = linked_of(*linked);
+        Linked routes = *linked;
         measure_near(data_of(*data), routes);
     });
 }
@@ -170,7 +170,7 @@ extern "C" int tandem_tie(const tandem_problem_data* data, const tandem_searcher
                           const tandem_linked* linked) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = linked_of(*linked);
+        Linked routes = *linked;
         const ProblemData problem = data_of(*data);
         problem.deadline.go_on();
         tie(problem, searching, routes);
@@ -181,7 +181,7 @@ extern "C" int tandem_write_back(const tandem_problem_data* data, const tandem_s
                                  const tandem_linked* linked) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = linked_of(*linked);
+        Linked routes = *linked;
         write_back(data_of(*data), searching, routes);
     });
 }

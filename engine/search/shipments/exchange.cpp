@@ -227,6 +227,6 @@ extern "C" int tandem_exchange_routes(const tandem_problem_data* data,
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         Searcher working = searcher_of(*searcher);
-        *done = Exchange(problem, working, View<Int, 1>(*one), View<Int, 1>(*other)).run() ? 1 : 0;
+        *done = Exchange(problem, working, *one, *other).run() ? 1 : 0;
     });
 }
