@@ -701,67 +701,6 @@ typedef struct tandem_chain_cargo {
     int64_t picks;    /* likewise */
 } tandem_chain_cargo;
 
-/* A customer on linked stops. Times are kept only where something limits them. A cache line. */
-typedef struct tandem_link {
-    int64_t slot;   /* of the route */
-    int64_t before; /* who comes before, or the depot there */
-    int64_t behind; /* likewise */
-    int64_t inward; /* how far it is from there */
-    int64_t onward; /* and to who comes behind */
-    int64_t gap;    /* how long that takes */
-    int64_t leave;  /* when the vehicle does */
-    int64_t latest; /* when it has to come */
-} tandem_link;
-
-/* A linked route. Where there is nobody, its end comes first and its beginning last. */
-typedef struct tandem_run {
-    int64_t type;
-    int64_t first; /* customer */
-    int64_t last;  /* customer */
-    int64_t count; /* of customers */
-    int64_t distance;
-    int64_t load[3];
-} tandem_run;
-
-/* Customers in a row that were taken out this turn. */
-typedef struct tandem_piece {
-    int64_t slot; /* of their route */
-    int64_t type; /* that drove it then */
-    int64_t count;
-    int64_t gap;   /* of the leg to who came behind */
-    int64_t saved; /* how much shorter the route is without them */
-} tandem_piece;
-
-/* A customer inserted this turn. */
-typedef struct tandem_entry {
-    int64_t node;
-    int64_t onward; /* how far the leg was that it came between */
-    int64_t gap;    /* how long that took */
-} tandem_entry;
-
-/* Times of a customer before they changed this turn. */
-typedef struct tandem_moment {
-    int64_t node;
-    int64_t leave;
-    int64_t latest;
-} tandem_moment;
-
-/* How many of each were noted this turn. */
-typedef struct tandem_noted {
-    int64_t pieces;
-    int64_t removed;
-    int64_t entries;
-    int64_t moments;
-    int64_t retyped;
-    int64_t over; /* whether there were more moments than there is room */
-} tandem_noted;
-
-/* What the vehicle costs that is cheapest. */
-typedef struct tandem_least {
-    double distance; /* a mm more */
-    double stop;     /* a customer more */
-} tandem_least;
-
 /* Arrays of others, row by row. */
 
 TANDEM_ROWS(tandem_bool_1d, bool, 1);
@@ -771,7 +710,6 @@ TANDEM_ROWS(tandem_chain_1d, tandem_chain, 1);
 TANDEM_ROWS(tandem_chain_cargo_2d, tandem_chain_cargo, 2);
 TANDEM_ROWS(tandem_cost_1d, tandem_cost, 1);
 TANDEM_ROWS(tandem_drone_2d, tandem_drone, 2);
-TANDEM_ROWS(tandem_entry_1d, tandem_entry, 1);
 TANDEM_ROWS(tandem_evaluation_1d, const tandem_evaluation, 1);
 TANDEM_ROWS(tandem_f32_1d, float, 1);
 TANDEM_ROWS(tandem_f32_2d, float, 2);
@@ -798,12 +736,10 @@ TANDEM_ROWS(tandem_i64_5d, const int64_t, 5);
 TANDEM_ROWS(tandem_lag_2d, const tandem_lag, 2);
 TANDEM_ROWS(tandem_lag_3d, const tandem_lag, 3);
 TANDEM_ROWS(tandem_leg_law_1d, const tandem_leg_law, 1);
-TANDEM_ROWS(tandem_link_1d, tandem_link, 1);
 TANDEM_ROWS(tandem_log_lengths_1d, tandem_log_lengths, 1);
 TANDEM_ROWS(tandem_logged_sortie_2d, tandem_logged_sortie, 2);
 TANDEM_ROWS(tandem_logged_stop_2d, tandem_logged_stop, 2);
 TANDEM_ROWS(tandem_logged_trip_2d, tandem_logged_trip, 2);
-TANDEM_ROWS(tandem_moment_1d, tandem_moment, 1);
 TANDEM_ROWS(tandem_move_2d, tandem_move, 2);
 TANDEM_ROWS(tandem_node_2d, const tandem_node, 2);
 TANDEM_ROWS(tandem_node_3d, const tandem_node, 3);
@@ -813,7 +749,6 @@ TANDEM_ROWS(tandem_outlook_1d, tandem_outlook, 1);
 TANDEM_ROWS(tandem_outlook_2d, tandem_outlook, 2);
 TANDEM_ROWS(tandem_pair_1d, const tandem_pair, 1);
 TANDEM_ROWS(tandem_pair_2d, const tandem_pair, 2);
-TANDEM_ROWS(tandem_piece_1d, tandem_piece, 1);
 TANDEM_ROWS(tandem_place_1d, tandem_place, 1);
 TANDEM_ROWS(tandem_point_1d, const tandem_point, 1);
 TANDEM_ROWS(tandem_price_1d, const tandem_price, 1);
@@ -821,7 +756,6 @@ TANDEM_ROWS(tandem_price_2d, const tandem_price, 2);
 TANDEM_ROWS(tandem_rate_1d, const tandem_rate, 1);
 TANDEM_ROWS(tandem_rate_2d, const tandem_rate, 2);
 TANDEM_ROWS(tandem_route_1d, tandem_route, 1);
-TANDEM_ROWS(tandem_run_1d, tandem_run, 1);
 TANDEM_ROWS(tandem_setup_1d, const tandem_setup, 1);
 TANDEM_ROWS(tandem_setup_2d, const tandem_setup, 2);
 TANDEM_ROWS(tandem_size_1d, const tandem_size, 1);
@@ -1088,33 +1022,6 @@ typedef struct tandem_searcher {
     tandem_f64_2d kept_cost;  /* (node, slot) what it costs */
 } tandem_searcher;
 
-typedef struct tandem_linked {
-    tandem_link_1d link;        /* (node,) */
-    tandem_run_1d run;          /* (slot,) */
-    tandem_piece_1d piece;      /* (piece,) */
-    tandem_link_1d removed;     /* (customer,) of the pieces one after another */
-    tandem_i64_1d removed_node; /* (customer,) who that is */
-    tandem_entry_1d entry;      /* (customer,) */
-    tandem_moment_1d moment;    /* (moment,) */
-    tandem_i64_1d retyped;      /* (slot,) routes that another type drives since this turn */
-    tandem_i64_1d former;       /* (slot,) the type that did before, else `nowhere` */
-    tandem_noted* noted;
-    tandem_i64_1d hit; /* (slot,) turn of the last string */
-    tandem_i32_2d
-        near; /* (node, rank) mm to or from those that `ProblemData.granular` lists, or what fits */
-    tandem_i64_1d best_first;  /* (slot,) first customer of the best plan's route, else `nowhere` */
-    tandem_i64_1d best_type;   /* (slot,) */
-    tandem_i64_1d best_behind; /* (node,) */
-    tandem_least* cheapest;    /* of all types */
-    bool timed;                /* something limits when customers are served */
-    tandem_i64_1d
-        reach; /* (node,) how far it is to who is farther of both beside; see `layout.h` */
-    tandem_stop_load_2d
-        aboard; /* (tier, row) around customers, and where routes begin and end; see `layout.h` */
-    tandem_bool_1d stale; /* (slot,) what is aboard isn't written anew yet */
-    bool one_travel;      /* all vehicles drive by the same legs */
-} tandem_linked;
-
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */
 
 /* Build. */
@@ -1272,20 +1179,27 @@ int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* search
 
 /* Search: linked. */
 
-/* Write how near neighbours are. */
-int tandem_measure_near(const tandem_problem_data* data, const tandem_linked* linked);
+/* Routes as linked stops. They belong to the engine. */
+typedef struct tandem_linked tandem_linked;
+
+/* Make room for the routes of a search, and for so many changes of times in a turn, none where
+   nothing limits times; neighbours are as near as in another search of the same problem, if any. */
+int tandem_open_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
+                       int64_t moments, const tandem_linked* like, tandem_linked** linked);
+/* Give it back. */
+int tandem_close_linked(tandem_linked* linked);
 /* Link the routes of a search as they are, and of its best plan. */
 int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
-               const tandem_linked* linked);
+               tandem_linked* linked);
 /* Ruin and recreate so many times among linked stops. */
 int tandem_anneal_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                         const tandem_linked* linked, tandem_scratch* scratch, int64_t turns);
+                         tandem_linked* linked, tandem_scratch* scratch, int64_t turns);
 /* Link the routes of a search, insert all who are left out in an order and write them back. */
 int tandem_insert_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                         const tandem_linked* linked, tandem_scratch* scratch, int64_t order);
+                         tandem_linked* linked, tandem_scratch* scratch, int64_t order);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
 int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
-                      const tandem_linked* linked);
+                      tandem_linked* linked);
 
 /* Search: beginning. */
 

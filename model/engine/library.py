@@ -24,7 +24,7 @@ from model.engine.header import (
 )
 from model.engine.packing import Packed, address_of, number_of, packed
 
-__all__ = ["EndedError", "call", "dtype_of", "packed", "path_of_library"]
+__all__ = ["EndedError", "call", "dtype_of", "function", "packed", "path_of_library"]
 
 
 class EndedError(Exception):
@@ -63,21 +63,26 @@ def call(name: str, *args: Any) -> Any:
     EndedError
         If nobody wants any more what it was doing.
     """
-    function, converts, results = _function(name)
+    entry, converts, results = _function(name)
     if len(args) > len(converts):
         raise TypeError(f"{name} takes {len(converts)} arguments, not {len(args)}")
     given = [convert(value) for convert, value in zip(converts, args, strict=False)]
     if len(args) == len(converts):
-        _check(name, function(*given))
+        _check(name, entry(*given))
         return None
     missing = results[len(args):]
     if any(dtype is None for dtype in missing):
         raise TypeError(f"{name} takes {len(converts)} arguments, not {len(args)}")
     rows = [np.zeros(1, dtype) for dtype in missing]
-    _check(name, function(*given, *(convert(row) for convert, row in zip(
+    _check(name, entry(*given, *(convert(row) for convert, row in zip(
         converts[len(args):], rows, strict=True))))
     found = tuple(row[0] if row.dtype.names else row.item() for row in rows)
     return found[0] if len(found) == 1 else found
+
+
+def function(name: str) -> Any:
+    """Return a function of the engine as cffi knows it."""
+    return getattr(_library(), name)
 
 
 def path_of_library() -> Path:
@@ -106,11 +111,11 @@ def _library() -> Any:
 @cache
 def _function(name: str) -> tuple[Any, list[Convert], list[np.dtype[Any] | None]]:
     """Return a function, what converts its arguments, and which of them it may write results to."""
-    function = getattr(_library(), name)
-    kinds = interface().typeof(function).args
+    found = function(name)
+    kinds = interface().typeof(found).args
     converts = [_conversion(kind, f"{name}, argument {number}")
                 for number, kind in enumerate(kinds, start=1)]
-    return function, converts, [_result(kind) for kind in kinds]
+    return found, converts, [_result(kind) for kind in kinds]
 
 
 def _result(kind: Any) -> np.dtype[Any] | None:

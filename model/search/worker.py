@@ -58,32 +58,35 @@ class Worker:
     cooled: float = 0.0  # share of the cooling that is left out
     looked: int = 0  # turns after which better parts were last looked for
     given: tuple[Packed, Packed] = field(init=False)  # data and search, packed
-    tied: Packed | None = field(init=False)  # likewise what is linked
-    scratch: Scratch = field(init=False)  # for a round
+    scratch: Scratch = field(init=False)
 
     def __post_init__(self) -> None:
-        """Pack for the first rounds."""
-        self.given = packed(self.data), packed(self.searcher)
-        self.tied = None if self.linked is None else packed(self.linked)
+        """Make ready for the first rounds."""
+        self._pack()
 
     def set_out(self, data: ProblemData, searcher: Searcher, span: Span) -> None:
         """Have the next round go on from a search, often that of the last one. In place."""
-        if data is not self.data or searcher is not self.searcher:
-            self.given = packed(data), packed(searcher)
+        is_same = data is self.data and searcher is self.searcher
         self.data, self.searcher, self.span = data, searcher, span
+        if not is_same:
+            self._pack()
+
+    def _pack(self) -> None:
+        """Pack for several rounds."""
+        self.given = packed(self.data), packed(self.searcher)
+        self.scratch = Scratch(*self.given)
 
     def run(self) -> None:
         """Search for one round."""
         most, end = self.limits.round_end(self.turns, self.span)
-        with Scratch(*self.given) as self.scratch:
-            if self.tied is None:
-                self._search(most, end)
-                return
-            # Where there is no time to tie routes, they are written.
-            with suppress(EndedError):
-                tie(*self.given, self.tied)
-                self._search(most, end)
-                write_back(*self.given, self.tied)
+        if self.linked is None:
+            self._search(most, end)
+            return
+        # Where there is no time to tie routes, they are written.
+        with suppress(EndedError):
+            tie(*self.given, self.linked)
+            self._search(most, end)
+            write_back(*self.given, self.linked)
 
     def _search(self, most: float, end: float) -> None:
         """Search for so many turns in all, until some time at most."""
@@ -115,12 +118,12 @@ class Worker:
         spare = end - time.perf_counter()
         if (self.span.share(self.limits.share(self.turns)) >= LOOKED_FROM
                 and spare > LOOK * self.data.num_nodes and not self.limits.should_stop()):
-            if self.tied is None:
+            if self.linked is None:
                 take_better_parts(self.data, self.searcher)
                 return
-            write_back(*self.given, self.tied)
+            write_back(*self.given, self.linked)
             take_better_parts(self.data, self.searcher)
-            tie(*self.given, self.tied)
+            tie(*self.given, self.linked)
 
     def _longest_string(self) -> float:
         """Return how many customers a string has at most where routes are long."""
@@ -150,10 +153,10 @@ class Worker:
             self.cooling = span
         value.longest = self._longest_string()
         began, before = time.perf_counter(), int(self.searcher.count.turn)
-        if self.tied is None:
+        if self.linked is None:
             anneal(*self.given, turns, ANY, self.scratch)
         else:
-            anneal_linked(*self.given, self.tied, turns, self.scratch)
+            anneal_linked(*self.given, self.linked, turns, self.scratch)
         made = int(self.searcher.count.turn) - before
         self.turns += made
         self.pace = (time.perf_counter() - began) / max(1, made)

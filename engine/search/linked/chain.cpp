@@ -53,7 +53,7 @@ void note_stale(Linked& linked, Int slot) {
 
 // Notes when a customer is left, and has to be reached, before that changes.
 void note_times(Linked& linked, Int node) {
-    Noted& noted = *linked.noted;
+    Noted& noted = linked.noted;
     if (noted.moments == linked.moment.size()) {
         noted.over = 1;
         return;
@@ -64,7 +64,7 @@ void note_times(Linked& linked, Int node) {
 
 // Takes the customer inserted last out again. Times stay as they are.
 void untie(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    const Entry& entry = linked.entry[--linked.noted->entries];
+    const Entry& entry = linked.entry[--linked.noted.entries];
     Link& here = linked.link[entry.node];
     const Int slot = here.slot;
     Run& run = linked.run[slot];
@@ -81,7 +81,7 @@ void untie(const ProblemData& data, Searcher& searcher, Linked& linked) {
 
 // Puts the customers back that were taken out last. Times stay as they are.
 void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    Noted& noted = *linked.noted;
+    Noted& noted = linked.noted;
     const Piece& piece = linked.piece[--noted.pieces];
     Run& run = linked.run[piece.slot];
     if (run.count == 0) open_run(data, searcher, linked, piece.slot, piece.type);
@@ -106,7 +106,7 @@ void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
 
 // Lets customers, and times that were noted, be as they were when so much was noted.
 void undo(const ProblemData& data, Searcher& searcher, Linked& linked, const Noted& before) {
-    Noted& noted = *linked.noted;
+    Noted& noted = linked.noted;
     while (noted.entries > before.entries) untie(data, searcher, linked);
     while (noted.pieces > before.pieces) put_back(data, searcher, linked);
     while (noted.moments > before.moments) {
@@ -138,7 +138,7 @@ void tie_in(const ProblemData& data, Linked& linked, Int slot, Int before, Int n
     const LegRow onward = legs_from(data.leg, m, node);
     const Int there = distance_from(inward, before);
     const Int on = distance_to(onward, behind);
-    Entry& entry = linked.entry.at(linked.noted->entries++);
+    Entry& entry = linked.entry.at(linked.noted.entries++);
     entry = {node, 0, 0};
     if (behind >= data.num_depots) {
         entry.onward = linked.link[behind].inward;
@@ -180,7 +180,7 @@ Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int b
 }
 
 Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int count) {
-    Noted& noted = *linked.noted;
+    Noted& noted = linked.noted;
     Run& run = linked.run[slot];
     Piece& piece = linked.piece.at(noted.pieces++);
     piece = {slot, run.type, count, 0, 0};
@@ -259,11 +259,11 @@ void retime(const ProblemData& data, Linked& linked, Int slot) {
 void restore(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot,
              const Noted& before) {
     undo(data, searcher, linked, before);
-    if (linked.noted->over) retime(data, linked, slot);
+    if (linked.noted.over) retime(data, linked, slot);
 }
 
 void take_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    Noted& noted = *linked.noted;
+    Noted& noted = linked.noted;
     take_types_back(searcher, linked);
     undo(data, searcher, linked, {});
     if (noted.over) {
@@ -275,9 +275,8 @@ void take_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
 }
 
 void forget(Linked& linked) {
-    for (const Int slot : linked.retyped.first(linked.noted->retyped))
-        linked.former[slot] = nowhere;
-    *linked.noted = {};
+    for (const Int slot : linked.retyped.first(linked.noted.retyped)) linked.former[slot] = nowhere;
+    linked.noted = {};
 }
 
 }  // namespace tandem

@@ -240,7 +240,7 @@ private:
 
     // Writes a detour that, as all longer ones, costs no less than the best, whoever drives it.
     void set_longest_detour() {
-        const Least& cheapest = *linked_.cheapest;
+        const Least& cheapest = linked_.cheapest;
         const double most = best_.cost - cheapest.stop;
         const bool is_any = cheapest.distance == 0.0 || most >= double(far) * cheapest.distance;
         longest_detour_ = is_any ? far : Int(std::ceil(most / cheapest.distance));

@@ -48,7 +48,7 @@ void give_run(Searcher& searcher, Linked& linked, Int slot, Int k) {
     Run& run = linked.run[slot];
     if (linked.former[slot] == nowhere) {
         linked.former[slot] = run.type;
-        linked.retyped.at(linked.noted->retyped++) = slot;
+        linked.retyped.at(linked.noted.retyped++) = slot;
     }
     --searcher.now.used[run.type];
     ++searcher.now.used[k];
@@ -72,7 +72,7 @@ double cheapen_run(const ProblemData& data, Searcher& searcher, Linked& linked, 
 }
 
 double cheapen_runs(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    const Noted& noted = *linked.noted;
+    const Noted& noted = linked.noted;
     double saved = 0.0;
     for (const Piece& piece : linked.piece.first(noted.pieces)) {
         saved += cheapen_run(data, searcher, linked, piece.slot);
@@ -84,14 +84,14 @@ double cheapen_runs(const ProblemData& data, Searcher& searcher, Linked& linked)
 }
 
 void take_types_back(Searcher& searcher, Linked& linked) {
-    for (const Int slot : linked.retyped.first(linked.noted->retyped)) {
+    for (const Int slot : linked.retyped.first(linked.noted.retyped)) {
         Run& run = linked.run[slot];
         --searcher.now.used[run.type];
         run.type = linked.former[slot];
         ++searcher.now.used[run.type];
         linked.former[slot] = nowhere;
     }
-    linked.noted->retyped = 0;
+    linked.noted.retyped = 0;
 }
 
 }  // namespace tandem

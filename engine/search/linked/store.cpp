@@ -98,7 +98,7 @@ public:
 private:
     // Lists the routes of this turn as changed since the best, and notes nothing more.
     void list_changes() {
-        const Noted& noted = *linked_.noted;
+        const Noted& noted = linked_.noted;
         for (const Piece& piece : linked_.piece.first(noted.pieces)) {
             note_changed(searcher_, piece.slot);
         }
@@ -148,25 +148,23 @@ void insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, 
 using namespace tandem;
 
 extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
-                                    const tandem_searcher* searcher, const tandem_linked* linked,
+                                    const tandem_searcher* searcher, tandem_linked* linked,
                                     tandem_scratch* scratch, int64_t turns) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = *linked;
         const ProblemData problem = data_of(*data);
         scratch->lend_to(problem, searching);
-        anneal_linked(problem, searching, routes, turns);
+        anneal_linked(problem, searching, *linked, turns);
     });
 }
 
 extern "C" int tandem_insert_linked(const tandem_problem_data* data,
-                                    const tandem_searcher* searcher, const tandem_linked* linked,
+                                    const tandem_searcher* searcher, tandem_linked* linked,
                                     tandem_scratch* scratch, int64_t order) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = *linked;
         const ProblemData problem = data_of(*data);
         scratch->lend_to(problem, searching);
-        insert_linked(problem, searching, routes, order);
+        insert_linked(problem, searching, *linked, order);
     });
 }

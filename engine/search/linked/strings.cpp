@@ -13,9 +13,6 @@ namespace tandem {
 
 namespace {
 
-// How many customers a turn removes at most, to the last string.
-constexpr Int most_removed = 512;
-
 // Where a string of so many customers begins, drawn from all with a customer in it.
 Int first_of_string(const ProblemData& data, const Searcher& searcher, const Linked& linked,
                     Int customer, Int span) {
@@ -62,7 +59,7 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
     const Int first = first_of_string(data, searcher, linked, customer, string.span());
     const Int gap = draw_gap(searcher.rng, string);
     const Int before = link[first].before;
-    const Noted noted = *linked.noted;
+    const Noted noted = linked.noted;
     Int saved = cut_out(data, linked, slot, first, gap);
     const Int first_left = before < data.num_depots ? run.first : link[before].behind;
     Int last_left = before;
@@ -100,18 +97,18 @@ Ruined ruin_linked(const ProblemData& data, Searcher& searcher, Linked& linked) 
     double saved = 0.0;
     Int rank = -1;
     Int customer = seed;
-    while (strings > 0 && customer >= 0 && linked.noted->removed < most_removed) {
+    while (strings > 0 && customer >= 0 && linked.noted.removed < most_removed) {
         const Int slot = linked.link[customer].slot;
         if (slot >= 0 && linked.hit[slot] != count.turn) {
             linked.hit[slot] = count.turn;
-            const Int removed = linked.noted->removed;
+            const Int removed = linked.noted.removed;
             saved += cut_string(data, searcher, linked, customer, longest);
-            if (linked.noted->removed > removed) --strings;
+            if (linked.noted.removed > removed) --strings;
         }
         ++rank;
         customer = rank < data.near.shape(1) ? data.near(seed, rank) : nowhere;
     }
-    for (const Int node : linked.removed_node.first(linked.noted->removed)) {
+    for (const Int node : linked.removed_node.first(linked.noted.removed)) {
         searcher.absent.at(count.absent++) = node;
     }
     return {saved, seed};

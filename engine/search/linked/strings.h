@@ -5,6 +5,9 @@
 
 namespace tandem {
 
+// How many customers a turn removes at most, to the last string.
+constexpr Int most_removed = 512;
+
 // What was saved, and near whom.
 struct Ruined {
     double saved;

@@ -16,13 +16,13 @@ namespace tandem {
 namespace {
 
 // Writes how near a customer's neighbours are by vehicles of a type, if that is nearer than known.
-void measure_near_by(const ProblemData& data, Linked& linked, Int k, Int node) {
+void measure_near_by(const ProblemData& data, const Nearness& measured, Int k, Int node) {
     const LegRow inward = legs_to(data.back, data.type[k].travel, node);
     const LegRow onward = legs_from(data.leg, data.type[k].travel, node);
     for (Int rank = 0; rank < data.granular.shape(1); ++rank) {
         const Int other = data.granular(node, rank);
         if (other < 0) continue;
-        std::int32_t& near = linked.near(node, rank);
+        std::int32_t& near = measured(node, rank);
         const Int distance = std::min(nearness(inward, onward, other), Int{near});
         near = static_cast<std::int32_t>(distance);
     }
@@ -116,15 +116,17 @@ void clear_route(Fleet& fleet, Int slot, Int stamp) {
 
 }  // namespace
 
-void measure_near(const ProblemData& data, Linked& linked) {
+std::shared_ptr<const Nearness> measured_near(const ProblemData& data) {
+    auto nearness = std::make_shared<Nearness>(data.granular.shape());
+    const bool one_travel = is_one_travel(data);
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         data.deadline.go_on_late();
-        for (Int rank = 0; rank < data.granular.shape(1); ++rank)
-            linked.near(node, rank) = farthest;
+        for (std::int32_t& near : (*nearness)[node]) near = farthest;
         for (Int k = 0; k < data.num_types; ++k) {
-            if (k == 0 || !linked.one_travel) measure_near_by(data, linked, k, node);
+            if (k == 0 || !one_travel) measure_near_by(data, *nearness, k, node);
         }
     }
+    return nearness;
 }
 
 void tie(const ProblemData& data, Searcher& searcher, Linked& linked) {
@@ -159,29 +161,20 @@ void write_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
 
 using namespace tandem;
 
-extern "C" int tandem_measure_near(const tandem_problem_data* data, const tandem_linked* linked) {
-    return guarded([&] {
-        Linked routes = *linked;
-        measure_near(data_of(*data), routes);
-    });
-}
-
 extern "C" int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
-                          const tandem_linked* linked) {
+                          tandem_linked* linked) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = *linked;
         const ProblemData problem = data_of(*data);
         problem.deadline.go_on();
-        tie(problem, searching, routes);
+        tie(problem, searching, *linked);
     });
 }
 
 extern "C" int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
-                                 const tandem_linked* linked) {
+                                 tandem_linked* linked) {
     return guarded([&] {
         Searcher searching = searcher_of(*searcher);
-        Linked routes = *linked;
-        write_back(data_of(*data), searching, routes);
+        write_back(data_of(*data), searching, *linked);
     });
 }

@@ -5,8 +5,8 @@
 
 namespace tandem {
 
-// Writes how near neighbours are.
-void measure_near(const ProblemData& data, Linked& linked);
+// Returns how near neighbours are.
+std::shared_ptr<const Nearness> measured_near(const ProblemData& data);
 
 // Links the routes of a search as they are, and of its best plan.
 void tie(const ProblemData& data, Searcher& searcher, Linked& linked);

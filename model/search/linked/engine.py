@@ -3,39 +3,32 @@
 from model.engine.library import call
 from model.engine.packing import Packed
 from model.search.linked.layout import Linked
-from model.search.route.engine import Scratch, lent
+from model.search.route.engine import Scratch
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
 
-def measure_near(data: ProblemData | Packed, linked: Linked | Packed) -> None:
-    """Write how near neighbours are. In place."""
-    call("tandem_measure_near", data, linked)
-
-
-def tie(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed) -> None:
+def tie(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked) -> None:
     """Link the routes of a search as they are, and of its best plan. In place."""
     call("tandem_tie", data, searcher, linked)
 
 
-def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
+def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked,
                   turns: int, scratch: Scratch | None = None) -> None:
     """Ruin and recreate `turns` times among linked stops. In place. As `anneal`."""
-    with lent(scratch, data, searcher) as room:
-        call("tandem_anneal_linked", data, searcher, linked, room, turns)
+    call("tandem_anneal_linked", data, searcher, linked, scratch or Scratch(data, searcher), turns)
 
 
-def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked | Packed,
+def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked,
                   order: int) -> None:
     """Link the routes of a search, insert all who are left out in an order and write them back.
 
     In place. Once the search must end, whoever is not inserted yet is left out.
     """
-    with Scratch(data, searcher) as scratch:
-        call("tandem_insert_linked", data, searcher, linked, scratch, order)
+    call("tandem_insert_linked", data, searcher, linked, Scratch(data, searcher), order)
 
 
 def write_back(data: ProblemData | Packed, searcher: Searcher | Packed,
-               linked: Linked | Packed) -> None:
+               linked: Linked) -> None:
     """Let the routes of a search, and of its best plan, be those that are linked. In place."""
     call("tandem_write_back", data, searcher, linked)

@@ -4,8 +4,6 @@ Worlds and searches are given as they are, or packed where they are given often:
 search takes as long as some of its turns.
 """
 
-from contextlib import AbstractContextManager, nullcontext
-
 from model.engine.handle import Handle
 from model.engine.library import call
 from model.engine.packing import Packed
@@ -33,12 +31,6 @@ class Scratch(Handle):
         super().__init__("scratch", data, searcher)
 
 
-def lent(scratch: Scratch | None, data: ProblemData | Packed,
-         searcher: Searcher | Packed) -> AbstractContextManager[Scratch]:
-    """Return a scratch that is open, or for one call one of its own."""
-    return Scratch(data, searcher) if scratch is None else nullcontext(scratch)
-
-
 def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, order: int,
            scratch: Scratch | None = None) -> None:
     """Ruin and recreate `turns` times. In place.
@@ -48,8 +40,7 @@ def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, 
     Once the search must end, a turn is given up as if it had not begun, and an insertion of all
     leaves out whoever is not inserted yet. Whoever calls often gives a scratch.
     """
-    with lent(scratch, data, searcher) as room:
-        call("tandem_anneal", data, searcher, room, turns, order)
+    call("tandem_anneal", data, searcher, scratch or Scratch(data, searcher), turns, order)
 
 
 def missing_cost(data: ProblemData | Packed, searcher: Searcher | Packed) -> float:

@@ -62,16 +62,16 @@ def test_plans_keep_rules_and_cost_what_they_are_said_to(seed: int, scan_all: bo
     data, searcher = begun(problem)
     data = data._replace(strategy=data.strategy._replace(scan_all=scan_all))
     first = float(searcher.value.best)
-    with Scratch(data, searcher) as scratch:
-        for temperature in (5.0, 1.0, 0.01):
-            searcher.value.temperature, searcher.value.longest = temperature, 10.0
-            searcher.value.cooling = 1.0
-            anneal(data, searcher, 150, ANY, scratch)
-            assert len(searcher.active[:searcher.count.active]) == searcher.now.used[0]
-            for routes in (searcher, _as_they_are(searcher)):
-                plan = check(problem, best_plan(data, routes, range(data.num_nodes)))
-                assert plan.violations == ()
-                assert plan.cost.total == pytest.approx(float(routes.value.best))
+    scratch = Scratch(data, searcher)
+    for temperature in (5.0, 1.0, 0.01):
+        searcher.value.temperature, searcher.value.longest = temperature, 10.0
+        searcher.value.cooling = 1.0
+        anneal(data, searcher, 150, ANY, scratch)
+        assert len(searcher.active[:searcher.count.active]) == searcher.now.used[0]
+        for routes in (searcher, _as_they_are(searcher)):
+            plan = check(problem, best_plan(data, routes, range(data.num_nodes)))
+            assert plan.violations == ()
+            assert plan.cost.total == pytest.approx(float(routes.value.best))
     assert float(searcher.value.best) < first
 
 

@@ -11,9 +11,9 @@ from model.problem import UNLIMITED, Depot, Points, Problem, StraightLegs, Trave
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.linked.engine import anneal_linked, measure_near, tie, write_back
-from model.search.linked.layout import Linked, make_linked
-from model.search.route.layout import NOWHERE, ProblemData
+from model.search.linked.engine import anneal_linked, tie, write_back
+from model.search.linked.layout import Linked
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import are_timed, can_be_linked, make_data
 from model.solution import Solution
@@ -173,13 +173,15 @@ def with_some_dearer(size: int) -> Problem:
         for number, each in enumerate(problem.customers)))
 
 
-def begun(problem: Problem) -> tuple[ProblemData, Searcher, Linked]:
-    """Return a search that has planned a problem by insertion, its stops linked."""
+def begun(problem: Problem, moments: int | None = None) -> tuple[ProblemData, Searcher, Linked]:
+    """Return a search that has planned a problem by insertion, its stops linked.
+
+    `moments`: how many changes of times can be noted in a turn.
+    """
     data = make_data(problem, pack([problem], legs=False))
     assert can_be_linked(data)
     searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
-    linked = make_linked(data, searcher, are_timed(data))
-    measure_near(data, linked)
+    linked = Linked(data, searcher, are_timed(data), moments=moments)
     begin_anew(data, searcher, True, linked=linked)
     searcher.value.temperature = searcher.value.cost / problem.num_customers
     searcher.value.cooling = 1.0
@@ -187,36 +189,15 @@ def begun(problem: Problem) -> tuple[ProblemData, Searcher, Linked]:
     return data, searcher, linked
 
 
-def customers_of(data: ProblemData, first: int, behind: np.ndarray) -> list[int]:
-    """Return who comes behind whom, from the first on."""
-    found, node = [], first
-    while node >= data.num_depots:
-        found.append(node)
-        node = int(behind[node])
-    return found
-
-
 def routes_of(data: ProblemData, searcher: Searcher, linked: Linked) -> list[list[int]]:
-    """Return the customers of all routes, which each route's ends, counts and links agree on."""
-    routes = []
-    for slot in searcher.active[:searcher.count.active].tolist():
-        run = linked.run[slot]
-        kind = data.type[run.type]
-        nodes = customers_of(data, int(run.first), linked.link["behind"])
-        assert len(nodes) == run.count > 0
-        assert nodes[-1] == run.last
-        assert linked.link["before"][nodes].tolist() == [kind.begins_at, *nodes[:-1]]
-        assert linked.link["behind"][nodes[-1]] == kind.ends_at
-        assert (linked.link["slot"][nodes] == slot).all()
-        demand = data.place[0, nodes, 0]["demand"].sum(axis=0)
-        assert (linked.run["load"][slot] == demand).all()
-        home = linked.link["onward"][nodes[-1]]
-        assert run.distance == linked.link["inward"][nodes].sum() + home
-        routes.append(nodes)
-    types = linked.run["type"][searcher.active[:searcher.count.active]]
-    assert (searcher.now.used == np.bincount(types, minlength=data.num_types)).all()
-    assert (linked.former == NOWHERE).all()
-    return routes
+    """Return the customers of all routes as they are, which are written back and linked again."""
+    write_back(data, searcher, linked)
+    now = searcher.now
+    slots = searcher.active[:searcher.count.active]
+    types = now.route["type"][slots]
+    assert (now.used == np.bincount(types, minlength=data.num_types)).all()
+    tie(data, searcher, linked)
+    return [now.stop["node"][slot, 1:now.route["length"][slot] - 1].tolist() for slot in slots]
 
 
 @pytest.mark.parametrize("make", [
@@ -232,17 +213,15 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
     best, left_out, used = float(searcher.value.best), 0, searcher.now.used.copy()
     for _ in range(BATCHES):
         anneal_linked(data, searcher, linked, TURNS)
-        served = [node for nodes in routes_of(data, searcher, linked) for node in nodes]
         missing = searcher.missing[:searcher.count.missing].tolist()
-        assert sorted(served + missing) == sorted(everybody)
         assert float(searcher.value.best) <= best
         best, left_out = float(searcher.value.best), left_out + len(missing)
         cost = float(searcher.value.cost)
-        write_back(data, searcher, linked)
+        served = [node for nodes in routes_of(data, searcher, linked) for node in nodes]
+        assert sorted(served + missing) == sorted(everybody)
         # Counted anew from the legs of all routes.
         assert float(searcher.value.cost) == pytest.approx(cost, rel=1e-9)
         assert float(searcher.value.best) == pytest.approx(best, rel=1e-9)
-        tie(data, searcher, linked)
     if make is with_few_vehicles:
         assert left_out > 0
     if make is with_several_types:
@@ -256,27 +235,27 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
     with_pickups])
 @pytest.mark.parametrize("moments", [None, 3])
 def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore[no-untyped-def]
-    data, searcher, linked = begun(make(120))
+    # With three moments, fewer times can be noted than a turn changes.
+    problem = make(120)
+    data, searcher, linked = begun(problem, moments)
     for _ in range(5):
         anneal_linked(data, searcher, linked, TURNS)
-    if moments is not None:
-        # Fewer times can be noted than a turn changes.
-        linked = linked._replace(moment=linked.moment[:moments])
-    routes, links = routes_of(data, searcher, linked), linked.link.copy()
-    runs = linked.run[["type", "distance"]][searcher.active[:searcher.count.active]]
-    served = np.concatenate(routes)
+    routes = routes_of(data, searcher, linked)
+    runs, cost = searcher.now.cost.copy(), float(searcher.value.cost)
+    temperature = float(searcher.value.temperature)
     # No plan is cheaper by so much, and nothing is given up before all are inserted.
     searcher.value.temperature = -1e12
     whole_turns = data._replace(strategy=data.strategy._replace(give_up_early=False))
     anneal_linked(whole_turns, searcher, linked, 200)
     assert sorted(routes_of(data, searcher, linked)) == sorted(routes)
-    assert (linked.link[served][["before", "behind", "inward", "onward"]]
-            == links[served][["before", "behind", "inward", "onward"]]).all()
-    now = linked.run[["type", "distance"]][searcher.active[:searcher.count.active]]
-    assert sorted(now.tolist()) == sorted(runs.tolist())
-    if linked.timed:
-        assert (linked.link[served][["gap", "leave", "latest"]]
-                == links[served][["gap", "leave", "latest"]]).all()
+    assert sorted(searcher.now.cost) == sorted(runs)
+    assert float(searcher.value.cost) == pytest.approx(cost, rel=1e-9)
+    # Times are as they were, or later turns break windows.
+    anneal_linked(whole_turns, searcher, linked, 200)
+    searcher.value.temperature = temperature
+    anneal_linked(data, searcher, linked, 200)
+    write_back(data, searcher, linked)
+    assert check(problem, read_plan(data, searcher)).violations == ()
 
 
 def test_turns_by_turns_are_the_same_again() -> None:

@@ -5,8 +5,8 @@ import numpy as np
 from model.engine.instance import pack
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.linked.engine import insert_linked, measure_near, tie, write_back
-from model.search.linked.layout import make_linked
+from model.search.linked.engine import insert_linked, tie, write_back
+from model.search.linked.layout import Linked
 from model.search.problem_data import are_timed, make_data
 from model.search.route.engine import BY_FAR, INFEASIBLE, missing_cost
 from model.search.route.layout import NOWHERE
@@ -37,8 +37,7 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
     data = make_data(problem, pack([problem]))
     data = data._replace(strategy=data.strategy._replace(blink=0.0))
     searcher = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(3))
-    linked = make_linked(data, searcher, are_timed(data))
-    measure_near(data, linked)
+    linked = Linked(data, searcher, are_timed(data))
     begin_anew(data, searcher, False, linked=linked)
     assert searcher.count.missing == 0
     searcher.alone[:] = INFEASIBLE

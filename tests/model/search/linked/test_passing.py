@@ -6,8 +6,8 @@ from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.engine.instance import pack
 from model.problem import MM_PER_KM, Customer, Depot, Problem, Travel, VehicleType
 from model.search.beginning.translate import make_searcher
-from model.search.linked.engine import anneal_linked, measure_near, tie, write_back
-from model.search.linked.layout import make_linked
+from model.search.linked.engine import anneal_linked, tie, write_back
+from model.search.linked.layout import Linked
 from model.search.neighbourhood.neighbourhood import NEAR_INSERTION
 from model.search.problem_data import are_timed, make_data
 from model.solution import Solution
@@ -55,8 +55,7 @@ def test_a_route_to_a_town_serves_a_village_on_the_way() -> None:
     assert (data.granular[alone, :NEAR_INSERTION] <= NEARER * ON_A_ROUTE).all()
     searcher = make_searcher(problem, data, plan, np.random.SeedSequence(1))
     searcher.value.temperature, searcher.value.cooling = 1e-9, 1.0
-    linked = make_linked(data, searcher, are_timed(data))
-    measure_near(data, linked)
+    linked = Linked(data, searcher, are_timed(data))
     tie(data, searcher, linked)
     anneal_linked(data, searcher, linked, TURNS)
     write_back(data, searcher, linked)

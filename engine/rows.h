@@ -1,0 +1,56 @@
+// Rows that the engine owns, of zeros until something is written.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "view.h"
+
+namespace tandem {
+
+// Whether most of some rows are written, or hardly any: of these, each small page takes memory once
+// something is written there, and there may be more than there is memory.
+enum class Filling { dense, sparse };
+
+// Memory of zeros, which begins where a line of the processor's cache does.
+class Memory {
+public:
+    Memory(std::size_t bytes, Filling filling);
+
+    void* begin() const { return begin_; }
+
+private:
+    struct Release {
+        std::size_t mapped;  // bytes of the system's, or none
+
+        void operator()(void* memory) const;
+    };
+
+    std::unique_ptr<void, Release> room_;
+    void* begin_;
+};
+
+// A view of rows, and where they are.
+template <class T, int N>
+class OwnRows : public View<T, N> {
+public:
+    explicit OwnRows(const std::array<std::int64_t, N>& shape, Filling filling = Filling::dense)
+        : OwnRows(shape, Memory(bytes_of(shape), filling)) {}
+
+private:
+    static_assert(std::is_trivially_copyable_v<T>);
+
+    static std::size_t bytes_of(const std::array<std::int64_t, N>& shape) {
+        std::size_t bytes = sizeof(T);
+        for (const std::int64_t axis : shape) bytes *= static_cast<std::size_t>(axis);
+        return bytes;
+    }
+
+    OwnRows(const std::array<std::int64_t, N>& shape, Memory memory)
+        : View<T, N>(static_cast<T*>(memory.begin()), shape), memory_(std::move(memory)) {}
+
+    Memory memory_;
+};
+
+}  // namespace tandem
