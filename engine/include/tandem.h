@@ -679,35 +679,11 @@ typedef struct tandem_search_values {
     double longest; /* how long strings are at most where routes are long */
 } tandem_search_values;
 
-/* A customer in a chain of some that a route serves. */
-typedef struct tandem_chain {
-    int64_t before;
-    int64_t behind;
-    int64_t route;  /* of its last customer, the first */
-    int64_t leave;  /* the departure */
-    int64_t latest; /* the latest arrival */
-    int64_t last;   /* of its first customer, the last */
-    int64_t length; /* likewise, how many there are */
-    int64_t busy;   /* likewise, how long to serve them and to drive from one to the next takes */
-    int64_t travel; /* likewise, how long the legs between them are */
-} tandem_chain;
-
-/* What a chain carries, by its first customer. Laid out as the engine's `Cargo`. */
-typedef struct tandem_chain_cargo {
-    int64_t delivered[3];
-    int64_t picked[3];
-    int64_t most[3];  /* that is aboard of both */
-    int64_t delivers; /* sum over all dimensions */
-    int64_t picks;    /* likewise */
-} tandem_chain_cargo;
-
 /* Arrays of others, row by row. */
 
 TANDEM_ROWS(tandem_bool_1d, bool, 1);
 TANDEM_ROWS(tandem_bool_2d, bool, 2);
 TANDEM_ROWS(tandem_bool_3d, bool, 3);
-TANDEM_ROWS(tandem_chain_1d, tandem_chain, 1);
-TANDEM_ROWS(tandem_chain_cargo_2d, tandem_chain_cargo, 2);
 TANDEM_ROWS(tandem_cost_1d, tandem_cost, 1);
 TANDEM_ROWS(tandem_drone_2d, tandem_drone, 2);
 TANDEM_ROWS(tandem_evaluation_1d, const tandem_evaluation, 1);
@@ -1229,16 +1205,14 @@ int tandem_write_excess(const tandem_problem_data* data, int64_t k, int64_t rank
                         const tandem_i64_1d* excess);
 /* Make keys of what pairs cost, but for its last bits, and of their numbers. */
 int tandem_number_pairs(const tandem_i64_1d* excess, int64_t coarse);
-/* Join routes end to end, pair after pair. */
+/* Join routes end to end, pair after pair; write who comes before and behind each customer. */
 int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                const tandem_i64_1d* keys, const tandem_chain_1d* chain,
-                const tandem_chain_cargo_2d* cargo);
-/* Join routes at either end, pair after pair. */
+                const tandem_i64_1d* keys, const tandem_i64_2d* beside);
+/* Likewise at either end. */
 int tandem_join_either_way(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                           const tandem_i64_1d* keys, const tandem_chain_1d* chain,
-                           const tandem_chain_cargo_2d* cargo);
+                           const tandem_i64_1d* keys, const tandem_i64_2d* beside);
 /* Tell how far the routes of all are whom a type may serve. */
-int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_chain_1d* chain,
+int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_i64_2d* beside,
                      int64_t* length);
 /* Write the cost of a route that serves one customer alone, (type, 2, node). */
 int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,

@@ -41,7 +41,9 @@ void set_out(View<Chain, 1> chain, Int node) {
 }  // namespace
 
 void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
-                     View<Chain, 1> chain, const View<ChainCargo, 2>& cargo) {
+                     const Beside& beside) {
+    const Joining joining(data);
+    const auto& [chain, cargo] = joining;
     const VehicleType& type = data.type[k];
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         Chain& link = chain[node];
@@ -71,6 +73,7 @@ void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         if (chain[node].last == nowhere && !is_amid(chain[node])) set_out(chain, node);
     }
+    joining.write(beside);
 }
 
 }  // namespace tandem
@@ -78,7 +81,6 @@ void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 
 using namespace tandem;
 
 extern "C" int tandem_join_either_way(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                                      const tandem_i64_1d* keys, const tandem_chain_1d* chain,
-                                      const tandem_chain_cargo_2d* cargo) {
-    return guarded([&] { join_either_way(data_of(*data), k, ranks, *keys, *chain, *cargo); });
+                                      const tandem_i64_1d* keys, const tandem_i64_2d* beside) {
+    return guarded([&] { join_either_way(data_of(*data), k, ranks, *keys, *beside); });
 }

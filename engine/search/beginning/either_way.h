@@ -11,6 +11,6 @@ namespace tandem {
 
 // Joins routes at either end, pair after pair. As `join`.
 void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
-                     View<Chain, 1> chain, const View<ChainCargo, 2>& cargo);
+                     const Beside& beside);
 
 }  // namespace tandem

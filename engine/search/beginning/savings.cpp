@@ -1,7 +1,6 @@
 #include "search/beginning/savings.h"
 
 #include <algorithm>
-#include <bit>
 
 #include "guard.h"
 #include "rules/flown_trip.h"
@@ -17,14 +16,6 @@
 namespace tandem {
 
 namespace {
-
-// What the chain that begins here carries.
-Cargo chain_cargo(const ChainCargo& chain) { return std::bit_cast<Cargo>(chain); }
-
-// Lets the chain that begins here carry a cargo.
-void set_chain_cargo(ChainCargo& chain, const Cargo& cargo) {
-    chain = std::bit_cast<ChainCargo>(cargo);
-}
 
 // How fast a type drives from where its routes begin, in mm per ms.
 double speed_of(const ProblemData& data, const VehicleType& type) {
@@ -172,14 +163,24 @@ void link_up(const Chains& chains, const Joint& joint) {
 
 }  // namespace
 
-Int length_of(const ProblemData& data, Int k, View<const Chain, 1> chain) {
+Joining::Joining(const ProblemData& data)
+    : chain({data.num_nodes}), cargo({data.num_nodes, std::max(Int{1}, tiers_of(data))}) {}
+
+void Joining::write(const Beside& beside) const {
+    for (Int node = 0; node < chain.size(); ++node) {
+        beside(0, node) = chain[node].before;
+        beside(1, node) = chain[node].behind;
+    }
+}
+
+Int length_of(const ProblemData& data, Int k, const Beside& beside) {
     const VehicleType& type = data.type[k];
     const TravelLegs legs = legs_of(data.leg, type.travel);
     Int length = 0;
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
         if (!data.can(k, 0, node)) continue;
-        const Int behind = chain[node].behind;
-        if (chain[node].before == nowhere) length += leg(legs, type.begins_at, node).distance;
+        const Int behind = beside(1, node);
+        if (beside(0, node) == nowhere) length += leg(legs, type.begins_at, node).distance;
         length += leg(legs, node, behind == nowhere ? type.ends_at : behind).distance;
     }
     return length;
@@ -242,21 +243,20 @@ Neighbours pair(const ProblemData& data, Int ranks, Int key) {
     return {customer, data.near(customer, index % ranks)};
 }
 
-void set_up_cargo(const ProblemData& data, Int node, View<ChainCargo, 1> cargo) {
+void set_up_cargo(const ProblemData& data, Int node, View<Cargo, 1> cargo) {
     if (tiers_of(data) == 0) {
         const Amount demand = demand_of(data.place[0][node]);
-        set_chain_cargo(cargo[0], {demand, nothing, demand, total(demand), 0});
+        cargo[0] = {demand, nothing, demand, total(demand), 0};
     }
     for (Int tier = 0; tier < tiers_of(data); ++tier) {
-        set_chain_cargo(cargo[tier], cargo_for(data.amount, node, tier));
+        cargo[tier] = cargo_for(data.amount, node, tier);
     }
 }
 
-bool may_join(const VehicleType& type, View<const ChainCargo, 1> front,
-              View<const ChainCargo, 1> rear) {
+bool may_join(const VehicleType& type, View<const Cargo, 1> front, View<const Cargo, 1> rear) {
     for (Int tier = 0; tier < front.size(); ++tier) {
-        const Cargo one = chain_cargo(front[tier]);
-        const Cargo other = chain_cargo(rear[tier]);
+        const Cargo& one = front[tier];
+        const Cargo& other = rear[tier];
         if (!may_follow(type, one, other) || !holds_in(type, followed(one, other).most, tier)) {
             return false;
         }
@@ -264,14 +264,16 @@ bool may_join(const VehicleType& type, View<const ChainCargo, 1> front,
     return true;
 }
 
-void add_cargo(View<ChainCargo, 1> front, View<const ChainCargo, 1> rear) {
+void add_cargo(View<Cargo, 1> front, View<const Cargo, 1> rear) {
     for (Int tier = 0; tier < front.size(); ++tier) {
-        set_chain_cargo(front[tier], followed(chain_cargo(front[tier]), chain_cargo(rear[tier])));
+        front[tier] = followed(front[tier], rear[tier]);
     }
 }
 
-void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, View<Chain, 1> chain,
-          const View<ChainCargo, 2>& cargo) {
+void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
+          const Beside& beside) {
+    const Joining joining(data);
+    const auto& [chain, cargo] = joining;
     const VehicleType& type = data.type[k];
     const Chains chains{type, legs_of(data.leg, type.travel), data.place.by_truck(type), chain};
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {
@@ -301,6 +303,7 @@ void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, Vi
         head.length = length;
         add_cargo(cargo[joint.head], cargo[b]);
     }
+    joining.write(beside);
 }
 
 }  // namespace tandem
@@ -308,8 +311,8 @@ void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, Vi
 using namespace tandem;
 
 extern "C" int tandem_length_of(const tandem_problem_data* data, int64_t k,
-                                const tandem_chain_1d* chain, int64_t* length) {
-    return guarded([&] { *length = length_of(data_of(*data), k, *chain); });
+                                const tandem_i64_2d* beside, int64_t* length) {
+    return guarded([&] { *length = length_of(data_of(*data), k, *beside); });
 }
 
 extern "C" int tandem_write_nearest_types(const tandem_problem_data* data,
@@ -327,7 +330,6 @@ extern "C" int tandem_number_pairs(const tandem_i64_1d* excess, int64_t coarse) 
 }
 
 extern "C" int tandem_join(const tandem_problem_data* data, int64_t k, int64_t ranks,
-                           const tandem_i64_1d* keys, const tandem_chain_1d* chain,
-                           const tandem_chain_cargo_2d* cargo) {
-    return guarded([&] { join(data_of(*data), k, ranks, *keys, *chain, *cargo); });
+                           const tandem_i64_1d* keys, const tandem_i64_2d* beside) {
+    return guarded([&] { join(data_of(*data), k, ranks, *keys, *beside); });
 }

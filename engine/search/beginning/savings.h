@@ -4,21 +4,41 @@
 // delivery points, Operations Research 12:568-581.
 #pragma once
 
+#include "rows.h"
 #include "rules/load.h"
 #include "search/route/layout.h"
 
 namespace tandem {
 
-// A customer in a chain: who comes before and behind; of its last, who comes first; the departure
-// and the latest arrival; of its first, who comes last, how many there are, and how long to serve
-// them and to drive from one to the next takes.
-using Chain = tandem_chain;
+// A customer in a chain of some that a route serves.
+struct Chain {
+    Int before;
+    Int behind;
+    Int route;   // of its last customer, the first
+    Int leave;   // the departure
+    Int latest;  // the latest arrival
+    Int last;    // of its first customer, the last
+    Int length;  // likewise, how many there are
+    Int busy;    // likewise, how long to serve them and to drive from one to the next takes
+    Int travel;  // likewise, how long the legs between them are
+};
 
-// What a chain carries, by its first customer, in one tier.
-using ChainCargo = tandem_chain_cargo;
+// Who comes before and behind each customer, (2, node).
+using Beside = View<Int, 2>;
+
+// Chains, and what they carry by their first customers, in tiers.
+struct Joining {
+    explicit Joining(const ProblemData& data);
+
+    // Writes who is beside whom.
+    void write(const Beside& beside) const;
+
+    OwnRows<Chain, 1> chain;  // (node,)
+    OwnRows<Cargo, 2> cargo;  // (node, tier)
+};
 
 // How far the routes of all whom a type may serve are.
-Int length_of(const ProblemData& data, Int k, View<const Chain, 1> chain);
+Int length_of(const ProblemData& data, Int k, const Beside& beside);
 
 // Writes which type's trucks drive least for a customer alone: `nearest` (node,).
 void write_nearest_types(const ProblemData& data, View<Int, 1> nearest);
@@ -44,19 +64,15 @@ struct Neighbours {
 Neighbours pair(const ProblemData& data, Int ranks, Int key);
 
 // Lets a chain be one customer: `cargo` (tier,).
-void set_up_cargo(const ProblemData& data, Int node, View<ChainCargo, 1> cargo);
+void set_up_cargo(const ProblemData& data, Int node, View<Cargo, 1> cargo);
 
 // Whether a vehicle of a type may drive two chains as one, by their cargo (tier,).
-bool may_join(const VehicleType& type, View<const ChainCargo, 1> front,
-              View<const ChainCargo, 1> rear);
+bool may_join(const VehicleType& type, View<const Cargo, 1> front, View<const Cargo, 1> rear);
 
 // Lets a chain carry what another does as well, which follows it: both (tier,).
-void add_cargo(View<ChainCargo, 1> front, View<const ChainCargo, 1> rear);
+void add_cargo(View<Cargo, 1> front, View<const Cargo, 1> rear);
 
 // Joins the route that ends at one and that which begins at the other, pair after pair.
-//
-// `chain` (node,) and `cargo` (node, tier) are set up here.
-void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, View<Chain, 1> chain,
-          const View<ChainCargo, 2>& cargo);
+void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys, const Beside& beside);
 
 }  // namespace tandem

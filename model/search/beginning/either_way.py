@@ -7,11 +7,8 @@ pieces than joining ends to beginnings, elsewhere it is a little worse: so both 
 
 import numpy as np
 
-from model.engine.library import call
-from model.engine.records import Records
-from model.search.beginning.savings import (
-    cargo_of, chains_of, cost_of, joined, ranked_pairs, routes_of,
-)
+from model.problem import IntArray
+from model.search.beginning.savings import cost_of, joined, ranked_pairs, routes_of
 from model.search.route.layout import NOWHERE, ProblemData
 
 
@@ -28,11 +25,10 @@ def shortest_routes(data: ProblemData, k: int) -> list[list[int]]:
     """
     ranks, count = data.near.shape[1], int(data.type[k].count)
     keys = ranked_pairs(data, k, ranks)
-    chains = [joined(data, k, ranks, keys), chains_of(data)]
-    call("tandem_join_either_way", data, k, ranks, keys, chains[1], cargo_of(data))
+    ways = [joined(data, k, ranks, keys, how) for how in ("tandem_join", "tandem_join_either_way")]
 
-    def cost(chain: Records) -> tuple[int, float]:
-        routes = int(np.count_nonzero(chain["before"][data.num_depots:] == NOWHERE))
-        return max(0, routes - count), cost_of(data, k, chain)
+    def cost(beside: IntArray) -> tuple[int, float]:
+        routes = int(np.count_nonzero(beside[0, data.num_depots:] == NOWHERE))
+        return max(0, routes - count), cost_of(data, k, beside)
 
-    return routes_of(data, k, min(chains, key=cost))
+    return routes_of(data, k, min(ways, key=cost))

@@ -10,8 +10,7 @@ import math
 
 import numpy as np
 
-from model.engine.library import call, dtype_of
-from model.engine.records import Records
+from model.engine.library import call
 from model.problem import BoolArray, IntArray
 from model.search.route.layout import NOWHERE, ProblemData
 
@@ -48,37 +47,24 @@ def ranked_pairs(data: ProblemData, k: int, ranks: int) -> IntArray:
     return np.sort(keys[keys < 0])
 
 
-def joined(data: ProblemData, k: int, ranks: int, keys: IntArray) -> Records:
-    """Return chains (node,) of customers, one behind the other, joined by such keys in order."""
-    chain = chains_of(data)
-    call("tandem_join", data, k, ranks, keys, chain, cargo_of(data))
-    return chain
+def joined(data: ProblemData, k: int, ranks: int, keys: IntArray,
+           how: str = "tandem_join") -> IntArray:
+    """Return who comes before and behind each, (2, node), joined by such keys in order."""
+    beside = np.full((2, data.num_nodes), NOWHERE)
+    call(how, data, k, ranks, keys, beside)
+    return beside
 
 
-def chains_of(data: ProblemData) -> Records:
-    """Return room for chains, (node,)."""
-    return np.zeros(data.num_nodes, dtype_of("tandem_chain"))
-
-
-def cargo_of(data: ProblemData) -> Records:
-    """Return room for what chains carry, (node, tier)."""
-    return np.zeros((data.num_nodes, max(1, data.amount.shape[1])),
-                    dtype_of("tandem_chain_cargo"))
-
-
-def routes_of(data: ProblemData, k: int, chain: Records) -> list[list[int]]:
+def routes_of(data: ProblemData, k: int, beside: IntArray) -> list[list[int]]:
     """Return the customers of each route, in order."""
-    first, behind = data.num_depots, chain["behind"].tolist()
-    heads = first + np.flatnonzero(data.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
-    return [_customers(behind, head) for head in heads.tolist()]
+    behind = beside[1].tolist()
+    return [_customers(behind, head) for head in np.flatnonzero(_heads(data, k, beside)).tolist()]
 
 
-def cost_of(data: ProblemData, k: int, chain: Records) -> float:
+def cost_of(data: ProblemData, k: int, beside: IntArray) -> float:
     """Return what routes of a type cost but for their stops."""
-    first = data.num_depots
-    routes = np.count_nonzero(data.can[k, 0, first:] & (chain["before"][first:] == NOWHERE))
-    rate = data.rate[k]
-    return float(routes * rate.fixed + call("tandem_length_of", data, k, chain) * rate.distance)
+    routes, rate = np.count_nonzero(_heads(data, k, beside)), data.rate[k]
+    return float(routes * rate.fixed + call("tandem_length_of", data, k, beside) * rate.distance)
 
 
 def cost_by_savings(data: ProblemData, k: int) -> float:
@@ -101,8 +87,15 @@ def by_nearest(data: ProblemData) -> BoolArray:
     return can
 
 
-def _chain(data: ProblemData, k: int) -> Records:
-    """Return chains (node,) joined by what following nearest neighbours saves."""
+def _heads(data: ProblemData, k: int, beside: IntArray) -> BoolArray:
+    """Mark the customers (node,) with whom routes of a type begin."""
+    heads: BoolArray = data.can[k, 0] & (beside[0] == NOWHERE)
+    heads[: data.num_depots] = False
+    return heads
+
+
+def _chain(data: ProblemData, k: int) -> IntArray:
+    """Return who is beside whom, (2, node), joined by what following nearest neighbours saves."""
     ranks = min(NEIGHBOURS, data.near.shape[1])
     return joined(data, k, ranks, ranked_pairs(data, k, ranks))
 

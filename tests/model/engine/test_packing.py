@@ -105,7 +105,7 @@ def made_up() -> Any:
     """Return pointers to a struct with gaps, a pointer, numbers and an array."""
     ffi = declared()
     ffi.cdef("typedef struct made_up { bool flag; int64_t count; bool other; double share;"
-             " tandem_least *row; bool last; tandem_i64_1d numbers; bool end; } made_up;")
+             " tandem_price *row; bool last; tandem_i64_1d numbers; bool end; } made_up;")
     return ffi.typeof("made_up *")
 
 
@@ -123,14 +123,14 @@ class MadeUp(NamedTuple):
 
 
 def test_fields_are_packed_by_name_and_as_the_compiler_lays_them_out(made_up: Any) -> None:
-    row = np.zeros(1, dtype_of("tandem_least"))[0]
-    row.stop = 4.5
+    row = np.zeros(1, dtype_of("tandem_price"))[0]
+    row.late = 4.5
     value = Packed(MadeUp(count=np.int64(-7), flag=True, other=False, share=np.float32(0.5),
                           row=row, last=np.True_, end=True, numbers=np.arange(5)), made_up)
     struct = value.pointer
     assert (struct.flag, struct.count, struct.other, struct.share, struct.last, struct.end) == (
         True, -7, False, 0.5, True, True)
-    assert struct.row.stop == 4.5
+    assert struct.row.late == 4.5
     assert [struct.numbers.data[index] for index in range(5)] == list(range(5))
 
 
@@ -138,7 +138,7 @@ def test_fields_are_packed_by_name_and_as_the_compiler_lays_them_out(made_up: An
     ("count", 1.5), ("count", None), ("share", "much"), ("row", np.zeros(1)), ("row", 0),
 ])
 def test_other_numbers_and_rows_are_refused(made_up: Any, field: str, other: Any) -> None:
-    value = MadeUp(1, True, True, 0.0, np.zeros(1, dtype_of("tandem_least")), True, True,
+    value = MadeUp(1, True, True, 0.0, np.zeros(1, dtype_of("tandem_price")), True, True,
                    np.arange(1))._replace(**{field: other})
     with pytest.raises(TypeError, match=rf"made_up\.{field}: "):
         Packed(value, made_up)
