@@ -8,6 +8,7 @@
 /* Rows that others own, without gaps; in the engine, a view of them. */
 #ifdef __cplusplus
 #include "view.h"
+/* NOLINTNEXTLINE(bugprone-macro-parentheses): a type. */
 #define TANDEM_ROWS(name, row, axes) using name = tandem::View<row, axes>
 extern "C" {
 #else
@@ -637,22 +638,6 @@ typedef struct tandem_place {
     int64_t sortie;   /* its number; else -1 */
 } tandem_place;
 
-/* Where a customer is inserted; which fields tell, `kind` says. */
-typedef struct tandem_move {
-    int64_t kind;
-    int64_t slot;
-    int64_t first;
-    int64_t last; /* of a pair on a trip of its own, how the delivery is flown */
-    int64_t drone;
-    int64_t sortie;
-    int64_t type;
-    int64_t halt;    /* the launch site */
-    int64_t landing; /* that of recovery, if there are two; of a pair, the stop */
-    int64_t late;    /* 1: a pair is flown to after others from and to the same stops; 2: its
-                        delivery from the last of several pickups behind a stop */
-    int32_t end[8];  /* of several pickups, in order: the stop times 8, and the pickup's number */
-} tandem_move;
-
 /* How many there are of each; the turn; the last stamp that was given. */
 typedef struct tandem_search_counts {
     int64_t active;
@@ -716,7 +701,6 @@ TANDEM_ROWS(tandem_log_lengths_1d, tandem_log_lengths, 1);
 TANDEM_ROWS(tandem_logged_sortie_2d, tandem_logged_sortie, 2);
 TANDEM_ROWS(tandem_logged_stop_2d, tandem_logged_stop, 2);
 TANDEM_ROWS(tandem_logged_trip_2d, tandem_logged_trip, 2);
-TANDEM_ROWS(tandem_move_2d, tandem_move, 2);
 TANDEM_ROWS(tandem_node_2d, const tandem_node, 2);
 TANDEM_ROWS(tandem_node_3d, const tandem_node, 3);
 TANDEM_ROWS(tandem_node_4d, const tandem_node, 4);
@@ -973,29 +957,22 @@ typedef struct tandem_fleet {
     tandem_i64_1d used;      /* (type,) routes */
 } tandem_fleet;
 
+/* A search: its routes, all that it works with, and the memory of both. It belongs to the engine. */
+typedef struct tandem_search tandem_search;
+
+/* What Python sees of a search. */
 typedef struct tandem_searcher {
     tandem_fleet now;
-    tandem_fleet
-        before; /* those touched this turn, as they are listed there; who is where is not noted */
-    tandem_fleet best; /* likewise not */
+    tandem_fleet best; /* who is where is not noted */
     tandem_search_counts* count;
     tandem_search_values* value;
-    tandem_u64_1d rng;         /* (1,) */
-    tandem_i64_1d active;      /* slots in use, and behind them those that are free */
-    tandem_i64_1d rank;        /* (slot,) where it stands in `active` */
-    tandem_i64_1d changed;     /* slots changed since the best */
-    tandem_bool_1d is_changed; /* (slot,) it is among those */
-    tandem_i64_1d missing;     /* customers left out */
+    tandem_u64_1d rng;     /* (1,) */
+    tandem_i64_1d active;  /* slots in use, and behind them those that are free */
+    tandem_i64_1d missing; /* customers left out */
     tandem_i64_1d best_missing;
-    tandem_i64_1d absent;     /* to be inserted this turn, behind those left alone */
-    tandem_i64_1d touched;    /* slots changed this turn */
-    tandem_bool_1d marked;    /* (node,) removed this turn */
-    tandem_i64_1d absences;   /* (node,) turns after which a customer was left out */
-    tandem_i64_2d hit;        /* (slot, trip) turn of the last string */
-    tandem_f64_3d alone;      /* (type, 2, node) cost of a route that serves one customer */
-    tandem_i64_2d kept_stamp; /* (node, slot) of the route whose best insertion is kept */
-    tandem_move_2d kept_move; /* (node, slot) that insertion */
-    tandem_f64_2d kept_cost;  /* (node, slot) what it costs */
+    tandem_i64_1d absences; /* (node,) turns after which a customer was left out */
+    tandem_f64_3d alone;    /* (type, 2, node) cost of a route that serves one customer */
+    tandem_search* own;
 } tandem_searcher;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */
@@ -1123,6 +1100,13 @@ int tandem_write_misfit(const tandem_i64_2d* there, const tandem_i64_2d* back,
 
 /* Search: route. */
 
+/* Make room for a search: so many routes, and of each so many stops, trips and sorties. */
+int tandem_open_search(const tandem_problem_data* data, int64_t routes, int64_t stops,
+                       int64_t trips, int64_t sorties, tandem_search** search);
+/* Give it back. */
+int tandem_close_search(tandem_search* search);
+/* Tell where that is which Python sees, but for `alone`. */
+int tandem_look_into(tandem_search* search, tandem_searcher* seen);
 /* Tell what the customers left out cost. */
 int tandem_missing_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
                         double* cost);
@@ -1131,27 +1115,23 @@ int tandem_go_back(const tandem_searcher* searcher);
 
 /* Search: insertion. */
 
-/* Tell what it costs to insert a customer as a move says. */
-int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
-                      const tandem_move* move, int64_t node, double* cost);
+/* Tell what it costs to insert a customer on a route by a move of a kind, by the second drone. */
+int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t kind,
+                      int64_t slot, int64_t first, int64_t last, int64_t node, double* cost);
 /* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
 int tandem_cost_beside(const tandem_problem_data* data, const tandem_searcher* searcher,
                        int64_t node, double* cost);
 
-/* What a search writes down while it looks. It belongs to the engine. */
-typedef struct tandem_scratch tandem_scratch;
-
-/* Make room for calls of a search, and for one at a time. */
-int tandem_open_scratch(const tandem_problem_data* data, const tandem_searcher* searcher,
-                        tandem_scratch** scratch);
-/* Give it back. */
-int tandem_close_scratch(tandem_scratch* scratch);
+/* Tell what is kept of a customer's place on a route: what kind of move is found, -1 if none that
+   costs less, -2 if nothing is kept; and that cost. */
+int tandem_kept_place(const tandem_searcher* searcher, int64_t node, int64_t slot, double* cost,
+                      int64_t* found);
 
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */
-int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher,
-                  tandem_scratch* scratch, int64_t turns, int64_t order);
+int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t turns,
+                  int64_t order);
 
 /* Search: linked. */
 
@@ -1169,10 +1149,10 @@ int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
                tandem_linked* linked);
 /* Ruin and recreate so many times among linked stops. */
 int tandem_anneal_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                         tandem_linked* linked, tandem_scratch* scratch, int64_t turns);
+                         tandem_linked* linked, int64_t turns);
 /* Link the routes of a search, insert all who are left out in an order and write them back. */
 int tandem_insert_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                         tandem_linked* linked, tandem_scratch* scratch, int64_t order);
+                         tandem_linked* linked, int64_t order);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
 int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
                       tandem_linked* linked);
@@ -1197,7 +1177,6 @@ int tandem_move_shipments(const tandem_problem_data* data, const tandem_searcher
    route serves, in order, ended by -1. Not `done`: the routes are the best ones, or as before. */
 int tandem_exchange_routes(const tandem_problem_data* data, const tandem_searcher* searcher,
                            const tandem_i64_1d* one, const tandem_i64_1d* other, int64_t* done);
-
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
 /* Write how much more is driven by a type if neighbours follow one another. */

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
 #include <utility>
 
-#include "guard.h"
 #include "rules/drone_types.h"
 #include "search/insertion/offers.h"
 #include "search/route/rarer.h"
@@ -83,28 +81,10 @@ Scratch::Scratch(Int longest, PartScratch part, Int num_nodes, Int most_moved, I
     std::fill(served.view().begin(), served.view().end(), Served{nobody, 0, false});
 }
 
-void Scratch::lend_to(const ProblemData& data, Searcher& searcher) {
+bool Scratch::is_enough_for(const ProblemData& data, const Searcher& searcher) const {
     const Fleet& fleet = searcher.now;
-    if (line.size() < longest_line(data, fleet) || key.size() < data.num_nodes ||
-        moved.size() < most_moved(fleet) || offer.size() < most_offers(data, fleet)) {
-        throw std::length_error("the scratch was made for a smaller search");
-    }
-    offers = 0;
-    searcher.scratch = this;
+    return line.size() >= longest_line(data, fleet) && key.size() >= data.num_nodes &&
+           moved.size() >= most_moved(fleet) && offer.size() >= most_offers(data, fleet);
 }
 
 }  // namespace tandem
-
-using namespace tandem;
-
-int tandem_open_scratch(const tandem_problem_data* data, const tandem_searcher* searcher,
-                        tandem_scratch** scratch) {
-    return guarded([&] {
-        *scratch =
-            std::make_unique<tandem_scratch>(data_of(*data), searcher_of(*searcher)).release();
-    });
-}
-
-int tandem_close_scratch(tandem_scratch* scratch) {
-    return guarded([&] { const std::unique_ptr<tandem_scratch> owned(scratch); });
-}

@@ -146,8 +146,8 @@ struct Scratch {
     // Makes room for calls of a search.
     Scratch(const ProblemData& data, const Searcher& searcher);
 
-    // Lends it to a call. Throws where the search is larger than the one that it was made for.
-    void lend_to(const ProblemData& data, Searcher& searcher);
+    // Whether it is large enough for calls of a search.
+    bool is_enough_for(const ProblemData& data, const Searcher& searcher) const;
 
     Row<Line> line;   // (place,) those of a trip or two in order
     Row<Line> aside;  // (place,) some of them before a change
@@ -169,8 +169,3 @@ private:
 };
 
 }  // namespace tandem
-
-// As C knows it.
-struct tandem_scratch final : tandem::Scratch {
-    using Scratch::Scratch;
-};

@@ -7,6 +7,7 @@
 #include "search/route/fairness.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
+#include "search/search.h"
 
 namespace tandem {
 

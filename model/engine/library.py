@@ -139,6 +139,8 @@ def _conversion(kind: Any, path: str) -> Convert:
         return lambda value: getattr(value, "pointer", value)
 
     def pack(value: Any) -> Any:
+        if isinstance(value, interface().CData):
+            return value
         if type(value) is not Packed:
             try:
                 return Packed(value, kind).pointer

@@ -10,7 +10,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from model.engine.header import dtype_of_type, interface, is_laid_out_as, name_of, pointer_to
+from model.engine.header import (
+    dtype_of_type, interface, is_laid_out_as, is_opaque, name_of, pointer_to,
+)
 
 Encode = Callable[[Any, list[Any]], None]
 """Appends the numbers that stand for a value in memory. Raises a TypeError that names the field."""
@@ -114,7 +116,8 @@ def _plan(kind: Any, path: str) -> _Plan:
     if kind.kind == "primitive":
         return _Plan(_FORMATS[kind.cname], _number(kind, path))
     if kind.kind == "pointer":
-        return _Plan("Q", _row(dtype_of_type(kind.item), path))
+        return _Plan("Q", _handle(kind, path) if is_opaque(kind.item)
+                     else _row(dtype_of_type(kind.item), path))
     if is_view(kind):
         (_, data), (_, shape) = kind.fields
         return _Plan(f"Q{shape.type.length}q",
@@ -150,6 +153,19 @@ def _row(dtype: np.dtype[Any], path: str) -> Encode:
 
     def encode(value: Any, numbers: list[Any]) -> None:
         numbers.append(int(cast(integer, address(value))))
+
+    return encode
+
+
+def _handle(kind: Any, path: str) -> Encode:
+    typeof, cast = interface().typeof, interface().cast
+    integer = pointer_to("uintptr_t").item
+
+    def encode(value: Any, numbers: list[Any]) -> None:
+        pointer = getattr(value, "pointer", None)
+        if pointer is None or typeof(pointer) is not kind:
+            raise TypeError(f"{path}: {name_of(kind.item)} was expected, not {_told(value)}")
+        numbers.append(int(cast(integer, pointer)))
 
     return encode
 

@@ -5,7 +5,6 @@ import numpy as np
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
 from model.search.beginning.room import Room
-from model.search.beginning.translate import empty_searcher
 from model.search.hubs import shared_out, taken_by
 from model.search.route.layout import NOWHERE, OTHERS, ProblemData, are_kept
 from model.search.route.state import ALL, Searcher
@@ -108,7 +107,7 @@ def make_rooms(data: ProblemData, whole: Searcher,
     stops, trips, sorties = (table.shape[1] for table in (
         whole.now.stop, whole.now.trip, whole.now.sortie))
     room = Room(len(whole.active), stops, trips, sorties)
-    return [empty_searcher(data, room, whole.alone, seed) for seed in seeds]
+    return [Searcher.opened(data, room, whole.alone, seed) for seed in seeds]
 
 
 def take_all(data: ProblemData, whole: Searcher, part: Searcher) -> None:

@@ -11,7 +11,7 @@ from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.recombining import take_better_parts
-from model.search.route.engine import ANY, LONGEST_STRING, Scratch, anneal
+from model.search.route.engine import ANY, LONGEST_STRING, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.temperature import Heat
@@ -58,23 +58,16 @@ class Worker:
     cooled: float = 0.0  # share of the cooling that is left out
     looked: int = 0  # turns after which better parts were last looked for
     given: tuple[Packed, Packed] = field(init=False)  # data and search, packed
-    scratch: Scratch = field(init=False)
 
     def __post_init__(self) -> None:
-        """Make ready for the first rounds."""
-        self._pack()
+        """Pack for the first rounds."""
+        self.given = packed(self.data), packed(self.searcher)
 
     def set_out(self, data: ProblemData, searcher: Searcher, span: Span) -> None:
         """Have the next round go on from a search, often that of the last one. In place."""
-        is_same = data is self.data and searcher is self.searcher
+        if data is not self.data or searcher is not self.searcher:
+            self.given = packed(data), packed(searcher)
         self.data, self.searcher, self.span = data, searcher, span
-        if not is_same:
-            self._pack()
-
-    def _pack(self) -> None:
-        """Pack for several rounds."""
-        self.given = packed(self.data), packed(self.searcher)
-        self.scratch = Scratch(*self.given)
 
     def run(self) -> None:
         """Search for one round."""
@@ -154,9 +147,9 @@ class Worker:
         value.longest = self._longest_string()
         began, before = time.perf_counter(), int(self.searcher.count.turn)
         if self.linked is None:
-            anneal(*self.given, turns, ANY, self.scratch)
+            anneal(*self.given, turns, ANY)
         else:
-            anneal_linked(*self.given, self.linked, turns, self.scratch)
+            anneal_linked(*self.given, self.linked, turns)
         made = int(self.searcher.count.turn) - before
         self.turns += made
         self.pace = (time.perf_counter() - began) / max(1, made)

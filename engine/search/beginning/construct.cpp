@@ -6,6 +6,7 @@
 #include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/state.h"
+#include "search/search.h"
 
 namespace tandem {
 

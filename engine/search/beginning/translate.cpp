@@ -22,6 +22,7 @@
 #include "search/route/routes.h"
 #include "search/route/settling.h"
 #include "search/route/state.h"
+#include "search/search.h"
 
 namespace tandem {
 

@@ -11,6 +11,7 @@
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
 #include "search/route/state.h"
+#include "search/search.h"
 #include "search/shipments/pair_row.h"
 #include "search/shipments/rows.h"
 

@@ -11,6 +11,7 @@
 #include "search/route/rarer.h"
 #include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
+#include "search/search.h"
 
 namespace tandem {
 namespace {

@@ -390,10 +390,18 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
 
 }  // namespace tandem
 
-extern "C" int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet,
-                                 const tandem_move* move, int64_t node, double* cost) {
-    return tandem::guarded([&] {
-        tandem::Fleet routes = *fleet;
-        *cost = tandem::price_move(tandem::data_of(*data), routes, *move, node, tandem::infeasible);
+using namespace tandem;
+
+int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t kind,
+                      int64_t slot, int64_t first, int64_t last, int64_t node, double* cost) {
+    return guarded([&] {
+        Fleet routes = *fleet;
+        Move move{};
+        move.kind = kind;
+        move.slot = slot;
+        move.first = first;
+        move.last = last;
+        move.drone = 1;
+        *cost = price_move(data_of(*data), routes, move, node, infeasible);
     });
 }

@@ -6,6 +6,7 @@
 #include "guard.h"
 #include "search/linked/strings.h"
 #include "search/linked/tying.h"
+#include "search/search.h"
 
 namespace tandem {
 namespace {

@@ -13,7 +13,7 @@
 #include "search/linked/tails.h"
 #include "search/linked/tying.h"
 #include "search/route/state.h"
-#include "search/scratch.h"
+#include "search/search.h"
 
 namespace tandem {
 
@@ -149,22 +149,20 @@ using namespace tandem;
 
 extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
                                     const tandem_searcher* searcher, tandem_linked* linked,
-                                    tandem_scratch* scratch, int64_t turns) {
+                                    int64_t turns) {
     return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
         const ProblemData problem = data_of(*data);
-        scratch->lend_to(problem, searching);
+        Searcher searching = looking(problem, *searcher);
         anneal_linked(problem, searching, *linked, turns);
     });
 }
 
 extern "C" int tandem_insert_linked(const tandem_problem_data* data,
                                     const tandem_searcher* searcher, tandem_linked* linked,
-                                    tandem_scratch* scratch, int64_t order) {
+                                    int64_t order) {
     return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
         const ProblemData problem = data_of(*data);
-        scratch->lend_to(problem, searching);
+        Searcher searching = looking(problem, *searcher);
         insert_linked(problem, searching, *linked, order);
     });
 }

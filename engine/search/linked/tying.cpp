@@ -10,6 +10,7 @@
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 #include "search/route/state.h"
+#include "search/search.h"
 
 namespace tandem {
 

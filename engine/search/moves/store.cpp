@@ -20,6 +20,7 @@
 #include "search/route/refresh.h"
 #include "search/route/state.h"
 #include "search/scratch.h"
+#include "search/search.h"
 
 namespace tandem {
 namespace {
@@ -218,11 +219,10 @@ void insert_all(const ProblemData& data, Searcher& searcher, Int order) {
 using namespace tandem;
 
 extern "C" int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher,
-                             tandem_scratch* scratch, int64_t turns, int64_t order) {
+                             int64_t turns, int64_t order) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher working = searcher_of(*searcher);
-        scratch->lend_to(problem, working);
+        Searcher working = looking(problem, *searcher);
         if (order == any_order) {
             anneal_routes(problem, working, turns);
         } else {

@@ -24,12 +24,27 @@ using Sortie = tandem_sortie;
 using Trip = tandem_trip;
 using Route = tandem_route;
 using Place = tandem_place;
-using Move = tandem_move;
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Evaluation = tandem_evaluation;
 using Strategy = tandem_strategy;
 using Fleet = tandem_fleet;
+
+// Where a customer is inserted; which fields tell, `kind` says.
+struct Move {
+    Int kind;
+    Int slot;
+    Int first;
+    Int last;  // of a pair on a trip of its own, how the delivery is flown
+    Int drone;
+    Int sortie;
+    Int type;
+    Int halt;     // the launch site
+    Int landing;  // that of recovery, if there are two; of a pair, the stop
+    Int late;     // 1: a pair is flown to after others from and to the same stops; 2: its delivery
+                  // from the last of several pickups behind a stop
+    std::int32_t end[8];  // of several pickups, in order: the stop times 8, and the pickup's number
+};
 
 // `Stop.kind`.
 constexpr Int customer_stop = 0;
@@ -79,10 +94,19 @@ constexpr Int scratch_slots = 2;
 struct Scratch;
 
 struct Searcher : tandem_searcher {
+    Fleet before;  // routes touched this turn, as they are listed there; who is where is not noted
+    View<Int, 1> rank;           // (slot,) where it stands in `active`
+    View<Int, 1> changed;        // slots changed since the best
+    View<bool, 1> is_changed;    // (slot,) it is among those
+    View<Int, 1> absent;         // to be inserted this turn, behind those left alone
+    View<Int, 1> touched;        // slots changed this turn
+    View<bool, 1> marked;        // (node,) removed this turn
+    View<Int, 2> hit;            // (slot, trip) turn of the last string
+    View<Int, 2> kept_stamp;     // (node, slot) of the route whose best insertion is kept
+    View<Move, 2> kept_move;     // (node, slot) that insertion
+    View<double, 2> kept_cost;   // (node, slot) what it costs
     Scratch* scratch = nullptr;  // where customers are inserted
 };
-
-inline Searcher searcher_of(const tandem_searcher& from) { return {from}; }
 
 // Copy what is chosen of a stop. In place.
 inline void copy_sequence(const Stop& stop, Stop& to) {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "guard.h"
 #include "rules/pair.h"
 #include "search/route/rarer.h"
 #include "search/route/refresh.h"
@@ -173,14 +172,3 @@ void go_back(const Searcher& searcher) {
 }
 
 }  // namespace tandem
-
-int tandem_missing_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
-                        double* cost) {
-    using namespace tandem;
-    return guarded([&] { *cost = missing_cost(data_of(*data), searcher_of(*searcher)); });
-}
-
-int tandem_go_back(const tandem_searcher* searcher) {
-    using namespace tandem;
-    return guarded([&] { go_back(searcher_of(*searcher)); });
-}

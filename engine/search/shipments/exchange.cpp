@@ -10,6 +10,7 @@
 #include "rules/pair.h"
 #include "search/route/fairness.h"
 #include "search/route/rarer.h"
+#include "search/search.h"
 #include "search/shipments/rows.h"
 
 namespace tandem {

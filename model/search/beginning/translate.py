@@ -7,14 +7,14 @@ import numpy as np
 
 from model.engine.alarm import Alarm
 from model.engine.breaks import NONE, PLACES, BrokenRoute, resting_in_gap
-from model.engine.library import call, dtype_of, packed
-from model.engine.records import Records, one, read_rows
+from model.engine.library import call, packed
+from model.engine.records import Records, read_rows
 from model.engine.type_rows import NO_PROFILE
-from model.problem import FloatArray, IntArray, Problem
-from model.search.beginning.room import Room, room_for
+from model.problem import IntArray, Problem
+from model.search.beginning.room import room_for
 from model.search.route.engine import INFEASIBLE
 from model.search.route.layout import (
-    CUSTOMER, END, HALT, NOWHERE, START, Fleet, ProblemData, empty_fleet,
+    CUSTOMER, END, HALT, START, Fleet, ProblemData,
 )
 from model.search.route.state import Searcher
 from model.solution import (
@@ -27,36 +27,12 @@ def make_searcher(problem: Problem, data: ProblemData, solution: Solution,
                   seed: np.random.SeedSequence) -> Searcher:
     """Begin a search from a plan; routes that it can't read are left to be planned anew."""
     alone = np.full(data.can.shape, INFEASIBLE)
-    searcher = empty_searcher(data, room_for(problem, data, solution), alone, seed)
+    searcher = Searcher.opened(data, room_for(problem, data, solution), alone, seed)
     call("tandem_alone_costs", data, searcher.now, alone)
     for slot, route in enumerate(solution.routes):
         write_route(searcher.now, slot, route)
     call("tandem_begin", data, searcher, len(solution.routes))
     return searcher
-
-
-def empty_searcher(data: ProblemData, room: Room, alone: FloatArray,
-                   seed: np.random.SeedSequence) -> Searcher:
-    """Make room for a search."""
-    slots, stops, trips, sorties = room
-    nodes, count = data.num_nodes, one(dtype_of("tandem_search_counts"))
-    now, before, best = (empty_fleet(data, slots, stops, trips, sorties, noted)
-                         for noted in (nodes, 0, 0))
-    count.focus = NOWHERE
-    kept = (nodes, slots) if data.strategy.keep_places else (0, 0)
-    return Searcher(
-        now=now, before=before, best=best, count=count, value=one(dtype_of("tandem_search_values")),
-        rng=seed.generate_state(1, np.uint64).astype(np.uint64), active=_row(slots),
-        rank=_row(slots), changed=_row(slots), is_changed=np.zeros(slots, np.bool_),
-        missing=_row(nodes), best_missing=_row(nodes), absent=_row(nodes), touched=_row(slots),
-        marked=np.zeros(nodes, np.bool_), absences=_row(nodes),
-        hit=np.zeros((slots, trips), np.int64), alone=alone,
-        kept_stamp=np.zeros(kept, np.int64), kept_move=np.zeros(kept, dtype_of("tandem_move")),
-        kept_cost=np.zeros(kept))
-
-
-def _row(length: int) -> IntArray:
-    return np.zeros(length, np.int64)
 
 
 def write_route(fleet: Fleet, slot: int, route: Route) -> None:

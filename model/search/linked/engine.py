@@ -3,7 +3,6 @@
 from model.engine.library import call
 from model.engine.packing import Packed
 from model.search.linked.layout import Linked
-from model.search.route.engine import Scratch
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
@@ -14,9 +13,9 @@ def tie(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked)
 
 
 def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked,
-                  turns: int, scratch: Scratch | None = None) -> None:
+                  turns: int) -> None:
     """Ruin and recreate `turns` times among linked stops. In place. As `anneal`."""
-    call("tandem_anneal_linked", data, searcher, linked, scratch or Scratch(data, searcher), turns)
+    call("tandem_anneal_linked", data, searcher, linked, turns)
 
 
 def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked,
@@ -25,7 +24,7 @@ def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linke
 
     In place. Once the search must end, whoever is not inserted yet is left out.
     """
-    call("tandem_insert_linked", data, searcher, linked, Scratch(data, searcher), order)
+    call("tandem_insert_linked", data, searcher, linked, order)
 
 
 def write_back(data: ProblemData | Packed, searcher: Searcher | Packed,

@@ -4,7 +4,6 @@ Worlds and searches are given as they are, or packed where they are given often:
 search takes as long as some of its turns.
 """
 
-from model.engine.handle import Handle
 from model.engine.library import call
 from model.engine.packing import Packed
 from model.search.route.layout import ProblemData
@@ -23,24 +22,15 @@ LONGEST_STRING = 10
 """How many stops a string has at most, but where `Searcher.value` allows more on long routes."""
 
 
-class Scratch(Handle):
-    """Room for what a search writes down while it looks, for one call at a time."""
-
-    def __init__(self, data: ProblemData | Packed, searcher: Searcher | Packed) -> None:
-        """Be of use to calls of this search while its arrays are the same."""
-        super().__init__("scratch", data, searcher)
-
-
-def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, order: int,
-           scratch: Scratch | None = None) -> None:
+def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, order: int) -> None:
     """Ruin and recreate `turns` times. In place.
 
     Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
     whatever it costs.
     Once the search must end, a turn is given up as if it had not begun, and an insertion of all
-    leaves out whoever is not inserted yet. Whoever calls often gives a scratch.
+    leaves out whoever is not inserted yet.
     """
-    call("tandem_anneal", data, searcher, scratch or Scratch(data, searcher), turns, order)
+    call("tandem_anneal", data, searcher, turns, order)
 
 
 def missing_cost(data: ProblemData | Packed, searcher: Searcher | Packed) -> float:

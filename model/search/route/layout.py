@@ -14,12 +14,8 @@ at which all rules hold (Vidal et al. 2013, time-window segments, with drones).
 
 from typing import NamedTuple
 
-import numpy as np
-
 from model.engine.leg import AllLegs
-from model.engine.library import dtype_of
 from model.engine.records import Records
-from model.engine.sparse import sparse_rows
 from model.problem import BoolArray, FloatArray, Int32Array, IntArray
 
 MOST_VISITS = 8
@@ -145,25 +141,3 @@ class Fleet(NamedTuple):
     sortie: Records  # (slot, sortie)
     where: Records  # (node,)
     used: IntArray  # (type,) routes
-
-
-def empty_fleet(data: ProblemData, slots: int, stops: int, trips: int, sorties: int,
-                nodes: int) -> Fleet:
-    """Allocate a fleet without routes, which notes where so many nodes are.
-
-    Pages are touched only where routes are.
-    """
-    def rows(name: str, *shape: int) -> Records:
-        return sparse_rows((slots + 2, *shape), dtype_of(name))
-
-    return Fleet(
-        route=np.zeros(slots + 2, dtype_of("tandem_route")),
-        cost=np.zeros(slots + 2),
-        early=np.zeros(slots + 2),
-        stop=rows("tandem_stop", stops),
-        stop_load=rows("tandem_stop_load", data.amount.shape[1], stops),
-        trip=rows("tandem_trip", trips),
-        sortie=rows("tandem_sortie", sorties),
-        where=np.full(nodes, np.array((NOWHERE,) * 3, dtype_of("tandem_place"))),
-        used=np.zeros(data.num_types, np.int64),
-    )

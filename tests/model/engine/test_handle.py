@@ -1,5 +1,6 @@
 """What the engine owns is of use to what it was made for, and goes once nobody has it."""
 
+import gc
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,6 @@ from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.linked.layout import Linked
 from model.search.problem_data import make_data
-from model.search.route.engine import ANY, Scratch, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.solution import Solution
@@ -29,6 +29,11 @@ def mapped() -> int:
     return int(Path("/proc/self/statm").read_text().split()[0]) * 4096
 
 
+def resident() -> int:
+    """Return bytes of memory that this process holds."""
+    return int(Path("/proc/self/statm").read_text().split()[1]) * 4096
+
+
 def begun(size: int) -> tuple[ProblemData, Searcher]:
     """Return a search that has planned by insertion."""
     problem = generate(np.random.default_rng(5), size, "drone")
@@ -37,21 +42,6 @@ def begun(size: int) -> tuple[ProblemData, Searcher]:
     begin_anew(data, searcher, True)
     searcher.value.temperature = searcher.value.cost / size
     return data, searcher
-
-
-def test_calls_that_share_a_scratch_do_what_each_does_alone() -> None:
-    costs = []
-    for is_shared in (False, True):
-        data, searcher = begun(20)
-        if is_shared:
-            scratch = Scratch(data, searcher)
-            for _ in range(5):
-                anneal(data, searcher, 50, ANY, scratch)
-        else:
-            for _ in range(5):
-                anneal(data, searcher, 50, ANY)
-        costs.append((float(searcher.value.cost), float(searcher.value.best)))
-    assert costs[0] == costs[1]
 
 
 def test_what_nobody_has_is_given_back() -> None:
@@ -65,16 +55,34 @@ def test_what_nobody_has_is_given_back() -> None:
     assert before - mapped() >= MANY * MOMENT
 
 
-def test_a_scratch_of_a_smaller_search_is_refused() -> None:
-    scratch = Scratch(*begun(5))
-    with pytest.raises(RuntimeError, match="tandem_anneal failed with code -2"):
-        anneal(*begun(20), 1, ANY, scratch)
+def test_rows_are_there_as_long_as_anybody_has_one() -> None:
+    _, searcher = begun(5)
+    node, count = searcher.now.stop["node"], searcher.count
+    served = node.copy()
+    del searcher
+    gc.collect()
+    begun(50)
+    assert (node == served).all()
+    assert count.customers == 5
+
+
+def test_memory_is_taken_where_something_is_written() -> None:
+    problem = generate(np.random.default_rng(5), 5, "drone")
+    data = make_data(problem, pack([problem]))
+    before = resident()
+    alone = np.zeros(data.can.shape)
+    searcher = Searcher.opened(data, (100_000, 10_000, 100, 100), alone, np.random.SeedSequence(0))
+    stops = searcher.now.stop
+    assert stops.nbytes > 200_000_000_000
+    stops["node"][::1000, 0] = 7
+    assert stops[99_000, 0]["node"] == 7
+    assert resident() - before < 100_000_000
 
 
 @pytest.mark.parametrize("other", [None, 7, interface().new("tandem_node *")])
 def test_a_pointer_of_another_type_is_refused(other: object) -> None:
     with pytest.raises(TypeError):
-        call("tandem_anneal", *begun(5), other, 1, ANY)
+        call("tandem_tie", *begun(5), other)
 
 
 def test_what_the_engine_does_not_know_can_not_be_opened() -> None:

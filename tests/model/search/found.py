@@ -1,16 +1,25 @@
 """What a search holds, and what its routes would take."""
 
+from copy import deepcopy
+
 import numpy as np
 
 from model.search.beginning.translate import left_out, read_routes
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
+from model.search.sharing import make_rooms
 from model.solution import Solution
 
 
 def read_plan(data: ProblemData, searcher: Searcher) -> Solution:
     """Return the best plan found, each trip begun as late as costs nothing."""
     return Solution(tuple(read_routes(data, searcher)), left_out(data, searcher))
+
+
+def copied(data: ProblemData, searcher: Searcher) -> Searcher:
+    """Return another search that is where one is, and keeps no places."""
+    fresh, = make_rooms(data, searcher, [np.random.SeedSequence(0)])
+    return Searcher._make((*map(deepcopy, searcher[:-1]), fresh.own))
 
 
 def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:

@@ -1,12 +1,12 @@
 """Insertion places that are kept for as long as their route stays the same."""
 
 from collections.abc import Iterator
-from copy import deepcopy
 
 import numpy as np
 import pytest
 
 from model.engine.instance import pack
+from model.engine.library import call
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -15,11 +15,22 @@ from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import can_be_linked, make_data
 from model.solution import Solution
+from tests.model.search.found import copied
 from training.instances import generate
 
 pytestmark = pytest.mark.slow
 
 TURNS, ROUNDS = 40, 25
+
+
+NOT_KEPT = -2
+
+
+def kept_on(searcher: Searcher, slot: int, nodes: IntArray) -> tuple[IntArray, FloatArray]:
+    """Return the kind of the move that is kept of each customer on a route, and what it costs."""
+    kept = [call("tandem_kept_place", searcher, node, slot) for node in nodes.tolist()]
+    cost, kind = np.array(kept).reshape(-1, 2).T
+    return kind.astype(np.int64), cost
 
 
 def least_costs(data: ProblemData, searcher: Searcher, slot: int, nodes: IntArray) -> FloatArray:
@@ -30,15 +41,17 @@ def least_costs(data: ProblemData, searcher: Searcher, slot: int, nodes: IntArra
     unwanted = data._replace(unassigned_cost=-INFEASIBLE)
     stamp, rng = searcher.now.route[slot].stamp, searcher.rng.copy()
     while True:
-        trial = deepcopy(searcher)._replace(rng=rng)
+        trial = copied(data, searcher)._replace(rng=rng)
         trial.count.active, trial.count.missing = 1, len(nodes)
         trial.active[0], trial.missing[: len(nodes)] = slot, nodes
-        trial.kept_stamp[:], trial.alone[:] = stamp - 1, INFEASIBLE
+        trial.alone[:] = INFEASIBLE
         anneal(unwanted, trial, 1, BY_FAR)
         # Now and then, the first is inserted at any cost.
         if trial.count.missing == len(nodes):
-            assert (trial.kept_stamp[nodes, slot] == stamp).all()
-            return trial.kept_cost[nodes, slot]
+            kind, cost = kept_on(trial, slot, nodes)
+            assert (kind != NOT_KEPT).all()
+            assert trial.now.route[slot].stamp == stamp
+            return cost
 
 
 def begun(problem: Problem, data: ProblemData) -> Searcher:
@@ -56,8 +69,9 @@ def kept_places(data: ProblemData, searcher: Searcher) -> Iterator[tuple[int, In
         for slot in searcher.active[: searcher.count.active]:
             stamp = searcher.now.route[slot].stamp
             assert stamp != 0  # that of a route which changes
-            nodes = np.flatnonzero(searcher.kept_stamp[:, slot] == stamp)
-            yield int(slot), nodes[searcher.now.where[nodes]["slot"] != slot]
+            nodes = np.flatnonzero(searcher.now.where["slot"] != slot)
+            kept, _ = kept_on(searcher, int(slot), nodes)
+            yield int(slot), nodes[kept != NOT_KEPT]
 
 
 @pytest.mark.parametrize(("variant", "seed"), [
@@ -70,9 +84,8 @@ def test_places_kept_are_the_cheapest_where_more_than_distance_counts(variant: s
     searcher = begun(problem, data)
     found = none = 0
     for slot, nodes in kept_places(data, searcher):
-        cost = searcher.kept_cost[nodes, slot]
-        least = least_costs(data, searcher, slot, nodes)
-        is_found = searcher.kept_move[nodes, slot]["kind"] >= 0
+        kind, cost = kept_on(searcher, slot, nodes)
+        least, is_found = least_costs(data, searcher, slot, nodes), kind >= 0
         assert cost[is_found] == pytest.approx(least[is_found])
         assert (cost <= least + 1e-9 * abs(least))[~is_found].all()
         found += is_found.sum()

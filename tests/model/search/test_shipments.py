@@ -1,6 +1,5 @@
 """Routes of shipments are changed within rules, and cost what the judge says."""
 
-from copy import deepcopy
 from dataclasses import replace
 
 import numpy as np
@@ -12,10 +11,11 @@ from model.problem import Problem, Travel
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import best_plan, make_searcher
 from model.search.problem_data import make_data
-from model.search.route.engine import ANY, Scratch, anneal
+from model.search.route.engine import ANY, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.solution import Solution
+from tests.model.search.found import copied
 from tests.model.search.test_fewer_vehicles import planted
 
 FULL = 3, 2, 1, 1
@@ -62,21 +62,20 @@ def test_plans_keep_rules_and_cost_what_they_are_said_to(seed: int, scan_all: bo
     data, searcher = begun(problem)
     data = data._replace(strategy=data.strategy._replace(scan_all=scan_all))
     first = float(searcher.value.best)
-    scratch = Scratch(data, searcher)
     for temperature in (5.0, 1.0, 0.01):
         searcher.value.temperature, searcher.value.longest = temperature, 10.0
         searcher.value.cooling = 1.0
-        anneal(data, searcher, 150, ANY, scratch)
+        anneal(data, searcher, 150, ANY)
         assert len(searcher.active[:searcher.count.active]) == searcher.now.used[0]
-        for routes in (searcher, _as_they_are(searcher)):
+        for routes in (searcher, _as_they_are(data, searcher)):
             plan = check(problem, best_plan(data, routes, range(data.num_nodes)))
             assert plan.violations == ()
             assert plan.cost.total == pytest.approx(float(routes.value.best))
     assert float(searcher.value.best) < first
 
 
-def _as_they_are(searcher: Searcher) -> Searcher:
+def _as_they_are(data: ProblemData, searcher: Searcher) -> Searcher:
     """Return a copy of a search whose best routes are those that it goes on from."""
-    copied = deepcopy(searcher)
-    copied.count.best_missing, copied.value.best = copied.count.missing, copied.value.cost
-    return copied._replace(best=copied.now, best_missing=copied.missing)
+    found = copied(data, searcher)
+    found.count.best_missing, found.value.best = found.count.missing, found.value.cost
+    return found._replace(best=found.now, best_missing=found.missing)

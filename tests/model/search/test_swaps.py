@@ -7,8 +7,7 @@ import numpy as np
 import pytest
 
 from model.engine.instance import pack
-from model.engine.library import call, dtype_of
-from model.engine.records import one
+from model.engine.library import call
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
@@ -83,14 +82,14 @@ def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
         timed.evaluation["priced"] = True
         # How much is aboard is looked at before.
         data.type["capacity"] *= 100
-        rng, move = np.random.default_rng(seed), one(dtype_of("tandem_move"))
+        rng = np.random.default_rng(seed)
         for slot in searcher.active[: searcher.count.active].tolist():
             others = [node for node in range(problem.num_depots, problem.num_nodes)
                       if searcher.now.where[node].slot != slot]
             for kind, first, last in places(searcher, slot):
-                move.kind, move.slot, move.first, move.last, move.drone = kind, slot, first, last, 1
                 node = int(rng.choice(others))
-                part, whole = (call("tandem_price_move", each, searcher.now, move, node)
+                move = kind, slot, first, last
+                part, whole = (call("tandem_price_move", each, searcher.now, *move, node)
                                for each in (data, timed))
                 assert part == pytest.approx(whole), (seed, slot, kind, first, last, node)
                 refused += part > 1e200
