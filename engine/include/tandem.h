@@ -387,135 +387,33 @@ typedef struct tandem_outlook {
 } tandem_outlook;
 
 typedef struct tandem_node_features {
-    float x;
-    float y;
-    float is_depot;
-    float opening;
-    float closing;
-    float width;
-    float never_closes;
-    float may_not_be_late;
-    float slack_from_depot;
-    float capacity_share;
-    float share_of_demand;
-    float payload_share;
-    float service;
-    float release;
-    float lateness_price;
-    float waiting_price;
-    float can_drive;
-    float can_fly;
-    float way_home;
-    float nearness;
-    float unassigned_cost;
-    float pickup_share;
-    float between_windows;
-    float max_time_aboard;
-    float setup;
-    float barred;
-    float partner_x;
-    float partner_y;
-    float is_pickup;
-    float is_delivery;
-    float other_places;
-    float price;
-    float kept;
+    float x, y, is_depot, opening, closing, width, never_closes, may_not_be_late, slack_from_depot,
+        capacity_share, share_of_demand, payload_share, service, release, lateness_price,
+        waiting_price, can_drive, can_fly, way_home, nearness, unassigned_cost, pickup_share,
+        between_windows, max_time_aboard, setup, barred, partner_x, partner_y, is_pickup,
+        is_delivery, other_places, price, kept;
 } tandem_node_features;
 
 typedef struct tandem_type_features {
-    float capacity;
-    float share_of_demand;
-    float fleet_share;
-    float count;
-    float fixed;
-    float per_km;
-    float per_hour;
-    float way_home;
-    float shift_earliest;
-    float usual_end;
-    float usual_working;
-    float max_trip_distance;
-    float max_trips;
-    float reload;
-    float speed_changes;
-    float drones;
-    float payload;
-    float endurance;
-    float flight_home;
-    float per_flight;
-    float can_drive;
-    float can_fly;
-    float way_out;
-    float way_back;
-    float overtime_price;
-    float overtime;
-    float per_stop;
-    float per_load;
-    float max_stops;
-    float max_sorties;
-    float pickup_order;
-    float other_depots;
-    float handling;
-    float charge;
-    float breaks;
-    float driving_limit;
-    float price;
+    float capacity, share_of_demand, fleet_share, count, fixed, per_km, per_hour, way_home,
+        shift_earliest, usual_end, usual_working, max_trip_distance, max_trips, reload,
+        speed_changes, drones, payload, endurance, flight_home, per_flight, can_drive, can_fly,
+        way_out, way_back, overtime_price, overtime, per_stop, per_load, max_stops, max_sorties,
+        pickup_order, other_depots, handling, charge, breaks, driving_limit, price;
 } tandem_type_features;
 
 typedef struct tandem_action_features {
-    float kind[4];
-    float duration;
-    float nearness;
-    float cost;
-    float waiting;
-    float window_slack;
-    float lateness;
-    float load_share;
-    float capacity_share;
-    float shift_slack;
-    float way_home;
-    float distance_slack;
-    float working_slack;
-    float detour;
-    float excess;
-    float endurance_share;
-    float release_delay;
-    float next_way;
-    float third_way;
-    float next_excess;
-    float next_duration;
-    float next_slack;
-    float lost;
-    float detour_before;
-    float later_duration;
-    float price;
-    float delivers;
-    float delivery_way;
-    float delivery_hurry;
-    float joins;
-    float forsaken;
-    float rest;
+    float kind[4], duration, nearness, cost, waiting, window_slack, lateness, load_share,
+        capacity_share, shift_slack, way_home, distance_slack, working_slack, detour, excess,
+        endurance_share, release_delay, next_way, third_way, next_excess, next_duration, next_slack,
+        lost, detour_before, later_duration, price, delivers, delivery_way, delivery_hurry, joins,
+        forsaken, rest;
 } tandem_action_features;
 
 typedef struct tandem_vehicle_features {
-    float unserved;
-    float unserved_demand;
-    float demand_by_reserve;
-    float way_home;
-    float idle;
-    float clock;
-    float load_left;
-    float spare_reserve;
-    float trips_left;
-    float shift_slack;
-    float working_slack;
-    float flying;
-    float drone_aboard;
-    float load_by_demand;
-    float type[37];
-    float aboard;
-    float bound;
-    float rest_due;
+    float unserved, unserved_demand, demand_by_reserve, way_home, idle, clock, load_left,
+        spare_reserve, trips_left, shift_slack, working_slack, flying, drone_aboard, load_by_demand,
+        type[37], aboard, bound, rest_due;
 } tandem_vehicle_features;
 
 /* A stop of a truck: what is chosen, and all that follows. */
@@ -957,7 +855,8 @@ typedef struct tandem_fleet {
     tandem_i64_1d used;      /* (type,) routes */
 } tandem_fleet;
 
-/* A search: its routes, all that it works with, and the memory of both. It belongs to the engine. */
+/* A search: its routes, all that it works with, and the memory of both. It belongs to the engine.
+ */
 typedef struct tandem_search tandem_search;
 
 /* What Python sees of a search. */
