@@ -9,8 +9,8 @@ from model.engine.library import call, function
 class Handle:
     """What the engine has made for later calls, which take it in the place of a pointer.
 
-    `name` says which: `tandem_open_search` makes a "search", and `tandem_close_search` gives it back
-    once nobody has it any more.
+    `name` says which: `tandem_open_search` makes a "search", and `tandem_close_search` gives it
+    back once nobody has it any more.
     """
 
     __slots__ = ("pointer",)
