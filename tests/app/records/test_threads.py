@@ -8,6 +8,7 @@ from sqlalchemy import create_engine
 
 from app.records.jobs.errors import JobsUnavailableError
 from app.records.threads import DatabaseThreads
+from tests.conftest import complete
 
 ASKED = 50
 
@@ -28,5 +29,5 @@ def test_whoever_asks_first_is_answered_first() -> None:
             await asyncio.sleep(0)
             may_begin.set()
 
-    asyncio.run(ask())
+    complete(ask())
     assert answered == list(range(ASKED))
