@@ -7,7 +7,6 @@
 #include "randomness.h"
 #include "rules/drone_types.h"
 #include "rules/flown_trip.h"
-#include "rules/hours.h"
 #include "rules/leg.h"
 #include "rules/load.h"
 #include "rules/pair.h"
@@ -24,7 +23,6 @@
 #include "search/route/refresh.h"
 #include "search/route/resting.h"
 #include "search/route/routes.h"
-#include "search/route/stop_loads.h"
 #include "search/route/vehicles.h"
 
 namespace tandem {

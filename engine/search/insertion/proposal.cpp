@@ -1,8 +1,6 @@
 #include "search/insertion/proposal.h"
 
 #include "rules/hours.h"
-#include "rules/start.h"
-#include "search/route/ends.h"
 #include "search/route/stop_loads.h"
 
 namespace tandem {
@@ -34,9 +32,8 @@ double follow(const ProblemData& data, const Route& route, View<const Stop, 1> s
 }  // namespace
 
 void RarerRules::drive(const OnTrip& on, Int behind, Int to, const Leg& leg) {
-    const Stop& stop = on.stops[behind];
     if (limits_travel(on.type)) {
-        travel_ += travel_between(on.data, on.type, here_ == nowhere ? stop.node : here_, to);
+        travel_ += travel_between(on.data, on.type, here(on, behind), to);
     }
     if (loads_cost(on.data, on.route.type)) {
         const Int load = on.fleet.stop_load(on.slot, 0, behind).aboard[0] + on.type.carried;
@@ -86,11 +83,11 @@ void RarerRules::pass(const OnTrip& on, const Whereabouts& at, const Leg& leg) {
 }
 
 bool RarerRules::allow(const OnTrip& on, const Whereabouts& at, const Leg& leg) const {
-    const Int here = on.stops[at.behind].node, next = on.stops[at.behind + 1].node;
     if (limits_travel(on.type)) {
+        const Int next = on.stops[at.behind + 1].node;
         const Int travel = on.route.travel + travel_ +
-                           travel_between(on.data, on.type, here_ == nowhere ? here : here_, next) -
-                           travel_between(on.data, on.type, here, next);
+                           travel_between(on.data, on.type, here(on, at.behind), next) -
+                           travel_between(on.data, on.type, on.stops[at.behind].node, next);
         if (!may_travel(on.type, travel)) return false;
     }
     if (bounds_trips(on.type)) {

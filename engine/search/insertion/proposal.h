@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "rules/pair.h"
 #include "search/insertion/newcomer.h"
@@ -79,6 +80,11 @@ public:
     double cost(const OnTrip& on, const Whereabouts& at, const Leg& leg, Whole& whole) const;
 
 private:
+    // Where it is: at whom was inserted last, or at the stop.
+    Int here(const OnTrip& on, Int behind) const {
+        return here_ == nowhere ? on.stops[behind].node : here_;
+    }
+
     void drive(const OnTrip& on, Int behind, Int to, const Leg& leg);
 
     Inserted& inserted_;
