@@ -283,7 +283,8 @@ class Settings(BaseSettings):
     )
     dispatch_hours: float = Field(
         24.0, gt=0, le=24 * 366, description="Hours after which drivers' links end where no start "
-        "of the plan is stated; else they end at the midnight after the plan."
+        "of the plan is stated; else they end at the midnight after the plan, or four "
+        "hours after it."
     )
     dispatch_expiry_hours: float = Field(
         72.0, gt=0, le=24 * 366, description="Hours after the end of drivers' links when all that "

@@ -9,6 +9,9 @@ from app.schemas.plan import PlanInput
 
 MINUTE_MS, SECOND_MS = 60_000, 1_000
 
+LATEST_HOME = timedelta(hours=4)
+"""How much later than planned drivers may still need their links, midnight or not."""
+
 
 @dataclass(frozen=True)
 class Day:
@@ -38,11 +41,12 @@ class Day:
         return timezone(self.plan_start.utcoffset() or timedelta())
 
     def end(self, plan: PlanInput) -> datetime:
-        """Return the midnight after the last thing that is planned."""
+        """Return the midnight after the last thing that is planned, or hours after it."""
         last = max((stop.departure for route in plan.routes for trip in route.trips
                     for stop in trip.stops), default=0.0)
-        last_day = (self.plan_start + timedelta(seconds=last)).astimezone(self.zone).date()
-        return datetime.combine(last_day + timedelta(days=1), time(), self.zone)
+        home = (self.plan_start + timedelta(seconds=last)).astimezone(UTC)
+        next_day = home.astimezone(self.zone).date() + timedelta(days=1)
+        return max(datetime.combine(next_day, time(), self.zone), home + LATEST_HOME)
 
 
 def milliseconds(instant: datetime) -> int:

@@ -240,6 +240,16 @@ def test_link_ends_with_the_day_of_the_plan(service: httpx.Client) -> None:
     assert over.json()["errors"][0]["path"] == "$.plan_start"
 
 
+def test_who_comes_home_just_before_midnight_keeps_the_link_for_hours(
+        service: httpx.Client) -> None:
+    tomorrow = (datetime.now(UTC) + timedelta(days=1)).date()
+    home = timedelta(seconds=30_700)
+    for hour, left in ((15, timedelta(hours=4)), (10, timedelta(hours=14) - home)):
+        sent = dispatched(service, plan_start=f"{tomorrow}T{hour}:00:00Z")
+        ends = datetime.fromisoformat(sent["ends_at"])
+        assert ends - datetime.fromisoformat(sent["plan_start"]) == home + left
+
+
 def test_all_is_deleted_when_it_expires(service: httpx.Client, settings: Settings) -> None:
     sent, kept = dispatched(service), dispatched(service)
     told(service, token_of(sent["links"][0]), event("e1", DEPART, today(1)))
