@@ -13,13 +13,14 @@ from app.maps.addresses.opening import opened_addresses
 from app.maps.addresses.setting import GeocoderSettingError, Server, read_setting
 from app.serving.settings import Settings
 from tests.app.maps.addresses.stated import StatedGeocoder, place
+from tests.conftest import PATIENCE
 
 HOUSE, STREET = place("A 1"), place("A", quality="street")
 DOWN = GeocoderUnavailableError("The geocoder failed.")
 
 
 def later() -> float:
-    return time.perf_counter() + 20
+    return time.perf_counter() + PATIENCE
 
 
 def test_second_is_asked_only_what_the_first_does_not_know_exactly() -> None:

@@ -7,7 +7,6 @@ import subprocess
 import sys
 import tempfile
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,7 +20,7 @@ from app.maps.roads.setting import Extract
 from app.maps.roads.tools import Tools
 from model.problem import FloatArray
 from tests.app.maps.roads.wheels import ROOT, VALHALLA, WHEELS, pinned, unpacked
-from tests.conftest import free_port, made_once
+from tests.conftest import eventually, free_port, made_once
 
 HELSINKI = ROOT / "examples" / "helsinki.osm.pbf"
 HELSINKI_BOX = (24.9352, 60.1642, 24.9534, 60.1791)
@@ -114,8 +113,7 @@ def helsinki_valhalla(helsinki_tiles: Path) -> Iterator[str]:
                 stderr=log) as process:
             url = f"http://127.0.0.1:{port}"
             try:
-                while process.poll() is None and not answers(f"{url}/status"):
-                    time.sleep(0.01)
+                eventually(lambda: process.poll() is not None or answers(f"{url}/status"))
                 yield url
             finally:
                 process.kill()

@@ -179,6 +179,7 @@ def test_closing_ends_what_is_asked(helsinki_osrm: str, places: FloatArray, clos
         engine = engine_at(proxy.url)
         asked = thread.submit(engine.table, places, soon())
         while proxy.questions == 0:
+            assert not asked.done()
             time.sleep(0.0001)
         time.sleep(0.0002 * closing)
         engine.close()

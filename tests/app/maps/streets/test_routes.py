@@ -11,18 +11,16 @@ from fastapi import FastAPI
 from app.maps.streets.gallery import Gallery
 from app.maps.streets.routes import router
 from tests.app.maps.streets.conftest import osm_xml
-from tests.conftest import complete
+from tests.conftest import PATIENCE, complete
 
 Get = Callable[..., httpx.Response]
-
-WAIT_SECONDS = 60
 
 
 def opened(*extracts: Path, spare: Path) -> Gallery:
     """Return a gallery that has made all that it can."""
     gallery = Gallery(extracts, spare)
     gallery.start()
-    gallery.wait(WAIT_SECONDS)
+    gallery.wait(PATIENCE)
     gallery.stop()
     return gallery
 

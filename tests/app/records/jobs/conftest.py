@@ -20,7 +20,7 @@ from app.main import create_app
 from app.records.jobs import order, planning, studies, webhook
 from app.serving.settings import Settings
 from tests.app.records.jobs.stepping import SteppingPlanner
-from tests.conftest import eventually, free_port
+from tests.conftest import PATIENCE, eventually, free_port
 
 
 class Postgres:
@@ -37,11 +37,12 @@ class Postgres:
     def start(self) -> None:
         """Start the server and wait until it answers."""
         options = f"-p {self.port} -c listen_addresses=127.0.0.1 -c fsync=off -k {self._folder}"
-        self._run("pg_ctl", "--wait", f"--log={self._log}", f"--options={options}", "start")
+        self._run("pg_ctl", "--wait", f"--timeout={PATIENCE:g}", f"--log={self._log}",
+                  f"--options={options}", "start")
 
     def stop(self) -> None:
         """Stop the server; clients lose their connections."""
-        self._run("pg_ctl", "--wait", "--mode=fast", "stop")
+        self._run("pg_ctl", "--wait", f"--timeout={PATIENCE:g}", "--mode=fast", "stop")
 
     def url(self, database: str) -> str:
         """Return the URL of a database."""
@@ -107,11 +108,13 @@ def serving(settings: Settings, planner: SteppingPlanner | None = None) -> Itera
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
         address = f"http://127.0.0.1:{listener.getsockname()[1]}"
-        with httpx.Client(base_url=address, timeout=60, trust_env=False) as client:
-            eventually(lambda: client.get("/health/ready").status_code == 200)
-            yield client
-        server.should_exit = True
-        thread.join()
+        try:
+            with httpx.Client(base_url=address, timeout=PATIENCE, trust_env=False) as client:
+                eventually(lambda: client.get("/health/ready").status_code == 200)
+                yield client
+        finally:
+            server.should_exit = True
+            thread.join()
 
 
 @pytest.fixture(scope="module")

@@ -275,8 +275,11 @@ def test_expired_jobs_are_forgotten_with_all_they_have(store: JobStore, books: B
     assert store.expired(now_ms() + 2000, 10) == []
     store.finish(parent, None, "done", Standing(1.0, 1, 1.0, result=b"2"))
     kept = added(store, books)
-    assert store.expired(now_ms(), 10) == []
-    ids = store.expired(now_ms() + 2000, 10)
+    over = store.find(parent)
+    assert over is not None
+    assert over.expires_at is not None
+    assert store.expired(over.expires_at, 10) == []
+    ids = store.expired(over.expires_at + 1, 10)
     assert set(ids) == {parent, child.id}
     store.forget(ids)
     assert store.find(parent) is store.find(child.id) is None

@@ -73,7 +73,7 @@ def test_others_begin_beside_a_suspect(settings: Settings) -> None:
 
 
 def test_whoever_comes_further_is_no_suspect_any_more(settings: Settings) -> None:
-    jobs = submitted(settings, 20.0, 2)
+    jobs = submitted(settings, 600.0, 2)
     accuse(settings, jobs, MAX_CRASHES - 1)
 
     def both_come_further(client: httpx.Client) -> bool:

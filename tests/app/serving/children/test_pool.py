@@ -1,5 +1,6 @@
 """Work done by others, some of whom die."""
 
+import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
@@ -16,7 +17,7 @@ from app.serving.children.pool import Pool
 from app.serving.children.starting import processes, threads
 from app.serving.observe.logs import log_config
 from tests.app.serving.children import works
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -101,7 +102,7 @@ def test_one_that_dies_takes_nobody_along(mortal: Pool, deaths: list[str], numbe
     with ThreadPoolExecutor(1) as askers:
         other = askers.submit(mortal.do, works.wait, (), over.is_set,
                               {"begun": lambda _: begun.set()})
-        begun.wait()
+        assert begun.wait(PATIENCE)
         with pytest.raises(EndedUnexpectedlyError):
             mortal.do(works.die, (number,), NEVER)
         assert deaths == ["request"]
@@ -113,7 +114,8 @@ def test_one_that_dies_takes_nobody_along(mortal: Pool, deaths: list[str], numbe
 
 def test_one_that_dies_without_work_is_missed_by_nobody(mortal: Pool, deaths: list[str]) -> None:
     deaths.clear()
-    dying = mortal.do(works.die_later, (), NEVER)
+    dying = mortal.do(works.process, (), NEVER)
+    os.kill(dying, signal.SIGKILL)
     eventually(lambda: not Path("/proc", str(dying)).exists())
     eventually(lambda: mortal.do(works.doubled, (2,), NEVER) == 4 and deaths)
     assert deaths == ["nothing"]

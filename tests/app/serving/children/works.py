@@ -1,7 +1,6 @@
 """What those are asked to do that plan."""
 
 import os
-import signal
 import threading
 from collections.abc import Callable
 from typing import Any
@@ -35,12 +34,6 @@ def process(line: Line, should_stop: ShouldStop) -> int:
 def die(line: Line, number: int, should_stop: ShouldStop) -> None:
     """End this process."""
     os.kill(os.getpid(), number)
-
-
-def die_later(line: Line, should_stop: ShouldStop) -> int:
-    """End this process in a moment, when its work is done; return which it is."""
-    threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGKILL)).start()
-    return os.getpid()
 
 
 def wait(line: Line, should_stop: ShouldStop) -> str:

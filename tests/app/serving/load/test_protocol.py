@@ -45,10 +45,12 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Listening]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         address = listener.getsockname()
         thread.start()
-        soon(lambda: server.started)
-        yield Listening(server, address)
-        server.should_exit = True
-        thread.join()
+        try:
+            soon(lambda: server.started)
+            yield Listening(server, address)
+        finally:
+            server.should_exit = True
+            thread.join()
 
 
 def connect(server: Listening) -> socket.socket:
