@@ -71,6 +71,17 @@ def open_advanced(page: Page) -> None:
     page.locator("details.card", has_text="Advanced").locator("> summary").click()
 
 
+def awaited(page: Page, script: str, argument: Any = None) -> Any:
+    """Return what a function that waits for something in the page comes to.
+
+    It fails where that doesn't happen: for a script that is evaluated alone Playwright waits for
+    ever.
+    """
+    told = page.wait_for_function(f"async (given) => ({{ told: await ({script})(given) }})",
+                                  arg=argument)
+    return told.json_value()["told"]
+
+
 def let_search(page: Page, seconds: float) -> None:
     """State for how long what is open is searched."""
     page.evaluate("""async (seconds) => {
@@ -89,7 +100,7 @@ def state(page: Page, expression: str) -> Any:
 
 def place_of(page: Page, key: str) -> tuple[float, float]:
     """Return where on the screen the map shows a customer, found by its tip."""
-    x, y = page.evaluate("""async (key) => {
+    x, y = awaited(page, """async (key) => {
       const { store } = await loaded(`store.js`);
       const { selection } = store.get();
       store.set({ selection: key });

@@ -6,7 +6,7 @@ import pytest
 from axe_playwright_python.base import AXE_SCRIPT
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import idle, let_search, open_example, open_tab, state
+from tests.console.steps import awaited, idle, let_search, open_example, open_tab, state
 
 pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
 
@@ -38,7 +38,7 @@ def findings(page: Page, part: str | None = None, without: Sequence[str] = (),
     """
     if not page.evaluate("'axe' in window"):
         page.evaluate(AXE_SCRIPT)
-    return list(page.evaluate(FINDINGS, [part, list(without), impacts]))
+    return list(awaited(page, FINDINGS, [part, list(without), impacts]))
 
 
 @pytest.mark.parametrize(("scheme", "tabs"), [("light", TABS), ("dark", ("customers", "routes"))])

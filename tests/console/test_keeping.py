@@ -124,11 +124,7 @@ def test_tabs_do_not_overwrite_each_other(page: Page, service: str) -> None:
     edit(page, "four")
     assert [first_customer(loaded_anew(each)) for each in (page, tab)] == ["four", "three"]
     page.close()
-    tab.evaluate("""async () => {
-      while ((await navigator.locks.query()).held.length > 1) {
-        await new Promise(requestAnimationFrame);
-      }
-    }""")
+    tab.wait_for_function("async () => (await navigator.locks.query()).held.length <= 1")
     tab.keyboard.press("o")
     drafts = tab.get_by_role("list", name="Drafts").get_by_role("listitem")
     expect(drafts).to_have_count(2)

@@ -8,7 +8,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.console.steps import (
-    EXAMPLES, idle, open_example, open_file, open_tab, place_of, planned, state,
+    EXAMPLES, awaited, idle, open_example, open_file, open_tab, place_of, planned, state,
 )
 
 pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
@@ -173,4 +173,4 @@ def test_the_stop_that_is_selected_does_not_step_back_with_other_trips(
                if stop["kind"] == "customer"] for route in routes]
     stops = [names[0] for names in served if names]
     assert stops
-    assert [page.evaluate(STRENGTH, f"c:{name}") for name in stops] == [255] * len(stops)
+    assert [awaited(page, STRENGTH, f"c:{name}") for name in stops] == [255] * len(stops)

@@ -9,7 +9,9 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from tests.console.conftest import opening
-from tests.console.steps import idle, open_example, open_file, place_of, planned, state
+from tests.console.steps import (
+    awaited, idle, open_example, open_file, place_of, planned, state,
+)
 from tests.console.test_hands import bar_of, hands, told, tours
 from tests.console.test_speed import COUNT, large_problem
 
@@ -182,7 +184,7 @@ def test_a_finger_gives_a_customer_another_place_by_the_handle(
 
 def test_a_map_that_is_closed_before_its_next_frame_draws_no_more(page: Page) -> None:
     """`page` fails its test if the frame that was asked for finds no canvas."""
-    drawn = page.evaluate("""async () => {
+    drawn = awaited(page, """async () => {
       const { MapView } = await loaded(`map/view.js`);
       const element = document.body.appendChild(document.createElement('div'));
       element.style.cssText = 'width: 200px; height: 200px';

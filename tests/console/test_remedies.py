@@ -6,6 +6,8 @@ from typing import Any
 import pytest
 from playwright.sync_api import Page
 
+from tests.console.steps import awaited
+
 pytestmark = pytest.mark.slow
 
 
@@ -91,14 +93,14 @@ APPLY_OTHER = """async (request) => {
 
 
 def test_another_trip_is_applied_and_serves_the_customer(console: Page) -> None:
-    remedy, unassigned = console.evaluate(APPLY_OTHER, PROBLEMS["one more vehicle"])
+    remedy, unassigned = awaited(console, APPLY_OTHER, PROBLEMS["one more vehicle"])
     assert remedy == "fits if van could make another trip"
     assert unassigned == []
 
 
 @pytest.mark.parametrize("words", PROBLEMS)
 def test_remedy_is_applied_and_serves_the_customer(console: Page, words: str) -> None:
-    remedy, unassigned = console.evaluate(APPLY, PROBLEMS[words])
+    remedy, unassigned = awaited(console, APPLY, PROBLEMS[words])
     assert re.search(words, remedy)
     assert unassigned == []
 

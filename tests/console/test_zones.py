@@ -10,7 +10,9 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.app.maps.airspace.published import ed318, layer
-from tests.console.steps import open_example, open_file, open_tab, place_of, planned, state
+from tests.console.steps import (
+    awaited, open_example, open_file, open_tab, place_of, planned, state,
+)
 from tests.console.test_everyone import findings
 
 pytestmark = pytest.mark.slow
@@ -73,7 +75,7 @@ def drawn(page: Page, buffer: str) -> int:
     """Return how many pixels the map draws on with a distance that flights keep."""
     page.get_by_label("Distance kept").fill(buffer)
     page.keyboard.press("Tab")
-    page.evaluate("async () => { for (let frames = 3; frames; frames -= 1) await new Promise("
+    awaited(page, "async () => { for (let frames = 3; frames; frames -= 1) await new Promise("
                   "requestAnimationFrame); }")
     return int(page.evaluate(DRAWN))
 
