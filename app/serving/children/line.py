@@ -5,6 +5,7 @@ its arguments; while it is done, its result's parts may be told, and questions a
 other process can answer, such as those about roads.
 """
 
+import logging
 import threading
 from collections.abc import Callable
 from multiprocessing.connection import Connection
@@ -14,6 +15,8 @@ from typing import Any, Final
 from asgi_correlation_id import correlation_id
 
 from app.serving.children.errors import EndedUnexpectedlyError, told
+
+logger = logging.getLogger(__name__)
 
 WORK: Final = "work"
 """To the one that plans: a function, its arguments, and the id of the request behind it."""
@@ -110,7 +113,10 @@ class Line:
                 else:
                     self._answers.put((kind, *rest))
         except (EOFError, OSError):
-            hang_up()
+            pass
+        except Exception:  # of whatever can't be unpickled here: whoever waits would do so for ever
+            logger.exception("Ended by a message that can't be read.")
+        hang_up()
         # Only a thread is still here: what it does is of no use to anybody any more.
         self._stop.set()
         self._answers.put((REFUSED, told(EndedUnexpectedlyError())))

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 import threading
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -131,6 +132,16 @@ def test_work_that_nobody_wants_is_dropped(mortal: Pool, deaths: list[str]) -> N
         call.result()
     assert mortal.do(works.doubled, (2,), NEVER) == 4
     assert deaths == []
+
+
+def test_one_that_can_not_read_its_work_is_ended(
+        mortal: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "known_here_alone", works)
+    monkeypatch.setattr(works.doubled, "__module__", "known_here_alone")
+    with pytest.raises(EndedUnexpectedlyError):
+        mortal.do(works.doubled, (2,), NEVER)
+    monkeypatch.undo()
+    assert mortal.do(works.doubled, (2,), NEVER) == 4
 
 
 def test_the_same_does_work_again(mortal: Pool) -> None:
