@@ -6,7 +6,9 @@ import pytest
 from axe_playwright_python.base import AXE_SCRIPT
 from playwright.sync_api import Page, expect
 
-from tests.console.steps import awaited, idle, let_search, open_example, open_tab, state
+from tests.console.steps import (
+    awaited, idle, let_search, open_example, open_tab, state, stop_button,
+)
 
 pytestmark = [pytest.mark.slow, pytest.mark.begins_with("table1")]
 
@@ -131,7 +133,7 @@ def test_service_with_keys_asks_for_one_and_forgets_it(
 
     page.route("**/plan", guard)
     page.route("**/jobs**", guard)
-    let_search(page, 1.1)
+    let_search(page, 60)
     page.get_by_role("button", name="Plan", exact=True).click()
     dialog = page.get_by_role("dialog", name="API key")
     dialog.get_by_label("Key").fill("tdm_wrong")
@@ -140,5 +142,7 @@ def test_service_with_keys_asks_for_one_and_forgets_it(
     dialog.get_by_label("Key").fill("tdm_right")
     dialog.get_by_label("Key").press("Enter")
     expect(page.locator(".result-line")).to_contain_text("Improving")
+    stop_button(page).click()
+    idle(page)
     assert page.evaluate("sessionStorage.getItem('tandem-api-key')") == "tdm_right"
     assert "tdm" not in page.evaluate("JSON.stringify(localStorage)")

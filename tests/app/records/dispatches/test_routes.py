@@ -28,6 +28,8 @@ pytestmark = pytest.mark.slow
 
 Serve = Callable[..., httpx.Client]
 
+BEGAN = datetime.now(UTC).replace(microsecond=0) - timedelta(hours=3)
+
 
 @pytest.fixture(scope="module")
 def settings(tmp_path_factory: pytest.TempPathFactory) -> Settings:
@@ -51,10 +53,14 @@ def told(client: httpx.Client, token: str, *events: Data, now: str | None = None
     return dict(reply.json())
 
 
+def under_way(client: httpx.Client) -> Data:
+    """Send out a plan that began some hours ago, whatever time it is."""
+    return dispatched(client, plan_start=BEGAN.isoformat())
+
+
 def today(seconds: float) -> str:
-    """Return an instant as a phone tells it, in seconds since the last midnight in UTC."""
-    midnight = datetime.now(UTC).replace(hour=0, minute=0, second=0, microsecond=0)
-    return (midnight + timedelta(seconds=seconds)).isoformat()
+    """Return an instant of such a plan as a phone tells it."""
+    return (BEGAN + timedelta(seconds=seconds)).isoformat()
 
 
 def test_each_vehicle_gets_a_link_that_shows_its_day_alone(service: httpx.Client) -> None:
@@ -110,7 +116,7 @@ def test_steps_say_what_the_vehicle_avoids_on_its_way(service: httpx.Client) -> 
 
 
 def test_events_count_once_in_order_and_are_followed(service: httpx.Client) -> None:
-    sent = dispatched(service)
+    sent = under_way(service)
     token = token_of(sent["links"][0])
     first = event("e1", DEPART, today(1))
     second = event("e2", FIRST, today(2))
@@ -132,7 +138,7 @@ def test_events_count_once_in_order_and_are_followed(service: httpx.Client) -> N
 
 
 def test_breakdown_is_told_followed_and_taken_back(service: httpx.Client) -> None:
-    sent = dispatched(service)
+    sent = under_way(service)
     token = token_of(sent["links"][1])
     broken = event("a", "vehicle", today(5), "failed", reason="Broken down")
     reply = told(service, token, event("b", DEPART, today(4)), broken)
@@ -149,24 +155,23 @@ def test_breakdown_is_told_followed_and_taken_back(service: httpx.Client) -> Non
 
 def test_what_comes_late_from_another_phone_is_not_taken_for_the_latest(
         service: httpx.Client) -> None:
-    token = token_of(dispatched(service)["links"][1])
+    token = token_of(under_way(service)["links"][1])
     told(service, token, event("b", DOOR, today(9), "failed", reason="Closed"))
     reply = told(service, token, event("a", DOOR, today(5)))
     assert [(step["state"], step["time"]) for step in reply["standing"]] == [("failed", 9)]
 
 
 def test_clock_that_is_wrong_is_set_right(service: httpx.Client) -> None:
-    token = token_of(dispatched(service)["links"][1])
+    token = token_of(under_way(service)["links"][1])
     wrong = datetime.now(UTC) + timedelta(hours=5)
     reply = told(service, token, event("a", DOOR, (wrong - timedelta(hours=1)).isoformat()),
                  now=wrong.isoformat())
-    midnight = datetime.now(UTC).replace(hour=0, minute=0, second=0, microsecond=0)
-    expected = (datetime.now(UTC) - midnight).total_seconds() - 3600
+    expected = (datetime.now(UTC) - BEGAN).total_seconds() - 3600
     assert reply["standing"][0]["time"] == pytest.approx(expected, abs=60)
 
 
 def test_revoked_link_opens_nothing_and_another_goes_on(service: httpx.Client) -> None:
-    sent = dispatched(service)
+    sent = under_way(service)
     link = sent["links"][0]
     token = token_of(link)
     told(service, token, event("e1", DEPART, today(1)))
@@ -190,7 +195,7 @@ def test_revoked_link_opens_nothing_and_another_goes_on(service: httpx.Client) -
 
 def test_ended_day_shows_nothing_but_takes_what_was_told_without_network(
         service: httpx.Client, settings: Settings) -> None:
-    sent = dispatched(service)
+    sent = under_way(service)
     token = token_of(sent["links"][0])
     ended = service.delete(f"/dispatches/{sent['id']}").json()
     assert {link["state"] for link in ended["links"]} == {"over"}
@@ -203,7 +208,7 @@ def test_ended_day_shows_nothing_but_takes_what_was_told_without_network(
 
 
 def test_changed_plan_reaches_phones_by_the_same_links(service: httpx.Client) -> None:
-    sent = dispatched(service)
+    sent = under_way(service)
     truck, van = (token_of(link) for link in sent["links"])
     told(service, van, event("e1", DEPART, today(1)), event("e2", DOOR, today(2)))
     other = [{**PLAN["routes"][1], "vehicle": "van-2"}, PLAN["routes"][0]]
@@ -251,7 +256,7 @@ def test_who_comes_home_just_before_midnight_keeps_the_link_for_hours(
 
 
 def test_all_is_deleted_when_it_expires(service: httpx.Client, settings: Settings) -> None:
-    sent, kept = dispatched(service), dispatched(service)
+    sent, kept = under_way(service), under_way(service)
     told(service, token_of(sent["links"][0]), event("e1", DEPART, today(1)))
     with opened(settings) as engine:
         with engine.begin() as connection:
