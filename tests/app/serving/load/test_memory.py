@@ -21,7 +21,7 @@ def faults():
 
 def run():
     faults()
-    print(faults())
+    print(min(faults() for _ in range(3)))
 
 if {keeps}:
     assert keep_memory()
@@ -32,7 +32,7 @@ thread.join()
 
 
 def _faults(keeps: bool) -> int:
-    """Return how many pages a thread's second array of 100 MB fetches from the system."""
+    """Return how many pages a thread's later arrays of 100 MB fetch from the system, each."""
     run = subprocess.run([sys.executable, "-c", PROGRAM.format(keeps=keeps)],
                          capture_output=True, text=True, check=True)
     return int(run.stdout)
@@ -59,7 +59,7 @@ with memory.giving_back(busy.is_set):
     time.sleep(0.5)
     kept = memory.resident() - before
     busy.clear()
-    until = time.monotonic() + 30
+    until = time.monotonic() + 180
     while memory.resident() - before > 1.5 * memory.KEPT and time.monotonic() < until:
         time.sleep(0.01)
     print(kept, memory.resident() - before, memory.KEPT)
