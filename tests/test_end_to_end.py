@@ -13,7 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 from app.cli.commands import cli as command_line
-from tests.conftest import eventually, free_port
+from tests.conftest import PATIENCE, eventually, free_port
 
 pytestmark = pytest.mark.slow
 
@@ -33,7 +33,7 @@ def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[httpx.Client]:
         assert process.poll() is None, path.read_text()
         yield http
     process.terminate()
-    process.wait()
+    process.wait(PATIENCE)
 
 
 def shows(told: Any, replied: Any) -> bool:

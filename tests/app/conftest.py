@@ -31,9 +31,6 @@ from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
 from tests.conftest import PATIENCE, eventually
 
-READY_SECONDS = 60.0
-"""How long a service may take until it plans."""
-
 APP_DIR = Path(__file__).parents[2] / "app"
 
 
@@ -151,7 +148,7 @@ def planner() -> FirstFitPlanner:
 
 def ready(client: httpx.Client) -> httpx.Client:
     """Return a client once its service plans."""
-    eventually(lambda: client.get("/health/ready").status_code == 200, READY_SECONDS)
+    eventually(lambda: client.get("/health/ready").status_code == 200)
     return client
 
 

@@ -15,7 +15,7 @@ from playwright.sync_api import (
     Browser, BrowserContext, BrowserType, ViewportSize, sync_playwright,
 )
 
-from tests.conftest import free_port
+from tests.conftest import PATIENCE, free_port
 
 ROOT = Path(__file__).resolve().parents[2]
 ARGUMENTS = ("--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
@@ -25,11 +25,10 @@ TOGETHER = ("--renderer-process-limit=1", "--disable-site-isolation-trials", "--
 """All pages are shown by one process, in which scripts are compiled but once: few are looked at for
 long enough to pay for more, though axe and large plans are for the second of three compilers."""
 
-START_SECONDS = 120
-OPENING_MS = 120_000
-"""For opening a page while other tests have all cores."""
+OPENING_MS = 180_000
+"""For opening a browser or a page while other tests have all cores."""
 
-WAIT_MS = 120_000
+WAIT_MS = 180_000
 """For what a page does, at most."""
 
 VIEWPORT: ViewportSize = {"width": 1440, "height": 900}
@@ -69,11 +68,11 @@ def serving(folder: Path, module: str = "app.cli", **settings: str) -> Iterator[
         yield address
     finally:
         process.terminate()
-        process.wait(60)
+        process.wait(PATIENCE)
 
 
 def _wait_until_ready(process: subprocess.Popen[bytes], address: str, log: Path) -> None:
-    give_up = time.monotonic() + START_SECONDS
+    give_up = time.monotonic() + PATIENCE
     while time.monotonic() < give_up and process.poll() is None:
         try:
             if httpx.get(f"{address}/health/ready", trust_env=False).status_code == 200:
@@ -101,7 +100,7 @@ def launched(kind: BrowserType, more: Sequence[str] = ()) -> Iterator[Browser]:
             or shutil.which("chromium"))
     if path is None:
         raise RuntimeError("the console is tested with Chromium: .ci/prepare says how to get it")
-    browser = kind.launch(executable_path=path, args=[*ARGUMENTS, *more])
+    browser = kind.launch(executable_path=path, args=[*ARGUMENTS, *more], timeout=OPENING_MS)
     yield browser
     browser.close()
 

@@ -18,7 +18,7 @@ from tests.app.conftest import FirstFitPlanner, opened, ready, serving
 from tests.app.records.dispatches.days import (
     DEPART, FIRST, LAUNCH, PLAN, PROBLEM, dispatched, event, holding,
 )
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 from tests.console.serving import new_context
 from tests.console.steps import open_example, open_file, open_tab, planned, state
 from tests.console.test_everyone import findings
@@ -282,7 +282,8 @@ def test_plan_is_sent_out_followed_and_planned_on_from(page: Page) -> None:
     expect(card).to_contain_text("not opened yet")
     address = card.get_by_role("link", name="Open the day").get_attribute("href") or ""
     token = address.partition("#")[2]
-    with httpx.Client(base_url=page.url, trust_env=False, headers=holding(token)) as driver:
+    with httpx.Client(base_url=page.url, trust_env=False, timeout=PATIENCE,
+                      headers=holding(token)) as driver:
         day = driver.get("drive/day").json()
         reply = driver.post("drive/events", json={"now": "2026-11-23T00:00:00Z", "events": []})
         assert reply.status_code == 200

@@ -10,6 +10,7 @@ from playwright.sync_api import Page, expect
 from tests.console.steps import open_file, open_tab, place_of, planned, state
 from tests.console.test_everyone import findings
 from tests.console.test_keeping import edit, first_customer
+from tests.conftest import PATIENCE
 
 pytestmark = pytest.mark.slow
 
@@ -32,7 +33,7 @@ def reply_of(service: str, *tours: str) -> dict[str, Any]:
     routes = [{"vehicle": f"truck-{number}", "type": "truck", "trips": [
         {"stops": [hub, *({"kind": "customer", "id": name} for name in tour), hub]}]}
         for number, tour in enumerate(tours, 1)]
-    told = httpx.post(f"{service}/check", trust_env=False, timeout=60,
+    told = httpx.post(f"{service}/check", trust_env=False, timeout=PATIENCE,
                       json={"problem": PROBLEM, "plan": {"routes": routes}}).json()
     assert told["feasible"]
     return {"status": "complete", "unassigned": [], "solver": SOLVER,

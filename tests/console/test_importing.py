@@ -211,7 +211,7 @@ def test_sheets_of_all_makes_are_planned_in_one_click(console: Page, name: str, 
     expect(dialog(console)).to_contain_text(f"{served} customers of")
     use(console)
     expect(console.locator(".result-line")).to_contain_text(
-        re.compile(f"of {served} served"), timeout=60_000)
+        re.compile(f"of {served} served"))
 
 
 @pytest.mark.parametrize("options", [

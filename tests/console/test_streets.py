@@ -13,7 +13,7 @@ from playwright.sync_api import Page, expect
 from app.maps.roads.tools import Tools
 from tests.app.maps.roads.conftest import prepared_once
 from tests.app.maps.roads.wheels import WHEELS, pinned, unpacked
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 from tests.console.serving import serving
 from tests.console.steps import idle, open_file, place_of, planned, state
 
@@ -84,8 +84,8 @@ def city(shared_folder: Path, tmp_path_factory: pytest.TempPathFactory) -> Itera
                  TANDEM_ROADS=f"truck=car:{extract}",
                  PATH=f"{osrm / 'bin'}{os.pathsep}{os.environ['PATH']}") as address:
         # A console knows of the streets that were drawn when it was opened.
-        eventually(lambda: httpx.get(f"{address}/console/config.json",
-                                     trust_env=False).json()["streets"])
+        eventually(lambda: httpx.get(f"{address}/console/config.json", trust_env=False,
+                                     timeout=PATIENCE).json()["streets"])
         yield address
 
 

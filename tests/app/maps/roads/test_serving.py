@@ -25,7 +25,7 @@ from app.serving.settings import Settings
 from model.travel.matrices import great_circle_distances
 from tests.app.conftest import FirstFitPlanner, ready
 from tests.app.maps.roads.conftest import HELSINKI_BOX, served
-from tests.conftest import complete
+from tests.conftest import PATIENCE, complete
 
 pytestmark = pytest.mark.slow
 
@@ -78,7 +78,8 @@ def with_matrices(request: Data, url: str, metres_walked_in_a_second: float) -> 
     """Return a request that brings what a server tells, as a client would make it."""
     places = [*request["depots"], *request["customers"]]
     line = ";".join("{:.6f},{:.6f}".format(*place["location"]) for place in places)
-    told = httpx.get(f"{url}/table/v1/driving/{line}?annotations=duration,distance").json()
+    told = httpx.get(f"{url}/table/v1/driving/{line}?annotations=duration,distance",
+                     timeout=PATIENCE).json()
     walks = np.array([
         great_circle_distances(np.array([place["location"], source["location"]]))[0, 1]
         for place, source in zip(places, told["sources"], strict=True)])

@@ -22,7 +22,7 @@ from tests.app.records.dispatches.days import (
     ADDRESS, DEPART, DOOR, FIRST, LAUNCH, PHONE, PLAN, PROBLEM, SECOND, Data, dispatched, event,
     holding, token_of,
 )
-from tests.conftest import eventually
+from tests.conftest import PATIENCE, eventually
 
 pytestmark = pytest.mark.slow
 
@@ -364,7 +364,7 @@ def test_drivers_need_no_key_and_owners_see_their_own_alone(serve: Serve, tmp_pa
         assert client.request(method, path, headers=other).status_code == 404
     assert client.get("/dispatches", headers=other).json() == {"dispatches": []}
     assert [item["id"] for item in client.get("/dispatches").json()["dispatches"]] == [sent["id"]]
-    driver = httpx.Client(base_url=client.base_url, trust_env=False,
+    driver = httpx.Client(base_url=client.base_url, trust_env=False, timeout=PATIENCE,
                           headers=holding(token_of(link)))
     with driver:
         assert [driver.get("/drive/day").status_code for _ in range(3)] == [200, 200, 429]

@@ -26,7 +26,7 @@ ROOT = Path(__file__).parents[4]
 
 logger = logging.getLogger(__name__)
 
-CRASHING_SEED, START_SECONDS = 666, 120.0
+CRASHING_SEED = 666
 
 
 class CrashingPlanner(FirstFitPlanner):
@@ -76,7 +76,7 @@ def running(**settings: str) -> Iterator[Server]:
                        trust_env=False) as client):
         server = Server(client, process)
         try:
-            eventually(lambda: is_ready(client, process), START_SECONDS)
+            eventually(lambda: is_ready(client, process))
             yield server
         finally:
             process.kill()
