@@ -187,6 +187,12 @@ def soon(happens: Callable[[], Any]) -> Any:
     return eventually(happens, SOON)
 
 
+def end(thread: threading.Thread) -> None:
+    """Wait for the end of a thread that was told to end, and fail if it goes on."""
+    thread.join(PATIENCE)
+    assert not thread.is_alive(), f"{thread.name} goes on"
+
+
 def free_port() -> int:
     """Return a port of this machine that nobody listens on.
 

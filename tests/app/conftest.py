@@ -29,7 +29,7 @@ from model.planner import (
 )
 from model.problem import Problem, VehicleType
 from model.solution import Route, Solution
-from tests.conftest import PATIENCE, eventually
+from tests.conftest import PATIENCE, end, eventually
 
 APP_DIR = Path(__file__).parents[2] / "app"
 
@@ -164,7 +164,7 @@ def serving(planner: Planner | None,
     # Nor does it close a connection just when a client that was busy for 5 s asks on it again.
     server = uvicorn.Server(uvicorn.Config(app, log_level=logging.CRITICAL + 1,
                                            timeout_keep_alive=IDLE_SECONDS))
-    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+    thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
     thread.start()
     address = f"http://127.0.0.1:{listener.getsockname()[1]}"
     try:
@@ -172,7 +172,7 @@ def serving(planner: Planner | None,
             yield client
     finally:
         server.should_exit = True
-        thread.join()
+        end(thread)
         listener.close()
 
 

@@ -20,7 +20,7 @@ from app.main import create_app
 from app.records.jobs import order, planning, studies, webhook
 from app.serving.settings import Settings
 from tests.app.records.jobs.stepping import SteppingPlanner
-from tests.conftest import PATIENCE, eventually, free_port
+from tests.conftest import PATIENCE, end, eventually, free_port
 
 
 class Postgres:
@@ -105,7 +105,7 @@ def serving(settings: Settings, planner: SteppingPlanner | None = None) -> Itera
     server = uvicorn.Server(uvicorn.Config(create_app(settings, planner or SteppingPlanner()),
                                            log_config=None, timeout_keep_alive=IDLE_SECONDS))
     with socket.create_server(("127.0.0.1", 0)) as listener:
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
         thread.start()
         address = f"http://127.0.0.1:{listener.getsockname()[1]}"
         try:
@@ -114,7 +114,7 @@ def serving(settings: Settings, planner: SteppingPlanner | None = None) -> Itera
                 yield client
         finally:
             server.should_exit = True
-            thread.join()
+            end(thread)
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,7 @@ from app.main import create_app
 from app.serving.load import protocol
 from app.serving.settings import Settings
 from tests.app.conftest import FirstFitPlanner
-from tests.conftest import PATIENCE, soon
+from tests.conftest import PATIENCE, end, soon
 
 pytestmark = [pytest.mark.by_clock, pytest.mark.slow]
 
@@ -42,7 +42,7 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Listening]:
         server = uvicorn.Server(uvicorn.Config(
             app, http=protocol.HttpProtocol, log_level=logging.CRITICAL + 1,
             timeout_keep_alive=1))
-        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]}, daemon=True)
         address = listener.getsockname()
         thread.start()
         try:
@@ -50,7 +50,7 @@ def server(monkeypatch: pytest.MonkeyPatch) -> Iterator[Listening]:
             yield Listening(server, address)
         finally:
             server.should_exit = True
-            thread.join()
+            end(thread)
 
 
 def connect(server: Listening) -> socket.socket:
