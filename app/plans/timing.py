@@ -7,6 +7,7 @@ from app.requests.conversion.units import optional_thousandths
 from app.requests.plan_reading import read_plan
 from app.schemas.untimed import UntimedPlanInput, UntimedRouteInput
 from model.judge.check import judge_route
+from model.judge.placing import is_exact
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.problem import Problem
 from model.search.driven import driven_by_search
@@ -57,4 +58,5 @@ def _may_rest_otherwise(problem: Problem, timed: TimedRoute) -> bool:
     """Tell whether a route that breaks rules may not by other breaks and rests."""
     kind = problem.vehicle_types[timed.route.vehicle_type]
     return (bool(timed.judged.violations) and bool(kind.breaks or kind.driving)
-            and not problem.lags_across and problem.num_customers <= MOST_CUSTOMERS)
+            and not is_exact(problem, timed.route) and not problem.lags_across
+            and problem.num_customers <= MOST_CUSTOMERS)

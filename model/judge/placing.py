@@ -1,96 +1,47 @@
-"""Breaks put between the stops of a route that lacks some."""
+"""Breaks and rests put between the stops of a route that lacks some."""
 
+from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from itertools import pairwise
-from typing import NamedTuple
 
-from model.judge.breaks import ON_A_LEG, BreakDecision, begin_of, broken_breaks, is_due
+from model.judge.break_ways import best_breaks
+from model.judge.breaks import ON_A_LEG, BreakDecision
+from model.judge.courses import course_of
 from model.judge.driving import Excess, excesses, is_out
-from model.judge.likely_places import LikelyPlace, likely_places
 from model.judge.timing import RouteDecision, TripDecision, schedule
-from model.problem import REST, Break, DrivingRules, Problem, VehicleType
-from model.solution import BreakPlace, Route, Trip
+from model.problem import REST, DrivingRules, Problem
+from model.solution import Route, Trip
 
-AT_STOPS: tuple[BreakPlace, ...] = "departure", "arrival"
-"""Where a stated break is put between two stops."""
-
-MOST_TIMED_STOPS, LEAST_TRIES = 3000, 3
-"""Stops that are timed to place a break, and how many places are tried however long a route is:
-those that are likely best."""
+MOST_TRIED = 8
+"""Ways to take breaks that are tried where drones, or hours of slow traffic, are only estimated."""
 
 
-def with_due_breaks(problem: Problem, decision: RouteDecision) -> RouteDecision:
-    """Return a route that has the breaks that are due, each where nobody is served too late, and
-    the route then ends first.
+def with_breaks(problem: Problem, decision: RouteDecision, route: Route,
+                stated: Mapping[int, tuple[int, int]], known: int,
+                likely: int) -> Iterator[RouteDecision]:
+    """Yield a route without breaks with them where they are best, and begun when that is best.
 
-    Breaks that are placed already stay. One that can't be anywhere is left out, and those behind.
-    A driver also rests by driving rules. On a route of many stops the likeliest places are tried.
+    `route` is the same with times, begun as soon as it may; the first trips are known. If the first
+    trip states its start, it begins then. `stated` has trip and stop of breaks that are taken
+    there, and `likely` is an instant at which it may be good to begin.
     """
+    course = course_of(problem, decision, route, known)
+    most = 1 if is_exact(problem, decision) else MOST_TRIED
+    for found in best_breaks(course, stated, likely, most):
+        trips = list(decision.trips[:known])
+        for number, trip in enumerate(decision.trips[known:], known):
+            trips.append(replace(trip, start=trip.start if number else found.begin, breaks=tuple(
+                [taken for of, taken in found.breaks if of == number])))
+        yield replace(decision, trips=tuple(trips))
+
+
+def is_exact(problem: Problem, decision: RouteDecision | Route) -> bool:
+    """Tell whether all is known of how a route goes on behind a break."""
     kind = problem.vehicle_types[decision.vehicle_type]
-    decision = with_due_rests(problem, decision)
-    route = schedule(problem, decision)
-    for number, each in enumerate(kind.breaks):
-        begin, end = begin_of(kind, route.trips[0]), _end(route)
-        taken = {placed.number for trip in decision.trips for placed in trip.breaks}
-        if number in taken or not is_due(each, begin, end):
-            continue
-        best = _best_placed(problem, decision, route, number)
-        decision, route = best.decision, best.route
-        if best.is_wrong:
-            break
-    return decision
-
-
-class _Placed(NamedTuple):
-    """A route with a break more."""
-
-    is_wrong: bool
-    lateness: int
-    end: int
-    place: LikelyPlace
-    decision: RouteDecision
-    route: Route
-
-    @property
-    def rank(self) -> tuple[bool, int, int, int, int, int]:
-        """What is smaller for a better place; of equal ones the first."""
-        return (self.is_wrong, self.lateness, self.end,
-                self.place.trip, self.place.stop, self.place.place_number)
-
-
-def _best_placed(problem: Problem, decision: RouteDecision, route: Route,
-                 number: int) -> _Placed:
-    """Return a route that has one break more at the best of the places tried; `route` is it now."""
-    kind = problem.vehicle_types[decision.vehicle_type]
-    bare = decision if kind.driving is None else _unrested(decision)
-    bare_route = route if bare is decision else schedule(problem, bare)
-    places = _places(kind, kind.breaks[number])
-    likely = likely_places(problem, bare, bare_route, number, places)
-    left = max(LEAST_TRIES, MOST_TIMED_STOPS // _timed_stops(kind, route))
-    is_told = _is_told(problem, bare)
-    lateness, end = _lateness(problem, bare_route), _end(bare_route)
-    best: _Placed | None = None
-    for place in likely[:left]:
-        if best is not None and is_told and best.rank[:3] <= (
-                place.is_wrong, lateness + place.lateness, end + place.delay):
-            break
-        tried = _tried(problem, bare, place, BreakDecision(
-            number, place.stop, places[place.place_number]))
-        best = tried if best is None or tried.rank < best.rank else best
-    if best is None:
-        raise ValueError(f"route trips: {decision.trips!r} is not allowed")
-    return best
-
-
-def _unrested(decision: RouteDecision) -> RouteDecision:
-    """Return a route whose driver rests nowhere but in breaks that are stated."""
-    return replace(decision, trips=tuple([
-        replace(trip, breaks=tuple([each for each in trip.breaks if each.number != REST]))
-        for trip in decision.trips]))
-
-
-def _end(route: Route) -> int:
-    return route.trips[-1].stops[-1].departure
+    is_held = len(decision.trips) > 1 and (problem.limits_time_aboard
+                                           or problem.limits_time_between)
+    return not (kind.flies or kind.speed_profile or kind.driving or is_held
+                or any(trip.sorties for trip in decision.trips))
 
 
 def _lateness(problem: Problem, route: Route) -> int:
@@ -98,38 +49,6 @@ def _lateness(problem: Problem, route: Route) -> int:
     return sum([max(0, stop.service_start - problem.customer_at(stop.node).latest)
                 for trip in route.trips for _, stop in trip.numbered_stops
                 if problem.customer_at(stop.node).late_cost_per_hour is None])
-
-
-def _places(kind: VehicleType, each: Break) -> tuple[BreakPlace, ...]:
-    """Return where a break may be put between two stops."""
-    return (*AT_STOPS, "way") if each.anywhere and not kind.speed_profile else AT_STOPS
-
-
-def _tried(problem: Problem, decision: RouteDecision, place: LikelyPlace,
-           more: BreakDecision) -> _Placed:
-    """Return a route with a break more, and where its driver rests then."""
-    kind, trips = problem.vehicle_types[decision.vehicle_type], [*decision.trips]
-    trips[place.trip] = _with(trips[place.trip], more)
-    placed = with_due_rests(problem, replace(decision, trips=tuple(trips)))
-    route = schedule(problem, placed)
-    is_wrong = any(of is not None for of, _ in broken_breaks(problem, kind, route.trips)) or any(
-        True for _ in excesses(kind, route.trips))
-    return _Placed(is_wrong, _lateness(problem, route), _end(route), place, placed, route)
-
-
-def _timed_stops(kind: VehicleType, route: Route) -> int:
-    """Return how many stops are timed to try one place of a break."""
-    stops = sum([len(trip.stops) for trip in route.trips])
-    rests = sum([taken.number == REST for trip in route.trips for taken in trip.breaks])
-    return stops if kind.driving is None else (rests + 2) * stops
-
-
-def _is_told(problem: Problem, decision: RouteDecision) -> bool:
-    """Tell whether nothing on a route is earlier for a break than its likely places tell."""
-    kind = problem.vehicle_types[decision.vehicle_type]
-    return not (kind.flies or kind.speed_profile or kind.driving or problem.lags
-                or problem.limits_time_aboard or problem.limits_time_between
-                or any(trip.sorties for trip in decision.trips))
 
 
 def _with(trip: TripDecision, more: BreakDecision) -> TripDecision:

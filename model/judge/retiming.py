@@ -6,6 +6,7 @@ soon as possible, and as late as moves no end and makes no window missed.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from operator import attrgetter
 from typing import NamedTuple
 
 from model.judge.breaks import has_needless_break
@@ -14,11 +15,11 @@ from model.judge.clock import closing
 from model.judge.flown_trips import charged_start
 from model.judge.past import KnownTrip, Past, Vehicle
 from model.judge.places import halts
-from model.judge.placing import with_due_breaks
+from model.judge.placing import is_exact, with_breaks, with_due_rests
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, resume_trip, schedule_trip,
 )
-from model.problem import Problem, VehicleType
+from model.problem import REST, Problem, VehicleType
 from model.solution import Route, Trip
 
 BISECTIONS = 8
@@ -47,23 +48,35 @@ def read_route(problem: Problem, route: Route) -> RouteDecision:
 def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:
     """Return a route with the times that the judge finds best of those tried.
 
-    What is known of a trip holds if the decision has it; else all of it is timed anew.
+    What is known of a trip holds if the decision has it; else all of it is timed anew. Breaks stay
+    on the legs that are stated, unless none of those ways keeps the rules.
     """
     best = _best_timed(problem, decision, path, past)
-    if any(violation.code in ("BREAK", "DRIVING") for violation in best.judged.violations) or (
-            has_needless_break(problem, best.route)):
-        # Which breaks are due, and where, hangs on when a route begins.
-        bare = replace(decision, trips=tuple([replace(trip, breaks=())
-                                              for trip in decision.trips]))
-        late = _best_timed(problem, bare, path, past).route.trips
-        begun = replace(bare, trips=tuple([
-            replace(trip, start=timed.stops[0].arrival)
-            for trip, timed in zip(bare.trips, late, strict=True)]))
-        for tried in (bare, begun):
-            rested = with_due_breaks(problem, tried)
-            best = min(best, _best_timed(problem, rested, path, past),
-                       key=lambda timed: timed.rank)
+    kind = problem.vehicle_types[decision.vehicle_type]
+    if not (kind.breaks or kind.driving) or _is_cheapest(problem, best):
+        return best
+    timer, late = _Timer(problem, decision, past), best.route.trips[0].stops[0].arrival
+    for stays in (True, False) if any(trip.breaks for trip in decision.trips) else (False,):
+        # What is estimated is so anew by the best times, where those aren't legal yet.
+        rounds = 1 if is_exact(problem, decision) else 3 if best.judged.violations else 2
+        for number in range(rounds):
+            begin = (0, late, best.route.trips[0].stops[0].arrival)[number]
+            for paused in timer.paused(begin, late, stays):
+                best = min(best, _best_timed(problem, paused, path, past), key=attrgetter("rank"))
+        if not best.judged.violations and not has_needless_break(problem, best.route):
+            break
     return best
+
+
+def _is_cheapest(problem: Problem, timed: TimedRoute) -> bool:
+    """Tell whether nothing can be won by other times of a route."""
+    cost, kind = timed.judged.cost, problem.vehicle_types[timed.route.vehicle_type]
+    waits = any(stop.service_start > stop.ready for trip in timed.route.trips
+                for stop in trip.stops) or any(
+        taken.start > taken.arrival for trip in timed.route.trips for taken in trip.breaks)
+    return not (timed.judged.violations or has_needless_break(problem, timed.route)
+                or cost.lateness or cost.earliness or cost.overtime
+                or (kind.cost_per_hour and waits))
 
 
 def _best_timed(problem: Problem, decision: RouteDecision, path: str, past: Past) -> TimedRoute:
@@ -110,6 +123,34 @@ class _Timer:
             if timed not in tried:
                 tried.append(timed)
                 yield self._route(timed)
+
+    def paused(self, begin: int, likely: int, stays: bool) -> Iterator[RouteDecision]:
+        """Yield the route with breaks, and then rests, where they are best, and begun then.
+
+        What is estimated is so for a route that begins then, or as soon as it may. Where breaks
+        stay, those that it states lie on the same legs.
+        """
+        known, trips = 0, self._decision.trips
+        while known < len(trips) and self._known_trip(known) is not None:
+            known += 1
+        bare = [*trips[:known], *[replace(trip, start=None, breaks=()) for trip in trips[known:]]]
+        free = replace(self._decision, trips=tuple(bare))
+        route = _Timer(self._problem, free, self._past)._soonest_from(begin)
+        if self._type.driving is not None and known == 0:
+            # Rests take time from the work that remains.
+            bare[0] = replace(bare[0], start=route.trips[0].stops[0].arrival)
+            free = replace(free, trips=tuple(bare))
+        stated = {taken.number: (number, taken.stop)
+                  for number, trip in enumerate(trips[known:], known)
+                  for taken in trip.breaks if taken.number != REST} if stays else {}
+        for paused in with_breaks(self._problem, free, route, stated, known,
+                                  likely):
+            yield with_due_rests(self._problem, paused)
+
+    def _soonest_from(self, begin: int) -> Route:
+        """Return the route begun then, or as soon as it may, all else as soon as possible."""
+        trips = self._decision.trips
+        return self._route(self._timed([begin, *[0] * (len(trips) - 1)]))
 
     def _route(self, trips: list[Trip]) -> Route:
         return Route(self._decision.vehicle_type, self._decision.vehicle, tuple(trips))

@@ -11,7 +11,8 @@ from model.judge.check import Evaluation, check
 from model.judge.clock import leg_start
 from model.judge.flown_trips import wait_for_calm
 from model.judge.launches import launch_duration
-from model.judge.placing import with_due_breaks
+from model.judge.past import EVERYTHING_OPEN
+from model.judge.retiming import time_route
 from model.judge.timing import (
     RouteDecision, SortieDecision, TripDecision, read_decision, schedule,
 )
@@ -97,10 +98,12 @@ def small_problem(problem: Problem, kind: int, nodes: Sequence[int],
 
 
 def _judge(problem: Problem, decision: TripDecision) -> Attempt:
-    route = RouteDecision(0, 0, (decision,))
+    decided = RouteDecision(0, 0, (decision,))
     if problem.vehicle_types[0].breaks or problem.vehicle_types[0].driving:
-        route = with_due_breaks(problem, route)
-    solution = Solution((schedule(problem, route),))
+        route = time_route(problem, decided, "", EVERYTHING_OPEN).route
+    else:
+        route = schedule(problem, decided)
+    solution = Solution((route,))
     return Attempt(problem, solution, check(problem, solution))
 
 

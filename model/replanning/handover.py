@@ -9,8 +9,8 @@ from itertools import count
 from model.judge.chargers import with_charging
 from model.judge.ends import with_ends
 from model.judge.hubs import hub_violations
-from model.judge.past import Past, Vehicle
-from model.judge.placing import with_due_breaks
+from model.judge.past import EVERYTHING_OPEN, Past, Vehicle
+from model.judge.retiming import time_route
 from model.judge.timing import (
     RouteDecision, TripDecision, latest_release, read_decision, schedule_trip,
 )
@@ -157,9 +157,9 @@ def _timed_at_once(problem: Problem, decision: RouteDecision) -> Route:
 
 
 def _timed_with_breaks(problem: Problem, decision: RouteDecision) -> Route:
-    """Return a route whose trips begin as soon as possible, with other breaks as they are due."""
+    """Return a route with other breaks, as they are due."""
     trips = tuple([replace(trip, start=None, breaks=()) for trip in decision.trips])
-    return _timed(problem, with_due_breaks(problem, replace(decision, trips=trips)))
+    return time_route(problem, replace(decision, trips=trips), "", EVERYTHING_OPEN).route
 
 
 def complete(problem: Problem, routes: tuple[Route, ...]) -> Solution:

@@ -210,7 +210,7 @@ def test_ends_of_shipments_are_asked_about_whatever_goods_and_skills_they_have(
 
 def test_breaks_are_told_with_what_is_aboard_and_what_they_cost(tiny_problem, customers, truck):
     a, *others = customers
-    lunch = Break("lunch", 10 * MINUTE, 0, 3 * MINUTE, max_load=(1000,))
+    lunch = Break("lunch", 10 * MINUTE, 0, 3 * MINUTE, after_departure=True, max_load=(1000,))
     problem = tiny_problem(replace(a, latest=20 * MINUTE), *others, truck=replace(
         truck, cost_per_hour=60.0, breaks=(lunch,)))
     trip = TripDecision((0, A, 0), breaks=(BreakDecision(0, 0, "departure"),))

@@ -8,7 +8,8 @@ import pytest
 from model.judge.breaks import BreakDecision
 from model.judge.check import check
 from model.judge.clock import with_all_setups
-from model.judge.placing import with_due_breaks
+from model.judge.past import EVERYTHING_OPEN
+from model.judge.retiming import time_route
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import (
     UNLIMITED, Break, Customer, Depot, DrivingRules, Problem, SpeedProfile, Travel, VehicleType,
@@ -121,9 +122,10 @@ def test_stated_times_of_breaks_are_checked_as_well() -> None:
 
 
 def test_breaks_that_lack_are_placed_where_the_route_ends_first() -> None:
-    problem = problem_of(REST, Break("late", MINUTE, 40 * MINUTE, 50 * MINUTE))
+    problem = problem_of(REST, Break("late", MINUTE, 40 * MINUTE, 50 * MINUTE),
+                         latest=62 * MINUTE)
     decision = RouteDecision(0, 0, (TripDecision((0, 1, 2, 0), start=0),))
-    placed = schedule(problem, with_due_breaks(problem, decision))
+    placed = time_route(problem, decision, "route", EVERYTHING_OPEN).route
     assert broken(problem, Solution((placed,))) == set()
     assert [taken.number for taken in placed.trips[0].breaks] == [0, 1]
 
@@ -133,7 +135,7 @@ def test_a_break_that_lacks_is_placed_on_the_way_where_it_may_and_others_come_to
     first, second = problem.customers
     problem = replace(problem, customers=(replace(first, latest=15 * MINUTE), second))
     decision = RouteDecision(0, 0, (TripDecision((0, 1, 2, 0), start=0),))
-    placed = schedule(problem, with_due_breaks(problem, decision))
+    placed = time_route(problem, decision, "route", EVERYTHING_OPEN).route
     assert broken(problem, Solution((placed,))) == set()
     assert [taken.place for taken in placed.trips[0].breaks] == ["way"]
 
@@ -145,10 +147,10 @@ def test_a_driver_rests_while_waiting_where_it_is_too_late_behind() -> None:
     problem = replace(problem, customers=(replace(first, earliest=30 * MINUTE),
                                           replace(second, latest=45 * MINUTE)))
     decision = RouteDecision(0, 0, (TripDecision((0, 1, 2, 0), start=0),))
-    placed = schedule(problem, with_due_breaks(problem, decision))
+    placed = time_route(problem, decision, "route", EVERYTHING_OPEN).route
     assert broken(problem, Solution((placed,))) == set()
     rest, *_ = placed.trips[0].breaks
-    assert (rest.stop, rest.start) == (0, 10 * MINUTE)
+    assert (rest.stop, rest.start - placed.trips[0].stops[0].departure) == (0, 10 * MINUTE)
 
 
 def test_breaks_stay_where_setups_are_told_anew() -> None:

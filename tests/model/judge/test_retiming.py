@@ -3,19 +3,13 @@
 import numpy as np
 import pytest
 
-from model.judge.past import Past
-from model.judge.retiming import time_route
-from model.judge.timing import RouteDecision, TripDecision
-from tests.model.search.break_days import small_day
+from tests.model.search.break_days import judged_working, least_working, orders, small_day
 
 
-@pytest.mark.parametrize(("seed", "order", "working"), [
-    (4, (1, 2, 3), 0.0), (19, (1,), 4.5), (19, (2, 1), 5.0), (34, (1, 2, 3, 4), 14.5)])
-def test_breaks_lie_by_when_a_route_had_better_begin(seed: int, order: tuple[int, ...],
-                                                     working: float) -> None:
-    """As cheaply as enumeration finds; begun at once, it would break a rule, or wait for longer."""
-    problem = small_day(np.random.default_rng(seed))
-    timed = time_route(problem, RouteDecision(0, 0, (TripDecision((0, *order, 0)),)), "route",
-                       Past())
-    assert not timed.judged.violations
-    assert timed.judged.cost.time == pytest.approx(working)
+@pytest.mark.parametrize(("seed", "is_soft"), [
+    *((seed, False) for seed in (2, 4, 6, 7, 9, 21, 29, 35, 112)),
+    *((seed, True) for seed in (48, 58, 151))])
+def test_breaks_and_begin_of_an_order_are_the_best_of_all(seed: int, is_soft: bool) -> None:
+    problem = small_day(np.random.default_rng(seed), is_soft)
+    for order in filter(None, orders(problem)):
+        assert judged_working(problem, order) == pytest.approx(least_working(problem, order))

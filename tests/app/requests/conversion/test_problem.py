@@ -19,8 +19,9 @@ from app.schemas.fields import Input
 from app.schemas.request import DepotInput
 from app.schemas.vehicle import BreakInput, VehicleTypeInput
 from model.judge.check import check
-from model.judge.placing import with_due_breaks
-from model.judge.timing import RouteDecision, TripDecision, schedule
+from model.judge.past import EVERYTHING_OPEN
+from model.judge.retiming import time_route
+from model.judge.timing import RouteDecision, TripDecision
 from model.problem import (
     UNLIMITED, UNREACHABLE, Break, Customer, Depot, DrivingRules, DroneType, IncompatibleGoods,
     Overtime, Problem, SpeedProfile, VehicleType,
@@ -384,7 +385,7 @@ def test_whoever_must_be_served_costs_more_than_all_pauses(smallest: Request,
     smallest["fleet"][0] |= stated | {"costs": {"per_hour": 50}, "drones": None}
     problem = problem_of(smallest)
     served = RouteDecision(0, 0, (TripDecision((0, 1, 0)),))
-    plan = Solution((schedule(problem, with_due_breaks(problem, served)),), (2,))
+    plan = Solution((time_route(problem, served, "route", EVERYTHING_OPEN).route,), (2,))
     evaluation = check(problem, plan)
     assert evaluation.violations == ()
     assert evaluation.cost.time >= 50 * 10
