@@ -117,8 +117,10 @@ def best_breaks(course: Course, stated: Mapping[int, tuple[int, int]], likely: i
             found += _Search(begun, stated, False, limit).found()
         if most == 1:
             limit = min([each[0][0] for each in found], default=limit)
-    if not found:
-        found = _Search(at_once[0], stated, True).found()
+    # Later trips may keep limits by beginning later.
+    freed = tuple([leg._replace(most=() if leg.trip else leg.most) for leg in course.legs])
+    found = found or _Search(course._replace(legs=freed), stated, False).found()
+    found = found or _Search(at_once[0], stated, True).found()
     ways = dict[tuple[tuple[int, BreakDecision], ...], TakenBreaks]()
     for _, taken in sorted(found):
         ways.setdefault(taken.breaks, taken)

@@ -18,7 +18,7 @@ from model.problem import MS_PER_HOUR, REST, UNLIMITED, Problem, VehicleType
 from model.solution import Route, Stop, Trip
 
 OUT, NOBODY = -1, -2
-"""In place of a node: the departure of the first trip, and no customer."""
+"""In place of a node: the departure of a trip, and no customer."""
 
 
 class Leg(NamedTuple):
@@ -99,9 +99,10 @@ def _reload(problem: Problem, kind: VehicleType, trips: Sequence[Trip], number: 
     """Return what is between a trip and the one before; it waits for what it waited for."""
     first, before = trips[number].stops[0], trips[number - 1].stops[-1]
     ready = before.departure + kind.reload_duration
-    return Leg(kind.reload_duration, waits=first.arrival if first.arrival > ready else 0,
-               closes=(problem.depots[first.node].latest,), trip=number,
-               service=first.departure - first.arrival)
+    service = first.departure - first.arrival
+    return Leg(kind.reload_duration + service, node=OUT, trip=number,
+               waits=first.departure if first.arrival > ready else 0,
+               closes=(problem.depots[first.node].latest,))
 
 
 def _legs(problem: Problem, kind: VehicleType, decision: TripDecision, trip: Trip,
@@ -115,7 +116,7 @@ def _legs(problem: Problem, kind: VehicleType, decision: TripDecision, trip: Tri
         if there.node < problem.num_depots:
             halt = _called(problem, kind, there, there is trip.stops[-1])
         else:
-            halt = _served(problem, kind, decision, there.node, number)
+            halt = _served(problem, kind, decision, there.node)
         is_busy = any(index + 1 in (sortie.launch_stop, sortie.recovery_stop)
                       for sortie in trip.sorties)
         yield halt._replace(
@@ -129,18 +130,12 @@ def _called(problem: Problem, kind: VehicleType, stop: Stop, is_last: bool) -> L
     return Leg(waits=depot.earliest, closes=(depot.latest - service,), service=service)
 
 
-def _served(problem: Problem, kind: VehicleType, decision: TripDecision, node: int,
-            number: int) -> Leg:
-    """Return a halt at a customer of a trip with a number.
-
-    What later trips keep by beginning later is not limited.
-    """
+def _served(problem: Problem, kind: VehicleType, decision: TripDecision, node: int) -> Leg:
+    """Return a halt at a customer."""
     customer, lags = problem.customer_at(node), problem.lags.get(node, ())
-    most = [(lag.node, lag.most) for lag in lags
-            if lag.most < UNLIMITED and not (number and lag.node in decision.nodes)]
-    if number == 0:
-        most += _under_way(problem, kind, node)
-        most += [] if customer.max_time_aboard is None else [(OUT, customer.max_time_aboard)]
+    most = [(lag.node, lag.most) for lag in lags if lag.most < UNLIMITED]
+    most += _under_way(problem, kind, node)
+    most += [] if customer.max_time_aboard is None else [(OUT, customer.max_time_aboard)]
     return Leg(
         waits=max([soonest_behind(problem, node, {}), *(
             each.until for each in decision.awaited if each.node == node)]),
