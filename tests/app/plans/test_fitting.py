@@ -21,7 +21,7 @@ def asked() -> Request:
 
 def fitted(client: httpx.Client, body: Request) -> dict[str, Any]:
     """Return the service's reply."""
-    reply = client.post("/fit", json=body)
+    reply = client.post("/fit", json={"options": {"time_limit": 30}} | body)
     assert reply.status_code == 200, reply.text
     FitReply.model_validate(reply.json())
     return reply.json()

@@ -27,7 +27,7 @@ def paired(smallest: Request) -> Request:
 
 
 def fitted(client: httpx.Client, body: Request) -> dict[str, Any]:
-    reply = client.post("/fit", json=body)
+    reply = client.post("/fit", json={"options": {"time_limit": 30}} | body)
     assert reply.status_code == 200, reply.text
     FitReply.model_validate(reply.json())
     return reply.json()

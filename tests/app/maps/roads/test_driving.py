@@ -162,7 +162,8 @@ def test_fits_and_reasons_drive_on_the_same_roads(client: httpx.Client) -> None:
     body = request(customer(1, FAR), avoid=["motorways"])
     plan = replied(client, body)
     joins = customer(2, NORTH, approach="curb")
-    question = {"problem": body, "plan": plan, "new_customer": joins, "count": 2}
+    enough = {"options": {"time_limit": 30}}
+    question = {"problem": body, "plan": plan, "new_customer": joins, "count": 2} | enough
     back, there = replied(client, question, "/fit")["places"]
     # On the way back the northern side is that where one stops, and on the way there it isn't:
     # then one is led around the block, back to the depot's end, and eastward again.
@@ -170,7 +171,7 @@ def test_fits_and_reasons_drive_on_the_same_roads(client: httpx.Client) -> None:
     assert there["cost"]["total"] > 2
     both = body | {"customers": [*body["customers"], joins]}
     without = plan | {"unassigned": [{"id": "2", "reasons": []}]}
-    assert replied(client, {"problem": both, "plan": without, "customer": "2"},
+    assert replied(client, {"problem": both, "plan": without, "customer": "2"} | enough,
                    "/explain")["complete"]
 
 

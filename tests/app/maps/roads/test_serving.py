@@ -139,7 +139,7 @@ def test_plans_on_roads_are_judged_and_explained_on_them(helsinki: httpx.Client)
     assert judged["cost"] == plan["cost"]
     elsewhere = replied(helsinki, {"problem": request | {"roads": "none"}, "plan": plan}, "/check")
     assert elsewhere["cost"] != plan["cost"]
-    question = {"problem": request, "plan": plan, "customer": "3"}
+    question = {"problem": request, "plan": plan, "customer": "3", "options": {"time_limit": 30}}
     assert replied(helsinki, question, "/explain")["complete"]
 
 
