@@ -1,6 +1,6 @@
 """A plan: routes of trips, with the sorties flown from them. Times in ms, nodes as in `Problem`."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields, replace
 from typing import Literal, NamedTuple
 
@@ -133,14 +133,6 @@ def renumbered(plan: Solution, node: Callable[[int], int],
 
     Errors of `node` and `vehicle` (a `KeyError`, say, for what has no number) come through.
     """
-    return Solution(tuple(renumbered_routes(plan.routes, node, vehicle)),
-                    tuple(sorted(map(node, plan.unassigned))))
-
-
-def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
-                      vehicle: Callable[[int, int], tuple[int, int]] = _as_it_is
-                      ) -> Iterator[Route]:
-    """Yield routes with other numbers, as `renumbered` does."""
     def trip(old: Trip) -> Trip:
         return Trip(tuple(Stop(node(stop.node), stop.arrival, stop.service_start, stop.departure,
                                stop.setup, stop.is_launch_site) for stop in old.stops),
@@ -151,16 +143,9 @@ def renumbered_routes(routes: Iterable[Route], node: Callable[[int], int],
             Visit(node(visit.node), visit.arrival, visit.service_start, visit.departure,
                   visit.setup) for visit in old.visits]))
 
-    for route in routes:
-        yield Route(*vehicle(route.vehicle_type, route.vehicle), tuple(map(trip, route.trips)))
-
-
-def with_handling(stops: Sequence[Stop], launch: int, recovery: int) -> tuple[Stop, ...]:
-    """Return the stops of a trip that departs after a launch and arrives before a recovery."""
-    first, *others, last = stops
-    return (replace(first, departure=first.departure + launch), *others,
-            replace(last, arrival=last.arrival - recovery,
-                    service_start=last.service_start - recovery))
+    return Solution(tuple([Route(*vehicle(route.vehicle_type, route.vehicle),
+                                 tuple(map(trip, route.trips))) for route in plan.routes]),
+                    tuple(sorted(map(node, plan.unassigned))))
 
 
 @dataclass(frozen=True, slots=True)

@@ -18,7 +18,7 @@ APP = (("schemas", "database"), ("serving",), ("maps",), ("requests", "console")
 """Floors of `app`, each of which imports only those before it."""
 
 MODEL = {
-    "problem": "", "solution": "", "engine": "problem", "judge": "problem solution",
+    "problem": "", "solution": "", "engine": "problem solution", "judge": "problem solution",
     "travel": "problem engine", "simulation": "problem solution engine",
     "policy": "problem engine simulation", "search": "problem solution engine",
     "together": "problem solution judge engine search",

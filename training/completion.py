@@ -13,9 +13,9 @@ import numpy as np
 from model.engine.instance import Instance, pack
 from model.problem import Customer, IntArray, Problem, Travel, VehicleType
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import make_searcher
+from model.search.beginning.translate import make_searcher, read_routes
 from model.search.route.engine import ANY, anneal, leg_cost
-from model.search.route.layout import CUSTOMER
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
 from model.simulation.actions import (
@@ -193,7 +193,7 @@ def complete(rest: Rest, routes: Routes, turns: int, seed: int) -> Routes:
     value.temperature = HOT * leg
     value.cooling = (COLD / HOT) ** (1 / max(1, turns))
     anneal(data, searcher, turns, ANY)
-    return _read(rest, searcher)
+    return _read(rest, data, searcher)
 
 
 def _written(rest: Rest, routes: Routes) -> Solution:
@@ -216,18 +216,15 @@ def _written(rest: Rest, routes: Routes) -> Solution:
     return Solution(tuple(result), ())
 
 
-def _read(rest: Rest, searcher: Searcher) -> Routes:
+def _read(rest: Rest, data: ProblemData, searcher: Searcher) -> Routes:
     """Return the best routes, in nodes of the whole problem, the open vehicle's first."""
-    best, routes = searcher.best, Routes()
-    opened: Routes = []
-    for slot in np.flatnonzero(best.route["length"][:len(searcher.active)]).tolist():
-        stops = best.stop[slot, :best.route[slot].length]
-        nodes = rest.nodes[stops["node"][stops["kind"] == CUSTOMER]].tolist()
-        own = int(best.route[slot].type)
-        if own == rest.open_kind:
-            opened = [(rest.kinds[own], [node for node in nodes if node != rest.place])]
+    opened, routes = Routes(), Routes()
+    for route in read_routes(data, searcher):
+        nodes = rest.nodes[[stop.node for trip in route.trips for stop in trip.customer_stops]]
+        if route.vehicle_type == rest.open_kind:
+            opened = [(rest.kinds[route.vehicle_type], nodes[nodes != rest.place].tolist())]
         else:
-            routes.append((rest.kinds[own], nodes))
+            routes.append((rest.kinds[route.vehicle_type], nodes.tolist()))
     if rest.open_kind is not None and not opened:
         opened = [(rest.kinds[rest.open_kind], [])]
     return opened + routes

@@ -255,22 +255,6 @@ typedef struct tandem_point {
     double z;
 } tandem_point;
 
-/* What is aboard around a stop of a trip, of one tier; sums are over all dimensions. */
-typedef struct tandem_stop_load {
-    int64_t leaves;    /* sum of the parcels that leave the truck there */
-    int64_t comes;     /* sum of what comes aboard there */
-    int64_t stacks;    /* shipments that come aboard, less those that leave */
-    int64_t picked;    /* sum of what was picked up before, and of a stack the shipments on it */
-    int64_t due;       /* sum of what is delivered behind, and likewise */
-    int64_t given;     /* sum of what is delivered on the whole trip */
-    int64_t driven;    /* how far the trip has come */
-    int64_t aboard[3]; /* on leaving */
-    int64_t leaving[3];
-    int64_t coming[3];
-    int64_t before[3]; /* the most that is aboard before the stop */
-    int64_t behind[3]; /* likewise, from leaving it on */
-} tandem_stop_load;
-
 typedef struct tandem_logged_stop {
     int64_t node;
     int64_t arrival;
@@ -416,126 +400,6 @@ typedef struct tandem_vehicle_features {
         type[37], aboard, bound, rest_due;
 } tandem_vehicle_features;
 
-/* A stop of a truck: what is chosen, and all that follows. */
-typedef struct tandem_stop {
-    int64_t node;
-    int64_t kind;    /* a customer, where a trip starts or ends, or a launch site */
-    int64_t release; /* of the trip that starts here */
-    int64_t leave;   /* when the truck leaves */
-    int64_t latest;  /* the last arrival that keeps all rules behind */
-    int64_t leg;     /* how far it is to the next stop */
-    int64_t gap;     /* how long that takes */
-    int64_t flying;  /* drones in the air then */
-    int64_t trip;
-    int64_t early;
-    int64_t rest;
-    int64_t end;
-    int64_t cum;
-    int64_t depart;
-    int64_t arrival;
-    int64_t before;
-    int64_t block;
-    int64_t last;
-    int64_t d;
-    int64_t c;
-    int64_t hi;
-    int64_t lo;
-    int64_t dep;
-    int64_t hold;
-    int64_t idle;
-    int64_t rests;      /* breaks before the next, as rules/breaks.h packs them */
-    int64_t heavy;      /* bits of breaks for which too much is aboard before the next */
-    int64_t start;      /* of service, where lags count */
-    int64_t free_start; /* the latest that costs nothing, likewise; of a plan, its start */
-    double window_cost;
-} tandem_stop;
-
-/* A leg of a route that breaks interrupt. */
-typedef struct tandem_broken_leg {
-    int64_t rests;    /* the breaks, as rules/breaks.h packs them */
-    int64_t begin;    /* of the route */
-    int64_t leave;    /* of the leg */
-    int64_t duration; /* at full speed, without setup */
-    int64_t stood;    /* how long the driver was at other work before */
-} tandem_broken_leg;
-
-/* What is counted of a driver since the last rest: how long it has driven, since when it has
-   worked, and whether it has taken the first part of a rest. */
-typedef struct tandem_driver {
-    int64_t driven;
-    int64_t since;
-    int64_t half_rested;
-} tandem_driver;
-
-/* A drone's way from a stop to its customers, and back at another or the same. */
-typedef struct tandem_sortie {
-    int64_t launch;   /* the position of the stop where it begins */
-    int64_t recovery; /* likewise, where it ends */
-    int64_t drone;    /* its number on the truck */
-    int64_t count;    /* of customers */
-    int64_t state;    /* whether it waits, flies or is done, while its block is timed */
-    int64_t takeoff_d;
-    int64_t takeoff_c;
-    int64_t ready_d;
-    int64_t ready_c;
-    int64_t takeoff;
-    int64_t begin;
-    int64_t held;
-    int64_t home;
-    int64_t limit;
-    int64_t left;
-    int64_t taken;
-    int64_t charged;
-    int64_t kept;
-    int64_t since;
-    int64_t follows;
-    int64_t zones; /* with hours, that hold any of its places */
-    int64_t nodes[8];
-    int64_t arrivals[8]; /* at the customers */
-} tandem_sortie;
-
-typedef struct tandem_trip {
-    int64_t first;
-    int64_t last;
-    int64_t halts; /* stops at launch sites */
-    int64_t release;
-    int64_t distance;
-    int64_t barred;
-    int64_t kept; /* relations by which others go on this trip */
-    int64_t load[3];
-    int64_t wanted;        /* of a battery as it begins, for it and all trips behind */
-    int64_t charged_from;  /* when the vehicle is charged before it */
-    int64_t charged_until; /* the same as that where it isn't */
-} tandem_trip;
-
-/* A vehicle's route, in a slot. */
-typedef struct tandem_route {
-    int64_t type;
-    int64_t length; /* of stops; 0 in an empty slot */
-    int64_t trips;
-    int64_t sorties;
-    int64_t end;
-    int64_t cum;
-    int64_t working;
-    int64_t travel; /* on legs, if that is limited */
-    int64_t offset;
-    int64_t awaited;
-    int64_t unpaid; /* breaks */
-    int64_t placed; /* where its breaks are: as it ends soonest, as they are, nowhere */
-    int64_t
-        driving;   /* at the wheel, of a driver who mustn't rest by rules, far if there are rests */
-    int64_t stamp; /* stands for what the route is; 0 while a turn changes it */
-    int64_t barred;
-    int64_t kept; /* relations by which others go by this vehicle */
-} tandem_route;
-
-/* Where a customer is served. */
-typedef struct tandem_place {
-    int64_t slot;     /* of the route; -1 if left out, -2 if another thread's */
-    int64_t position; /* of the stop; else -1 */
-    int64_t sortie;   /* its number; else -1 */
-} tandem_place;
-
 /* How many there are of each; the turn; the last stamp that was given. */
 typedef struct tandem_search_counts {
     int64_t active;
@@ -581,8 +445,6 @@ TANDEM_ROWS(tandem_goods_1d, const tandem_goods, 1);
 TANDEM_ROWS(tandem_goods_2d, const tandem_goods, 2);
 TANDEM_ROWS(tandem_hub_1d, tandem_hub, 1);
 TANDEM_ROWS(tandem_hub_2d, tandem_hub, 2);
-TANDEM_ROWS(tandem_stop_load_2d, tandem_stop_load, 2);
-TANDEM_ROWS(tandem_stop_load_3d, tandem_stop_load, 3);
 TANDEM_ROWS(tandem_i32_1d, int32_t, 1);
 TANDEM_ROWS(tandem_i32_2d, int32_t, 2);
 TANDEM_ROWS(tandem_i32_3d, int32_t, 3);
@@ -607,21 +469,16 @@ TANDEM_ROWS(tandem_outlook_1d, tandem_outlook, 1);
 TANDEM_ROWS(tandem_outlook_2d, tandem_outlook, 2);
 TANDEM_ROWS(tandem_pair_1d, const tandem_pair, 1);
 TANDEM_ROWS(tandem_pair_2d, const tandem_pair, 2);
-TANDEM_ROWS(tandem_place_1d, tandem_place, 1);
 TANDEM_ROWS(tandem_point_1d, const tandem_point, 1);
 TANDEM_ROWS(tandem_price_1d, const tandem_price, 1);
 TANDEM_ROWS(tandem_price_2d, const tandem_price, 2);
 TANDEM_ROWS(tandem_rate_1d, const tandem_rate, 1);
 TANDEM_ROWS(tandem_rate_2d, const tandem_rate, 2);
-TANDEM_ROWS(tandem_route_1d, tandem_route, 1);
 TANDEM_ROWS(tandem_setup_1d, const tandem_setup, 1);
 TANDEM_ROWS(tandem_setup_2d, const tandem_setup, 2);
 TANDEM_ROWS(tandem_size_1d, const tandem_size, 1);
-TANDEM_ROWS(tandem_sortie_2d, tandem_sortie, 2);
 TANDEM_ROWS(tandem_plugging_1d, tandem_plugging, 1);
 TANDEM_ROWS(tandem_span_1d, tandem_span, 1);
-TANDEM_ROWS(tandem_stop_2d, tandem_stop, 2);
-TANDEM_ROWS(tandem_trip_2d, tandem_trip, 2);
 TANDEM_ROWS(tandem_u64_1d, uint64_t, 1);
 TANDEM_ROWS(tandem_vehicle_1d, tandem_vehicle, 1);
 TANDEM_ROWS(tandem_vehicle_type_1d, const tandem_vehicle_type, 1);
@@ -842,43 +699,48 @@ typedef struct tandem_problem_data {
     tandem_i64_1d deadline; /* (2,) when the search must end, as `model.engine.alarm` says */
 } tandem_problem_data;
 
-typedef struct tandem_fleet {
-    tandem_route_1d route; /* (slot,) */
-    tandem_f64_1d cost;    /* (slot,) */
-    tandem_f64_1d early;   /* (slot,) of it, what waiting costs where trips are held back */
-    tandem_stop_2d stop;   /* (slot, position) */
-    tandem_stop_load_3d
-        stop_load;           /* (slot, tier, position); no tiers where loads of trips tell all */
-    tandem_trip_2d trip;     /* (slot, trip) */
-    tandem_sortie_2d sortie; /* (slot, sortie) */
-    tandem_place_1d where;   /* (node,) */
-    tandem_i64_1d used;      /* (type,) routes */
-} tandem_fleet;
-
 /* A search: its routes, all that it works with, and the memory of both. It belongs to the engine.
  */
 typedef struct tandem_search tandem_search;
 
 /* What Python sees of a search. */
-typedef struct tandem_searcher {
-    tandem_fleet now;
-    tandem_fleet best; /* who is where is not noted */
+typedef struct tandem_seen {
     tandem_search_counts* count;
     tandem_search_values* value;
     tandem_u64_1d rng;     /* (1,) */
     tandem_i64_1d active;  /* slots in use, and behind them those that are free */
     tandem_i64_1d missing; /* customers left out */
     tandem_i64_1d best_missing;
-    tandem_i64_1d absences; /* (node,) turns after which a customer was left out */
-    tandem_f64_3d alone;    /* (type, 2, node) cost of a route that serves one customer */
-    tandem_search* own;
-} tandem_searcher;
+    tandem_i64_1d absences;  /* (node,) turns after which a customer was left out */
+    tandem_i64_1d used;      /* (type,) routes */
+    tandem_i64_1d best_used; /* likewise */
+    tandem_f64_1d cost;      /* (slot,) of each route */
+    tandem_f64_1d best_cost; /* likewise */
+    tandem_f64_3d alone;     /* (type, 2, node) cost of a route that serves one customer */
+} tandem_seen;
 
 /* Functions return 0, or -1 without memory, or -2 after any other failure. */
 
 /* Build. */
 
 int tandem_header(uint64_t* digest); /* of this file, the first 64 bits of its SHA-256 */
+
+/* Plans. */
+
+/* A plan, as numbers in order. Of each route: its type, the vehicle's number within that, and how
+   many trips there are. Of each of these: from when to when the vehicle is charged before it, the
+   same where it isn't; how many stops, sorties and breaks there are. Of a stop: its node, arrival,
+   start of service, departure, how long whoever comes sets up, and whether it is a launch site
+   where the truck stops for its drones. Of a sortie: the drone, the stops of launch and recovery,
+   the take-off, when the recovery begins and ends, how many visits there are, and of each what is
+   told of a stop. Of a break: its number, -1 of a rest that rules ask for, the stop before it,
+   whether it is taken there (0), on the way (1), or at the next (2), when the truck stands, and
+   when it begins and ends. */
+typedef struct tandem_plan tandem_plan;
+
+int tandem_open_plan(tandem_plan** plan);
+int tandem_close_plan(tandem_plan* plan);
+int tandem_numbers_of(tandem_plan* plan, tandem_i64_1d* numbers);
 
 /* Travel. */
 
@@ -930,14 +792,15 @@ int tandem_legal_actions(const tandem_instance* instance, const tandem_state* st
 /* Do one legal action. */
 int tandem_apply(const tandem_instance* instance, const tandem_state* state, int64_t r,
                  int64_t action);
+/* Tell the routes that legal actions make, from the first on. */
+int tandem_tell_rollout(const tandem_instance* instance, const tandem_state* state, int64_t r,
+                        const tandem_i64_1d* actions, tandem_plan* plan);
 /* Do legal actions from the `first` on up to the one that opens the next vehicle, at `behind`. */
 int tandem_apply_route(const tandem_instance* instance, const tandem_state* state, int64_t r,
                        const tandem_i64_1d* actions, int64_t first, int64_t* behind);
 /* Write what each vehicle of legal actions costs as if there were no other. */
 int tandem_price_routes(const tandem_instance* instance, const tandem_state* state, int64_t r,
                         const tandem_i64_1d* actions, const tandem_cost_1d* price);
-/* Let each trip of the open vehicle begin as late as costs nothing, and add its cost. */
-int tandem_close_vehicle(const tandem_instance* instance, const tandem_state* state, int64_t r);
 /* End a rollout that has no legal action left. */
 int tandem_finish(const tandem_instance* instance, const tandem_state* state, int64_t r);
 
@@ -1004,32 +867,32 @@ int tandem_open_search(const tandem_problem_data* data, int64_t routes, int64_t 
                        int64_t trips, int64_t sorties, tandem_search** search);
 /* Give it back. */
 int tandem_close_search(tandem_search* search);
-/* Tell where that is which Python sees, but for `alone`. */
-int tandem_look_into(tandem_search* search, tandem_searcher* seen);
+/* Tell where that is which Python sees. */
+int tandem_look_into(tandem_search* search, tandem_seen* seen);
 /* Tell what the customers left out cost. */
-int tandem_missing_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search,
                         double* cost);
 /* Go on from the best routes. */
-int tandem_go_back(const tandem_searcher* searcher);
+int tandem_go_back(tandem_search* search);
 
 /* Search: insertion. */
 
 /* Tell what it costs to insert a customer on a route by a move of a kind, by the second drone. */
-int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t kind,
+int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
                       int64_t slot, int64_t first, int64_t last, int64_t node, double* cost);
 /* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
-int tandem_cost_beside(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search,
                        int64_t node, double* cost);
 
 /* Tell what is kept of a customer's place on a route: what kind of move is found, -1 if none that
    costs less, -2 if nothing is kept; and that cost. */
-int tandem_kept_place(const tandem_searcher* searcher, int64_t node, int64_t slot, double* cost,
+int tandem_kept_place(tandem_search* search, int64_t node, int64_t slot, double* cost,
                       int64_t* found);
 
 /* Search: moves. */
 
 /* Ruin and recreate; by an order, insert all who are left out instead. */
-int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t turns,
+int tandem_anneal(const tandem_problem_data* data, tandem_search* search, int64_t turns,
                   int64_t order);
 
 /* Search: linked. */
@@ -1039,42 +902,42 @@ typedef struct tandem_linked tandem_linked;
 
 /* Make room for the routes of a search, and for so many changes of times in a turn, none where
    nothing limits times; neighbours are as near as in another search of the same problem, if any. */
-int tandem_open_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_open_linked(const tandem_problem_data* data, tandem_search* search,
                        int64_t moments, const tandem_linked* like, tandem_linked** linked);
 /* Give it back. */
 int tandem_close_linked(tandem_linked* linked);
 /* Link the routes of a search as they are, and of its best plan. */
-int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_tie(const tandem_problem_data* data, tandem_search* search,
                tandem_linked* linked);
 /* Ruin and recreate so many times among linked stops. */
-int tandem_anneal_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_anneal_linked(const tandem_problem_data* data, tandem_search* search,
                          tandem_linked* linked, int64_t turns);
 /* Link the routes of a search, insert all who are left out in an order and write them back. */
-int tandem_insert_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_insert_linked(const tandem_problem_data* data, tandem_search* search,
                          tandem_linked* linked, int64_t order);
 /* Let the routes of a search, and of its best plan, be those that are linked. */
-int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_write_back(const tandem_problem_data* data, tandem_search* search,
                       tandem_linked* linked);
 
 /* Search: beginning. */
 
 /* Take all routes apart. */
-int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher);
+int tandem_disband(const tandem_problem_data* data, tandem_search* search);
 /* Take the route apart, without sorties, whose customers were left out after the fewest turns. */
-int tandem_give_up_route(const tandem_problem_data* data, const tandem_searcher* searcher);
+int tandem_give_up_route(const tandem_problem_data* data, tandem_search* search);
 /* Insert the shipments left out among the routes that there are, as `search/ejection` says, in so
    many rounds at most; `gently`, others hardly go other ways. `made` is how many, `done` whether
    all were; else the routes are as they were, or the best. */
-int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher, int64_t rounds,
+int tandem_eject(const tandem_problem_data* data, tandem_search* search, int64_t rounds,
                  bool gently, int64_t* made, int64_t* done);
 /* Move or exchange so many shipments at random, where all are served and rules are kept; by one
    vehicle more, too, if there is one. */
-int tandem_move_shipments(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_move_shipments(const tandem_problem_data* data, tandem_search* search,
                           int64_t moves, bool by_one_more);
 /* Let the routes be those of one plan, some of them exchanged for as many of another that serve
    nearly the same shipments; whoever fits nowhere then is left out. Plans are the ends that each
    route serves, in order, ended by -1. Not `done`: the routes are the best ones, or as before. */
-int tandem_exchange_routes(const tandem_problem_data* data, const tandem_searcher* searcher,
+int tandem_exchange_routes(const tandem_problem_data* data, tandem_search* search,
                            const tandem_i64_1d* one, const tandem_i64_1d* other, int64_t* done);
 /* Write which type's trucks drive least for each customer alone. */
 int tandem_write_nearest_types(const tandem_problem_data* data, const tandem_i64_1d* nearest);
@@ -1092,37 +955,15 @@ int tandem_join_either_way(const tandem_problem_data* data, int64_t k, int64_t r
 /* Tell how far the routes of all are whom a type may serve. */
 int tandem_length_of(const tandem_problem_data* data, int64_t k, const tandem_i64_2d* beside,
                      int64_t* length);
-/* Write the cost of a route that serves one customer alone, (type, 2, node). */
-int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
-                       const tandem_f64_3d* alone);
-/* Time the routes written; those that break a rule are left to be planned anew. */
-int tandem_begin(const tandem_problem_data* data, const tandem_searcher* searcher,
-                 int64_t num_routes);
+/* Begin with the routes of a plan; those that break a rule are left to be planned anew. */
+int tandem_begin(const tandem_problem_data* data, tandem_search* search,
+                 const tandem_i64_1d* numbers);
 /* Tell what the truck's legs between customers cost on average. */
-int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* searcher, double* cost);
-/* Write the times of a route whose trips begin as late as costs nothing; fails if nobody can drive
-   it. */
-int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t slot);
-/* Write when a driver who rests by rules stands for each break on a leg, when that begins, and when
-   it ends; who has driven the leg then. */
-int tandem_rest_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
-                      const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,
-                      tandem_driver* driver, const tandem_i64_2d* times);
-
-/* Write when a vehicle of a type stands for each break on a leg, when that begins, and when it
- * ends.
- */
-int tandem_break_times(const tandem_vehicle_type_1d* types, const tandem_i64_2d* profile_time,
-                       const tandem_i64_2d* profile_factor, int64_t k, const tandem_broken_leg* leg,
-                       const tandem_i64_2d* times);
-/* Write when service begins at customers, by the rows of all nodes. */
-int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
-                          const tandem_i64_1d* arrivals, const tandem_i64_1d* starts);
-/* Write when a truck's drone has served its customers, and tell when it is aboard, whose recovery
-   begins at `begin`. */
-int tandem_sortie_ends(const tandem_node_3d* places, const tandem_vehicle_type_1d* types, int64_t k,
-                       int64_t drone, const tandem_i64_1d* nodes, const tandem_i64_1d* arrivals,
-                       int64_t begin, const tandem_i64_1d* ends, int64_t* aboard);
+int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost);
+/* Tell the routes of the best plan, whose trips begin as late as costs nothing; fails if nobody can
+   drive one. */
+int tandem_tell_best(const tandem_problem_data* data, tandem_search* search,
+                     tandem_plan* plan);
 
 /* Tell the sum of digests of all that insertions were found to cost since the last call, in builds
    with TANDEM_TRACED; nought in others. */
@@ -1130,16 +971,30 @@ int tandem_take_trace(int64_t* digest);
 
 /* Search: sharing. */
 
-/* Go on from the routes that a thread owns, and the customers missing. */
-int tandem_take_part(const tandem_problem_data* data, const tandem_searcher* whole,
-                     const tandem_searcher* part, const tandem_i64_1d* owner, int64_t number,
-                     const tandem_i64_1d* missing, const tandem_i64_1d* spare);
-/* Copy a part's routes behind the slots filled, and who is missing; tell how many are filled. */
-int tandem_add_routes(const tandem_problem_data* data, const tandem_searcher* whole,
-                      const tandem_searcher* part, int64_t filled, int64_t* slots);
+/* Write the slot of each node's route, -1 if it is left out, -2 if another thread's. */
+int tandem_write_slots(tandem_search* search, const tandem_i64_1d* slots);
+/* Write how many batteries each route takes of each depot, (slot, depot). */
+int tandem_write_taken(const tandem_problem_data* data, tandem_search* search,
+                       const tandem_i64_2d* taken);
+/* Write whom each route serves, in order, ended by -1; tell how many numbers that takes. */
+int tandem_write_served(tandem_search* search, const tandem_i64_1d* nodes, int64_t* count);
+/* Tell how many routes and sorties the best plan has. */
+int tandem_size_of_best(tandem_search* search, int64_t* routes, int64_t* sorties);
+/* Go on from the routes that a thread owns, in so many slots, and the customers missing; so many
+   vehicles of each type are used, by others too. */
+int tandem_take_part(const tandem_problem_data* data, tandem_search* whole, tandem_search* part,
+                     int64_t slots, const tandem_i64_1d* owner, int64_t number,
+                     const tandem_i64_1d* missing, const tandem_i64_1d* used);
+/* Go on from all routes as they are, or from the best ones. */
+int tandem_take_all(const tandem_problem_data* data, tandem_search* whole, tandem_search* part);
+int tandem_take_best(const tandem_problem_data* data, tandem_search* search);
+/* Have a part's routes beside those there are, or alone, and whom it leaves out. */
+int tandem_add_routes(const tandem_problem_data* data, tandem_search* whole, tandem_search* part,
+                      bool alone);
 /* Likewise its best routes. */
-int tandem_add_best(const tandem_searcher* whole, const tandem_searcher* part, int64_t filled,
-                    int64_t* slots);
+int tandem_add_best(tandem_search* whole, tandem_search* part, bool alone);
+/* Let the best plan take over the parts of the routes as they are that cost less. */
+int tandem_take_better_parts(const tandem_problem_data* data, tandem_search* search);
 
 /* End of sections. */
 

@@ -14,7 +14,12 @@
 
 namespace tandem {
 
-using Driver = tandem_driver;
+// What is counted of a driver since the last rest.
+struct Driver {
+    Int driven;
+    Int since;        // when it began to work
+    Int half_rested;  // whether it has taken the first part of a rest
+};
 
 // Breaks and rests on one route, at most, where rules ask for rests.
 constexpr Int most_rests_on_route = 16;

@@ -92,6 +92,9 @@ inline Int recovery_end(const VehicleType& type, Int begin) {
     return begin + type.recovery_duration;
 }
 
+// When the recovery begins of a drone that is aboard at `end`.
+inline Int recovery_begin(const VehicleType& type, Int end) { return end - type.recovery_duration; }
+
 // When a drone takes off at the latest whose truck would leave at `leave` without it, if no window
 // holds it back. A usual launch is taken to be over by then, a swap to begin, and where it has to
 // be charged, or to wait for calm, nothing is known.

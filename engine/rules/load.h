@@ -14,7 +14,21 @@
 
 namespace tandem {
 
-using StopLoad = tandem_stop_load;
+// What is aboard around a stop of a trip, of one tier; sums are over all dimensions.
+struct StopLoad {
+    Int leaves;     // sum of the parcels that leave the truck there
+    Int comes;      // sum of what comes aboard there
+    Int stacks;     // shipments that come aboard, less those that leave
+    Int picked;     // sum of what was picked up before, and of a stack the shipments on it
+    Int due;        // sum of what is delivered behind, and likewise
+    Int given;      // sum of what is delivered on the whole trip
+    Int driven;     // how far the trip has come
+    Int aboard[3];  // on leaving
+    Int leaving[3];
+    Int coming[3];
+    Int before[3];  // the most that is aboard before the stop
+    Int behind[3];  // likewise, from leaving it on
+};
 
 using Amount = std::array<Int, 3>;  // by dimension of one tier
 

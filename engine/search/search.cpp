@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 
 #include "guard.h"
 #include "search/route/state.h"
@@ -17,7 +18,7 @@ std::array<Int, 2> kept(const ProblemData& data, const SearchRoom& room) {
 
 }  // namespace
 
-OwnFleet::OwnFleet(const ProblemData& data, const SearchRoom& room, Int nodes)
+Fleet::Fleet(const ProblemData& data, const SearchRoom& room, Int nodes)
     : route({room.routes + scratch_slots}),
       cost({room.routes + scratch_slots}),
       early({room.routes + scratch_slots}),
@@ -30,12 +31,15 @@ OwnFleet::OwnFleet(const ProblemData& data, const SearchRoom& room, Int nodes)
     std::fill(where.begin(), where.end(), Place{nowhere, nowhere, nowhere});
 }
 
-Search::Search(const ProblemData& data, const SearchRoom& room)
+Searcher::Searcher(const ProblemData& data, const SearchRoom& room)
     : now(data, room, data.num_nodes),
       before(data, room, 0),
       best(data, room, 0),
+      count(std::make_unique<SearchCounts>()),
+      value(std::make_unique<SearchValues>()),
       rng({1}),
-      active({room.routes}),
+      slots({room.routes}),
+      active(slots),
       rank({room.routes}),
       changed({room.routes}),
       is_changed({room.routes}),
@@ -48,25 +52,16 @@ Search::Search(const ProblemData& data, const SearchRoom& room)
       hit({room.routes, room.trips}),
       kept_stamp(kept(data, room)),
       kept_move(kept(data, room)),
-      kept_cost(kept(data, room)) {
-    count.focus = nowhere;
+      kept_cost(kept(data, room)),
+      alone(data.can.shape()) {
+    count->focus = nowhere;
 }
 
-Searcher searcher_of(const tandem_searcher& from) {
-    const Search& own = *from.own;
-    return {from,           own.before.view(), own.rank,      own.changed,
-            own.is_changed, own.absent,        own.touched,   own.marked,
-            own.hit,        own.kept_stamp,    own.kept_move, own.kept_cost};
-}
-
-Searcher looking(const ProblemData& data, const tandem_searcher& from) {
-    Searcher searcher = searcher_of(from);
-    std::unique_ptr<Scratch>& scratch = from.own->scratch;
-    if (!scratch || !scratch->is_enough_for(data, searcher)) {
-        scratch = std::make_unique<Scratch>(data, searcher);
+Searcher& looking(const ProblemData& data, Searcher& searcher) {
+    if (!searcher.scratch || !searcher.scratch->is_enough_for(data, searcher)) {
+        searcher.scratch = std::make_shared<Scratch>(data, searcher);
     }
-    scratch->offers = 0;
-    searcher.scratch = scratch.get();
+    searcher.scratch->offers = 0;
     return searcher;
 }
 
@@ -86,29 +81,31 @@ int tandem_close_search(tandem_search* search) {
     return guarded([&] { const std::unique_ptr<tandem_search> owned(search); });
 }
 
-int tandem_look_into(tandem_search* search, tandem_searcher* seen) {
+int tandem_look_into(tandem_search* search, tandem_seen* seen) {
     return guarded([&] {
-        Search& own = *search;
-        *seen = {own.now.view(), own.best.view(),  &own.count,   &own.value, own.rng, own.active,
-                 own.missing,    own.best_missing, own.absences, {},         search};
+        const Fleet &now = search->now, &best = search->best;
+        *seen = {search->count.get(), search->value.get(),
+                 search->rng,         search->active,
+                 search->missing,     search->best_missing,
+                 search->absences,    now.used,
+                 best.used,           now.cost,
+                 best.cost,           search->alone};
     });
 }
 
-int tandem_missing_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
-                        double* cost) {
-    return guarded([&] { *cost = missing_cost(data_of(*data), searcher_of(*searcher)); });
+int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search, double* cost) {
+    return guarded([&] { *cost = missing_cost(data_of(*data), *search); });
 }
 
-int tandem_go_back(const tandem_searcher* searcher) {
-    return guarded([&] { go_back(searcher_of(*searcher)); });
+int tandem_go_back(tandem_search* search) {
+    return guarded([&] { go_back(*search); });
 }
 
-int tandem_kept_place(const tandem_searcher* searcher, int64_t node, int64_t slot, double* cost,
+int tandem_kept_place(tandem_search* search, int64_t node, int64_t slot, double* cost,
                       int64_t* found) {
     return guarded([&] {
-        const Search& own = *searcher->own;
-        const bool is_kept = own.kept_stamp(node, slot) == searcher->now.route[slot].stamp;
-        *found = is_kept ? own.kept_move(node, slot).kind : elsewhere;
-        *cost = own.kept_cost(node, slot);
+        const bool is_kept = search->kept_stamp(node, slot) == search->now.route[slot].stamp;
+        *found = is_kept ? search->kept_move(node, slot).kind : elsewhere;
+        *cost = search->kept_cost(node, slot);
     });
 }

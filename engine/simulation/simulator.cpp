@@ -470,14 +470,6 @@ int tandem_price_routes(const tandem_instance* instance, const tandem_state* sta
     });
 }
 
-int tandem_close_vehicle(const tandem_instance* instance, const tandem_state* state,
-                         std::int64_t r) {
-    return guarded([&] {
-        State rows = *state;
-        close_vehicle(*instance, rows, r);
-    });
-}
-
 int tandem_finish(const tandem_instance* instance, const tandem_state* state, std::int64_t r) {
     return guarded([&] {
         State rows = *state;

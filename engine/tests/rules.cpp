@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <initializer_list>
+#include <vector>
 
 #include "rules/clock.h"
 #include "rules/flight.h"
@@ -131,10 +132,11 @@ void capacity_left(const tandem_vehicle_type* type, const tandem_node* place, in
 }
 
 void rooms_between(const tandem_vehicle_type* type, const int64_t* amounts, int64_t nodes,
-                   int64_t tiers, const int64_t* route, int64_t length,
-                   tandem_stop_load* stop_loads, int64_t more, int64_t* found) {
+                   int64_t tiers, const int64_t* route, int64_t length, int64_t more,
+                   int64_t* found) {
     const View<const Int, 3> asked(amounts, {nodes, tiers, 8});
-    const View<StopLoad, 2> stops(stop_loads, {tiers, length + 2});
+    std::vector<StopLoad> loads(static_cast<std::size_t>(tiers * (length + 2)));
+    const View<StopLoad, 2> stops(loads.data(), {tiers, length + 2});
     bool allowed = true;
     for (Int tier = 0; tier < tiers; ++tier) {
         for (Int p = 1; p <= length; ++p) {

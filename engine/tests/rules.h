@@ -63,10 +63,10 @@ void demands_held(const tandem_vehicle_type* type, const tandem_node* places, in
 /* Whether a demand is within the capacity, both in sum: what is asked for, and what is left. */
 void capacity_left(const tandem_vehicle_type* type, const tandem_node* place, int64_t* found);
 /* Whether a vehicle may serve some in turn; where there is room for one `more` behind each stop.
- * `amounts` is (node, tier, 8), `stop_loads` (tier, stop). */
+ * `amounts` is (node, tier, 8). */
 void rooms_between(const tandem_vehicle_type* type, const int64_t* amounts, int64_t nodes,
-                   int64_t tiers, const int64_t* route, int64_t length,
-                   tandem_stop_load* stop_loads, int64_t more, int64_t* found);
+                   int64_t tiers, const int64_t* route, int64_t length, int64_t more,
+                   int64_t* found);
 
 /* When a leg ends, and starts, whether speeds never change. */
 void clocked(const tandem_vehicle_type* type, const int64_t* times, int64_t changes,

@@ -55,7 +55,7 @@ def search_fewer(data: ProblemData, whole: Searcher, search: Callable[[], None],
             call("tandem_give_up_route", data, whole)
             if eject is not None and not eject():
                 break
-            while whole.best.used.sum() >= used and not is_over():
+            while whole.best_used.sum() >= used and not is_over():
                 search()
         go_on_from_best(data, whole)
     finally:

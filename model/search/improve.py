@@ -11,6 +11,7 @@ import numpy as np
 
 from model.engine.alarm import Alarm
 from model.engine.instance import Instance, pack
+from model.engine.library import call
 from model.engine.pausing import EndedError, never, pausing
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew, begin_by_types
@@ -260,7 +261,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     is_large = problem.num_customers >= LARGE_FROM
     linked = linked_rooms(data, whole, config.threads)
     _begin(data, whole, linked[0], fresh, fresh and bool(plan.routes), task)
-    limits.reading = task.reading(*_size(whole))
+    limits.reading = task.reading(*call("tandem_size_of_best", whole))
     heat = Heat.of(data, whole, is_large, from_trucks, config.hot, config.cold)
     first_cost = float(whole.value.cost)
     workers = [Worker(data, whole, limits, heat, cooled=config.cooled, linked=room)
@@ -272,7 +273,7 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
         return best_plan(data, searcher, node)
 
     def after_round(turns: int) -> None:
-        limits.reading = task.reading(*_size(whole))
+        limits.reading = task.reading(*call("tandem_size_of_best", whole))
         on_progress(Progress(float(whole.value.best), turns, best))
 
     crew = Crew(data, problem.coordinates[numbering.node], whole, seeds[1:])
@@ -290,13 +291,6 @@ def _improved(task: _Task, solution: Solution, from_trucks: bool,
     in_vain = is_late and max(first_cost, task.given_cost) <= cost < math.inf
     return Improved(solution if in_vain else best(found), cost, first_cost,
                     sum(worker.turns for worker in workers), not is_late)
-
-
-def _size(whole: Searcher) -> tuple[int, int]:
-    """Return the numbers of routes and sorties of the best plan."""
-    routes = whole.best.route[:len(whole.active)]
-    used = routes["length"] > 0
-    return int(np.count_nonzero(used)), int(routes["sorties"][used].sum())
 
 
 def _begin(data: ProblemData, whole: Searcher, linked: Linked | None, fresh: bool,

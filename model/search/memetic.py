@@ -68,10 +68,9 @@ class _Plan:
     @classmethod
     def of(cls, searcher: Searcher) -> "_Plan":
         """Return the plan as it is."""
-        now, parts, end = searcher.now, list[IntArray](), np.array([NOWHERE], np.int64)
-        for slot in searcher.active[:searcher.count.active].tolist():
-            parts.extend([now.stop["node"][slot, 1:now.route["length"][slot] - 1], end])
-        nodes, follower = np.concatenate(parts), np.full(len(now.where) + 1, NOWHERE)
+        number = len(searcher.absences)
+        nodes, follower = np.empty(2 * number, np.int64), np.full(number + 1, NOWHERE)
+        nodes = nodes[:call("tandem_write_served", searcher, nodes)]
         follower[nodes[:-1]] = nodes[1:]
         return cls(float(searcher.value.cost), nodes, follower[:-1])
 

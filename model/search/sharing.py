@@ -4,10 +4,9 @@ import numpy as np
 
 from model.engine.library import call
 from model.problem import FloatArray, IntArray
-from model.search.beginning.room import Room
-from model.search.hubs import shared_out, taken_by
-from model.search.route.layout import NOWHERE, OTHERS, ProblemData, are_kept
-from model.search.route.state import ALL, Searcher
+from model.search.hubs import shared_out
+from model.search.route.layout import ProblemData, are_kept
+from model.search.route.state import Searcher
 
 DIVIDED_FROM = 200
 """Number of customers from which on each thread has a region of its own."""
@@ -32,7 +31,6 @@ class Crew:
         self._data = data
         self._place = place
         self._rooms = [whole] if len(seeds) == 1 else make_rooms(data, whole, seeds)
-        self._parts = self._rooms
         self._divided = False
         self._rng = np.random.default_rng(seeds[0])
 
@@ -51,95 +49,79 @@ class Crew:
         if self._divided:
             owner = regions(self._place, whole, threads, self._rng)
             self._divide(owner)
-            return list(zip(self._problems(owner), self._parts, strict=True))
-        self._parts = self._rooms
-        for part in self._parts:
+            return list(zip(self._problems(owner), self._rooms, strict=True))
+        for part in self._rooms:
             take_all(self._data, whole, part)
-        return [(self._data, part) for part in self._parts]
+        return [(self._data, part) for part in self._rooms]
 
     def _problems(self, owner: IntArray) -> list[ProblemData]:
         """Return the problem of each part, with a share of what routes leave of stocks."""
         threads = len(self._rooms)
         if len(self._data.hub) == 0:
             return [self._data] * threads
-        return shared_out(self._data, taken_by(self._data, self.whole.now, len(owner)), owner,
-                          threads)
+        return shared_out(self._data, self.whole, owner, threads)
 
     def _divide(self, owner: IntArray) -> None:
         """Give each part the routes of a region, and a share of vehicles and slots left over."""
         whole, threads = self.whole, len(self._rooms)
         missing = whole.missing[: whole.count.missing]
-        beside = whole.now.where["slot"][self._data.near[missing]]
+        beside = slots_of(whole)[self._data.near[missing]]
         nearest = np.take_along_axis(beside, (beside >= 0).argmax(axis=1)[:, None], axis=1)[:, 0]
         heir = np.where(nearest >= 0, owner[nearest], 0)
-        spare = self._data.type["count"][:self._data.num_types] - whole.now.used
+        count = self._data.type["count"][:self._data.num_types]
         routes = np.bincount(owner[whole.active[: whole.count.active]], minlength=threads)
         free = (len(whole.active) - routes.sum()) // threads
-        self._parts = [room._replace(active=room.active[: routes[number] + free])
-                       for number, room in enumerate(self._rooms)]
-        for number, part in enumerate(self._parts):
-            call("tandem_take_part", self._data, whole, part, owner, number,
-                 missing[heir == number], (spare + number) // threads)
+        for number, part in enumerate(self._rooms):
+            call("tandem_take_part", self._data, whole, part, routes[number] + free, owner, number,
+                 missing[heir == number], count - (count - whole.used + number) // threads)
 
     def gather(self) -> None:
         """Put together what the searches found since they were spread."""
         if len(self._rooms) == 1:
             return
-        whole = self.whole
-        chosen = self._parts
-        best = self._parts
+        chosen = best = self._rooms
         if not self._divided:
-            chosen = [min(self._parts, key=lambda part: float(part.value.cost))]
-            best = [min(self._parts, key=lambda part: float(part.value.best))]
-        whole.now.route["length"] = 0
-        whole.now.where["slot"] = NOWHERE
-        whole.now.used[:] = 0
-        whole.count.missing = filled = 0
-        whole.value.cost = sum(float(part.value.cost) for part in chosen)
-        for part in chosen:
-            filled = call("tandem_add_routes", self._data, whole, part, filled)
-        keep_best_of(whole, best)
+            chosen = [min(self._rooms, key=lambda part: float(part.value.cost))]
+            best = [min(self._rooms, key=lambda part: float(part.value.best))]
+        self.whole.value.cost = sum(float(part.value.cost) for part in chosen)
+        for number, part in enumerate(chosen):
+            call("tandem_add_routes", self._data, self.whole, part, number == 0)
+        keep_best_of(self.whole, best)
 
 
 def make_rooms(data: ProblemData, whole: Searcher,
                seeds: list[np.random.SeedSequence]) -> list[Searcher]:
     """Return room for a search by each seed, as large as the whole."""
-    stops, trips, sorties = (table.shape[1] for table in (
-        whole.now.stop, whole.now.trip, whole.now.sortie))
-    room = Room(len(whole.active), stops, trips, sorties)
-    return [Searcher.opened(data, room, whole.alone, seed) for seed in seeds]
+    rooms = [Searcher(data, whole.room, seed) for seed in seeds]
+    for room in rooms:
+        room.alone[:] = whole.alone
+    return rooms
 
 
 def take_all(data: ProblemData, whole: Searcher, part: Searcher) -> None:
     """Go on from all routes as they are. In place."""
-    call("tandem_take_part", data, whole, part, np.zeros(len(whole.active), np.int64), 0,
-         whole.missing[: whole.count.missing],
-         data.type["count"][:data.num_types] - whole.now.used)
+    call("tandem_take_all", data, whole, part)
 
 
 def keep_best_of(whole: Searcher, parts: list[Searcher]) -> None:
     """Let the best routes be those of all parts together if they cost less. In place."""
     cost = sum(float(part.value.best) for part in parts)
     if cost < float(whole.value.best) - ROUNDING:
-        whole.best.route["length"] = 0
-        whole.count.best_missing = filled = 0
         whole.value.best = cost
-        for part in parts:
-            filled = call("tandem_add_best", whole, part, filled)
-        whole.best.route["stamp"] = OTHERS
-        whole.count.changed = ALL
+        for number, part in enumerate(parts):
+            call("tandem_add_best", whole, part, number == 0)
 
 
 def go_on_from_best(data: ProblemData, whole: Searcher) -> None:
     """Let the routes be the best ones. In place."""
-    best, count = whole.best, whole.count.copy()
-    slots = np.flatnonzero(best.route[: len(whole.active)]["length"] > 0)
-    best.used[:] = np.bincount(best.route["type"][slots], minlength=data.num_types)
-    count.active, count.missing = len(slots), count.best_missing
-    active = whole.active.copy()
-    active[: len(slots)] = slots
-    take_all(data, whole._replace(now=best, active=active, missing=whole.best_missing.copy(),
-                                   count=count), whole)
+    call("tandem_take_best", data, whole)
+
+
+def slots_of(searcher: Searcher) -> IntArray:
+    """Return (node,) the slot of each node's route; below zero where there is none."""
+    slots = np.empty(len(searcher.absences), np.int64)
+    call("tandem_write_slots", searcher, slots)
+    return slots
 
 
 def regions(place: FloatArray, whole: Searcher, threads: int,
@@ -149,7 +131,7 @@ def regions(place: FloatArray, whole: Searcher, threads: int,
     Regions are sectors around the depot or stripes of about as many customers, drawn anew each
     time, so that no border stays.
     """
-    slot = whole.now.where["slot"]
+    slot = slots_of(whole)
     served = np.flatnonzero(slot >= 0)
     slots = len(whole.active)
     customers = np.bincount(slot[served], minlength=slots)

@@ -60,7 +60,7 @@ class Heat:
         served = max(1, int(searcher.count.customers) - missing)
         cost = float(searcher.value.cost) - missing_cost(data, searcher)
         fairness = data.fairness
-        lacking = fairness.min_vehicles - fairness.used - int(searcher.now.used.sum())
+        lacking = fairness.min_vehicles - fairness.used - int(searcher.used.sum())
         cost -= max(0.0, lacking) * fairness.too_few
         if is_fleet:
             cost -= fixed_costs(data, searcher)

@@ -10,8 +10,7 @@ from model.engine.pausing import EndedError
 from model.search.limits import ROUNDS, WHOLE, Limits, Span
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
-from model.search.recombining import take_better_parts
-from model.search.route.engine import ANY, LONGEST_STRING, anneal
+from model.search.route.engine import ANY, LONGEST_STRING, anneal, take_better_parts
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.temperature import Heat
@@ -57,16 +56,16 @@ class Worker:
     pace: float = 0.0  # seconds a turn takes
     cooled: float = 0.0  # share of the cooling that is left out
     looked: int = 0  # turns after which better parts were last looked for
-    given: tuple[Packed, Packed] = field(init=False)  # data and search, packed
+    given: tuple[Packed, Searcher] = field(init=False)  # data, packed, and search
 
     def __post_init__(self) -> None:
         """Pack for the first rounds."""
-        self.given = packed(self.data), packed(self.searcher)
+        self.given = packed(self.data), self.searcher
 
     def set_out(self, data: ProblemData, searcher: Searcher, span: Span) -> None:
         """Have the next round go on from a search, often that of the last one. In place."""
         if data is not self.data or searcher is not self.searcher:
-            self.given = packed(data), packed(searcher)
+            self.given = packed(data), searcher
         self.data, self.searcher, self.span = data, searcher, span
 
     def run(self) -> None:
@@ -112,10 +111,10 @@ class Worker:
         if (self.span.share(self.limits.share(self.turns)) >= LOOKED_FROM
                 and spare > LOOK * self.data.num_nodes and not self.limits.should_stop()):
             if self.linked is None:
-                take_better_parts(self.data, self.searcher)
+                take_better_parts(*self.given)
                 return
             write_back(*self.given, self.linked)
-            take_better_parts(self.data, self.searcher)
+            take_better_parts(*self.given)
             tie(*self.given, self.linked)
 
     def _longest_string(self) -> float:

@@ -52,11 +52,6 @@ def price_routes(instance: Instance | Packed, state: State | Packed, r: int, act
     call("tandem_price_routes", instance, state, r, actions, price)
 
 
-def close_vehicle(instance: Instance | Packed, state: State | Packed, r: int) -> None:
-    """Let each trip of the vehicle begin as late as costs nothing and add its cost. In place."""
-    call("tandem_close_vehicle", instance, state, r)
-
-
 def finish(instance: Instance, state: State, r: int) -> None:
     """End a rollout that has no legal action left: close its vehicle, count who is left.
 

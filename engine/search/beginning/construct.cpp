@@ -75,17 +75,16 @@ void give_up_route(const ProblemData& data, Searcher& searcher) {
 
 using namespace tandem;
 
-extern "C" int tandem_give_up_route(const tandem_problem_data* data,
-                                    const tandem_searcher* searcher) {
+extern "C" int tandem_give_up_route(const tandem_problem_data* data, tandem_search* search) {
     return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
+        Searcher& searching = *search;
         give_up_route(data_of(*data), searching);
     });
 }
 
-extern "C" int tandem_disband(const tandem_problem_data* data, const tandem_searcher* searcher) {
+extern "C" int tandem_disband(const tandem_problem_data* data, tandem_search* search) {
     return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
+        Searcher& searching = *search;
         disband(data_of(*data), searching);
     });
 }

@@ -1,17 +1,14 @@
 #include "search/beginning/translate.h"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "guard.h"
 #include "rules/breaks.h"
 #include "rules/driving.h"
-#include "rules/drone_types.h"
-#include "rules/flight.h"
 #include "rules/hub.h"
 #include "rules/pair.h"
 #include "rules/shift.h"
-#include "rules/window.h"
+#include "search/beginning/plans.h"
 #include "search/insertion/evaluate.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/fairness.h"
@@ -86,6 +83,7 @@ bool time_anew(const ProblemData& data, Fleet& fleet, Int slot) {
 
 void alone_costs(const ProblemData& data, Fleet& fleet, const View<double, 3>& alone) {
     const Int slot = fleet.route.size() - 1;
+    std::fill_n(alone.data(), 2 * alone.shape(0) * data.num_nodes, infeasible);
     for (Int k = 0; k < data.num_types; ++k) {
         for (Int by_drone = 0; by_drone < 2; ++by_drone) {
             for (Int node = data.num_depots; node < data.num_nodes; ++node) {
@@ -172,99 +170,16 @@ bool finish_route(const ProblemData& data, Fleet& fleet, Int slot) {
 
 using namespace tandem;
 
-extern "C" int tandem_alone_costs(const tandem_problem_data* data, const tandem_fleet* fleet,
-                                  const tandem_f64_3d* alone) {
+extern "C" int tandem_begin(const tandem_problem_data* data, tandem_search* search,
+                            const tandem_i64_1d* numbers) {
     return guarded([&] {
-        Fleet routes = *fleet;
-        alone_costs(data_of(*data), routes, *alone);
+        const ProblemData problem = data_of(*data);
+        alone_costs(problem, search->now, search->alone);
+        begin(problem, *search, read_plan(search->now, *numbers));
     });
 }
 
-extern "C" int tandem_begin(const tandem_problem_data* data, const tandem_searcher* searcher,
-                            int64_t num_routes) {
-    return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
-        begin(data_of(*data), searching, num_routes);
-    });
-}
-
-extern "C" int tandem_leg_cost(const tandem_problem_data* data, const tandem_searcher* searcher,
+extern "C" int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search,
                                double* cost) {
-    return guarded([&] { *cost = leg_cost(data_of(*data), searcher_of(*searcher)); });
-}
-
-extern "C" int tandem_finish_route(const tandem_problem_data* data, const tandem_fleet* fleet,
-                                   int64_t slot) {
-    return guarded([&] {
-        Fleet routes = *fleet;
-        if (!finish_route(data_of(*data), routes, slot)) {
-            throw std::invalid_argument("nobody can drive the route");
-        }
-    });
-}
-
-extern "C" int tandem_rest_times(const tandem_vehicle_type_1d* types,
-                                 const tandem_i64_2d* profile_time,
-                                 const tandem_i64_2d* profile_factor, int64_t k,
-                                 const tandem_broken_leg* leg, tandem_driver* driver,
-                                 const tandem_i64_2d* times) {
-    return guarded([&] {
-        const Speeds speeds{(*types)[k], (*profile_time)[k], (*profile_factor)[k]};
-        const View<Int, 2> written = *times;
-        const Rests rests(leg->rests);
-        RestedLeg rested(speeds, leg->begin, *driver, leg->stood, leg->leave, leg->duration);
-        for (Int index = 0; index < rests.count(); ++index) {
-            written(index, 1) = rested.take(rests.number(index), rests.place(index));
-            written(index, 0) = rested.stood();
-            written(index, 2) = rested.time();
-        }
-        rested.arrive();
-        *driver = rested.driver();
-    });
-}
-
-extern "C" int tandem_break_times(const tandem_vehicle_type_1d* types,
-                                  const tandem_i64_2d* profile_time,
-                                  const tandem_i64_2d* profile_factor, int64_t k,
-                                  const tandem_broken_leg* leg, const tandem_i64_2d* times) {
-    return guarded([&] {
-        const VehicleType& type = (*types)[k];
-        const View<Int, 2> written = *times;
-        const Rests rests(leg->rests);
-        const auto travel = [&](Int leave) {
-            return leg_end(type, (*profile_time)[k], (*profile_factor)[k], leg->duration, leave);
-        };
-        BrokenLeg broken(type, leg->begin, leg->leave, travel);
-        for (Int index = 0; index < rests.count(); ++index) {
-            broken.rest(rests.number(index), rests.place(index), [&](Int stood, Int start) {
-                written(index, 0) = stood;
-                written(index, 1) = start;
-            });
-            written(index, 2) = broken.time();
-        }
-    });
-}
-
-extern "C" int tandem_service_starts(const tandem_node_2d* place, const tandem_i64_1d* nodes,
-                                     const tandem_i64_1d* arrivals, const tandem_i64_1d* starts) {
-    return guarded([&] {
-        const NodeTable places = *place;
-        for (Int index = 0; index < nodes->size(); ++index) {
-            (*starts)[index] = places[(*nodes)[index]].start_of_service((*arrivals)[index]);
-        }
-    });
-}
-
-extern "C" int tandem_sortie_ends(const tandem_node_3d* places, const tandem_vehicle_type_1d* types,
-                                  int64_t k, int64_t drone, const tandem_i64_1d* nodes,
-                                  const tandem_i64_1d* arrivals, int64_t begin,
-                                  const tandem_i64_1d* ends, int64_t* aboard) {
-    return guarded([&] {
-        const VehicleType& type = (*types)[row_of_drone(*types, k, drone)];
-        const NodeTable by_air = NodeTables(*places).by_air(type);
-        for (Int index = 0; index < nodes->size(); ++index) {
-            (*ends)[index] = by_air[(*nodes)[index]].end_of_service((*arrivals)[index]);
-        }
-        *aboard = recovery_end(type, begin);
-    });
+    return guarded([&] { *cost = leg_cost(data_of(*data), *search); });
 }

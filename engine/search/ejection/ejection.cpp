@@ -356,23 +356,22 @@ private:
 
 using namespace tandem;
 
-extern "C" int tandem_eject(const tandem_problem_data* data, const tandem_searcher* searcher,
-                            int64_t rounds, bool gently, int64_t* made, int64_t* done) {
+extern "C" int tandem_eject(const tandem_problem_data* data, tandem_search* search, int64_t rounds,
+                            bool gently, int64_t* made, int64_t* done) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher working = searcher_of(*searcher);
+        Searcher& working = *search;
         Ejection ejection(problem, working);
         *done = ejection.run(rounds, gently) ? 1 : 0;
         *made = ejection.made();
     });
 }
 
-extern "C" int tandem_move_shipments(const tandem_problem_data* data,
-                                     const tandem_searcher* searcher, int64_t moves,
-                                     bool by_one_more) {
+extern "C" int tandem_move_shipments(const tandem_problem_data* data, tandem_search* search,
+                                     int64_t moves, bool by_one_more) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher working = searcher_of(*searcher);
+        Searcher& working = *search;
         Ejection(problem, working).shuffle(moves, by_one_more);
     });
 }

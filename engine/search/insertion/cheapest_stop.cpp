@@ -128,12 +128,12 @@ void scan_beside(const Insertion& insertion) {
 
 }  // namespace tandem
 
-extern "C" int tandem_cost_beside(const tandem_problem_data* data, const tandem_searcher* searcher,
+extern "C" int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search,
                                   int64_t node, double* cost) {
     using namespace tandem;
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        const Searcher working = searcher_of(*searcher);
+        const Searcher& working = *search;
         Best best{problem.strategy.blink, working.rng};
         scan_beside({problem, working, node, false, best});
         *cost = best.cost;

@@ -24,6 +24,7 @@
 #include "search/route/resting.h"
 #include "search/route/routes.h"
 #include "search/route/vehicles.h"
+#include "search/search.h"
 
 namespace tandem {
 namespace {
@@ -390,16 +391,15 @@ double price_stop(const ProblemData& data, const Fleet& fleet, Int slot, Int p,
 
 using namespace tandem;
 
-int tandem_price_move(const tandem_problem_data* data, const tandem_fleet* fleet, int64_t kind,
+int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
                       int64_t slot, int64_t first, int64_t last, int64_t node, double* cost) {
     return guarded([&] {
-        Fleet routes = *fleet;
         Move move{};
         move.kind = kind;
         move.slot = slot;
         move.first = first;
         move.last = last;
         move.drone = 1;
-        *cost = price_move(data_of(*data), routes, move, node, infeasible);
+        *cost = price_move(data_of(*data), search->now, move, node, infeasible);
     });
 }

@@ -62,13 +62,12 @@ Linked::Linked(const ProblemData& data, const Searcher& searcher, Int moments,
 
 using namespace tandem;
 
-int tandem_open_linked(const tandem_problem_data* data, const tandem_searcher* searcher,
-                       int64_t moments, const tandem_linked* like, tandem_linked** linked) {
+int tandem_open_linked(const tandem_problem_data* data, tandem_search* search, int64_t moments,
+                       const tandem_linked* like, tandem_linked** linked) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
         auto measured = like == nullptr ? measured_near(problem) : like->measured;
-        *linked = std::make_unique<tandem_linked>(problem, searcher_of(*searcher), moments,
-                                                  std::move(measured))
+        *linked = std::make_unique<tandem_linked>(problem, *search, moments, std::move(measured))
                       .release();
     });
 }

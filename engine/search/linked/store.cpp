@@ -147,22 +147,20 @@ void insert_linked(const ProblemData& data, Searcher& searcher, Linked& linked, 
 
 using namespace tandem;
 
-extern "C" int tandem_anneal_linked(const tandem_problem_data* data,
-                                    const tandem_searcher* searcher, tandem_linked* linked,
-                                    int64_t turns) {
+extern "C" int tandem_anneal_linked(const tandem_problem_data* data, tandem_search* search,
+                                    tandem_linked* linked, int64_t turns) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher searching = looking(problem, *searcher);
+        Searcher& searching = looking(problem, *search);
         anneal_linked(problem, searching, *linked, turns);
     });
 }
 
-extern "C" int tandem_insert_linked(const tandem_problem_data* data,
-                                    const tandem_searcher* searcher, tandem_linked* linked,
-                                    int64_t order) {
+extern "C" int tandem_insert_linked(const tandem_problem_data* data, tandem_search* search,
+                                    tandem_linked* linked, int64_t order) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher searching = looking(problem, *searcher);
+        Searcher& searching = looking(problem, *search);
         insert_linked(problem, searching, *linked, order);
     });
 }

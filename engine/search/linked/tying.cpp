@@ -162,20 +162,20 @@ void write_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
 
 using namespace tandem;
 
-extern "C" int tandem_tie(const tandem_problem_data* data, const tandem_searcher* searcher,
+extern "C" int tandem_tie(const tandem_problem_data* data, tandem_search* search,
                           tandem_linked* linked) {
     return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
+        Searcher& searching = *search;
         const ProblemData problem = data_of(*data);
         problem.deadline.go_on();
         tie(problem, searching, *linked);
     });
 }
 
-extern "C" int tandem_write_back(const tandem_problem_data* data, const tandem_searcher* searcher,
+extern "C" int tandem_write_back(const tandem_problem_data* data, tandem_search* search,
                                  tandem_linked* linked) {
     return guarded([&] {
-        Searcher searching = searcher_of(*searcher);
+        Searcher& searching = *search;
         write_back(data_of(*data), searching, *linked);
     });
 }

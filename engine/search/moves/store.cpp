@@ -218,11 +218,11 @@ void insert_all(const ProblemData& data, Searcher& searcher, Int order) {
 
 using namespace tandem;
 
-extern "C" int tandem_anneal(const tandem_problem_data* data, const tandem_searcher* searcher,
-                             int64_t turns, int64_t order) {
+extern "C" int tandem_anneal(const tandem_problem_data* data, tandem_search* search, int64_t turns,
+                             int64_t order) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher working = looking(problem, *searcher);
+        Searcher& working = looking(problem, *search);
         if (order == any_order) {
             anneal_routes(problem, working, turns);
         } else {

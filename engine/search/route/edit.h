@@ -11,7 +11,7 @@ namespace tandem {
 
 // What is chosen of a route: its stops and sorties, in order.
 //
-// The arrays have room for what `model/search/beginning/room.py` counts. A plan that breaks rules
+// The arrays have room for what `model/search/route/room.py` counts. A plan that breaks rules
 // may need more on its way to one that breaks none, so that whatever adds to a route asks: it is
 // false where there is no room. The route may then be half of what was meant, and the move is to be
 // taken back as if it broke a rule.

@@ -8,21 +8,31 @@
 namespace tandem {
 namespace {
 
-// Return how many batteries of a depot the routes take.
-Int batteries_taken(const ProblemData& data, const Fleet& fleet, Int depot) {
-    Int taken = 0;
+// Call `visit` with the slot and the depot of each battery that routes take.
+template <class Visit>
+void for_each_battery(const ProblemData& data, const Fleet& fleet, const Visit& visit) {
     for (Int slot = 0; slot < fleet.route.size() - scratch_slots; ++slot) {
         const Route& route = fleet.route[slot];
         if (route.length == 0 || !takes_batteries(data.type[route.type])) continue;
-        const View<const Stop, 1> stops = fleet.stop[slot].first(route.length);
-        taken += std::count_if(stops.begin(), stops.end(), [&](const Stop& stop) {
-            return stop.kind == start_stop && stop.node == depot;
-        });
+        for (const Stop& stop : fleet.stop[slot].first(route.length)) {
+            if (stop.kind == start_stop) visit(slot, stop.node);
+        }
     }
+}
+
+// Return how many batteries of a depot the routes take.
+Int batteries_taken(const ProblemData& data, const Fleet& fleet, Int depot) {
+    Int taken = 0;
+    for_each_battery(data, fleet, [&](Int, Int node) { taken += node == depot; });
     return taken;
 }
 
 }  // namespace
+
+void count_batteries(const ProblemData& data, const Fleet& fleet, View<Int, 2> taken) {
+    if (!hubs_count(data)) return;
+    for_each_battery(data, fleet, [&](Int slot, Int depot) { ++taken(slot, depot); });
+}
 
 bool may_take_off(const ProblemData& data, const Fleet& fleet, Int k, Int depot) {
     if (!hubs_count(data)) return true;

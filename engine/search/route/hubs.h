@@ -7,6 +7,10 @@
 
 namespace tandem {
 
+// Add how many batteries each route takes of each depot, (slot, depot). In place; none are counted
+// where all depots have enough.
+void count_batteries(const ProblemData& data, const Fleet& fleet, View<Int, 2> taken);
+
 // Tell whether there is a battery for one trip more that a vehicle of type `k` begins at a depot.
 bool may_take_off(const ProblemData& data, const Fleet& fleet, Int k, Int depot);
 

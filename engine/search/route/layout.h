@@ -12,23 +12,122 @@
 // drones). `docs/develop/route-times.md` derives what is made of them.
 #pragma once
 
+#include <memory>
+
 #include "deadline.h"
+#include "rows.h"
 #include "rules/fairness.h"
+#include "rules/load.h"
 #include "rules/window.h"
 
 namespace tandem {
 
-using StopLoad = tandem_stop_load;
-using Stop = tandem_stop;
-using Sortie = tandem_sortie;
-using Trip = tandem_trip;
-using Route = tandem_route;
-using Place = tandem_place;
 using SearchCounts = tandem_search_counts;
 using SearchValues = tandem_search_values;
 using Evaluation = tandem_evaluation;
 using Strategy = tandem_strategy;
-using Fleet = tandem_fleet;
+
+// A stop of a truck: what is chosen, and all that follows.
+struct Stop {
+    Int node;
+    Int kind;     // a customer, where a trip starts or ends, or a launch site
+    Int release;  // of the trip that starts here
+    Int leave;    // when the truck leaves
+    Int latest;   // the last arrival that keeps all rules behind
+    Int leg;      // how far it is to the next stop
+    Int gap;      // how long that takes
+    Int flying;   // drones in the air then
+    Int trip;
+    Int early;
+    Int rest;
+    Int end;
+    Int cum;
+    Int depart;
+    Int arrival;
+    Int before;
+    Int block;
+    Int last;
+    Int d;
+    Int c;
+    Int hi;
+    Int lo;
+    Int dep;
+    Int hold;
+    Int idle;
+    Int rests;       // breaks before the next, as rules/breaks.h packs them
+    Int heavy;       // bits of breaks for which too much is aboard before the next
+    Int start;       // of service, where lags count
+    Int free_start;  // the latest that costs nothing, likewise; of a plan, its start
+    double window_cost;
+};
+
+// A drone's way from a stop to its customers, and back at another or the same.
+struct Sortie {
+    Int launch;    // the position of the stop where it begins
+    Int recovery;  // likewise, where it ends
+    Int drone;     // its number on the truck
+    Int count;     // of customers
+    Int state;     // whether it waits, flies or is done, while its block is timed
+    Int takeoff_d;
+    Int takeoff_c;
+    Int ready_d;
+    Int ready_c;
+    Int takeoff;
+    Int begin;
+    Int held;
+    Int home;
+    Int limit;
+    Int left;
+    Int taken;
+    Int charged;
+    Int kept;
+    Int since;
+    Int follows;
+    Int zones;  // with hours, that hold any of its places
+    Int nodes[8];
+    Int arrivals[8];  // at the customers
+};
+
+struct Trip {
+    Int first;
+    Int last;
+    Int halts;  // stops at launch sites
+    Int release;
+    Int distance;
+    Int barred;
+    Int kept;  // relations by which others go on this trip
+    Int load[3];
+    Int wanted;         // of a battery as it begins, for it and all trips behind
+    Int charged_from;   // when the vehicle is charged before it
+    Int charged_until;  // the same as that where it isn't
+};
+
+// A vehicle's route, in a slot.
+struct Route {
+    Int type;
+    Int length;  // of stops; 0 in an empty slot
+    Int trips;
+    Int sorties;
+    Int end;
+    Int cum;
+    Int working;
+    Int travel;  // on legs, if that is limited
+    Int offset;
+    Int awaited;
+    Int unpaid;   // breaks
+    Int placed;   // where its breaks are: as it ends soonest, as they are, nowhere
+    Int driving;  // at the wheel, of a driver who mustn't rest by rules, far if there are rests
+    Int stamp;    // stands for what the route is; 0 while a turn changes it
+    Int barred;
+    Int kept;  // relations by which others go by this vehicle
+};
+
+// Where a customer is served.
+struct Place {
+    Int slot;      // of the route; -1 if left out, -2 if another thread's
+    Int position;  // of the stop; else -1
+    Int sortie;    // its number; else -1
+};
 
 // Where a customer is inserted; which fields tell, `kind` says.
 struct Move {
@@ -76,7 +175,7 @@ constexpr Int elsewhere = -2;
 constexpr Int all_slots = -1;
 
 // Tell whether the truck comes to a stop within a window: to a customer, or a launch site.
-inline bool has_window(const tandem_stop& stop) { return stop.kind <= halt_stop; }
+inline bool has_window(const Stop& stop) { return stop.kind <= halt_stop; }
 
 // The problem, with the deadline of the thread whose data it is.
 struct ProblemData : tandem_problem_data {
@@ -88,24 +187,60 @@ inline ProblemData data_of(const tandem_problem_data& from) {
     return {from, from.place, Deadline(from.deadline)};
 }
 
+// How many rows there are, as `model/search/route/room.py` counts them.
+struct SearchRoom {
+    Int routes, stops, trips, sorties;  // of a route, all but the first
+};
+
 // Slots behind those of the routes, in which changes are tried.
 constexpr Int scratch_slots = 2;
 
+// Routes, one a slot, and behind them those in which changes are tried.
+struct Fleet {
+    // Makes room, and notes where so many nodes are. Pages are touched only where routes are.
+    Fleet(const ProblemData& data, const SearchRoom& room, Int nodes);
+
+    OwnRows<Route, 1> route;   // (slot,)
+    OwnRows<double, 1> cost;   // (slot,)
+    OwnRows<double, 1> early;  // (slot,) of it, what waiting costs where trips are held back
+    OwnRows<Stop, 2> stop;     // (slot, position)
+    OwnRows<StopLoad, 3>
+        stop_load;              // (slot, tier, position); no tiers where loads of trips tell all
+    OwnRows<Trip, 2> trip;      // (slot, trip)
+    OwnRows<Sortie, 2> sortie;  // (slot, sortie)
+    OwnRows<Place, 1> where;    // (node,)
+    OwnRows<Int, 1> used;       // (type,) routes
+};
+
 struct Scratch;
 
-struct Searcher : tandem_searcher {
+// A search: its routes, and all that it works with.
+struct Searcher {
+    Searcher(const ProblemData& data, const SearchRoom& room);
+
+    Fleet now;
     Fleet before;  // routes touched this turn, as they are listed there; who is where is not noted
-    View<Int, 1> rank;           // (slot,) where it stands in `active`
-    View<Int, 1> changed;        // slots changed since the best
-    View<bool, 1> is_changed;    // (slot,) it is among those
-    View<Int, 1> absent;         // to be inserted this turn, behind those left alone
-    View<Int, 1> touched;        // slots changed this turn
-    View<bool, 1> marked;        // (node,) removed this turn
-    View<Int, 2> hit;            // (slot, trip) turn of the last string
-    View<Int, 2> kept_stamp;     // (node, slot) of the route whose best insertion is kept
-    View<Move, 2> kept_move;     // (node, slot) that insertion
-    View<double, 2> kept_cost;   // (node, slot) what it costs
-    Scratch* scratch = nullptr;  // where customers are inserted
+    Fleet best;    // likewise
+    std::unique_ptr<SearchCounts> count;
+    std::unique_ptr<SearchValues> value;
+    OwnRows<std::uint64_t, 1> rng;  // (1,)
+    OwnRows<Int, 1> slots;          // all, of which `active` shows those that it may use
+    View<Int, 1> active;            // slots in use, and behind them those that are free
+    OwnRows<Int, 1> rank;           // (slot,) where it stands in `active`
+    OwnRows<Int, 1> changed;        // slots changed since the best
+    OwnRows<bool, 1> is_changed;    // (slot,) it is among those
+    OwnRows<Int, 1> missing;        // customers left out
+    OwnRows<Int, 1> best_missing;
+    OwnRows<Int, 1> absent;            // to be inserted this turn, behind those left alone
+    OwnRows<Int, 1> touched;           // slots changed this turn
+    OwnRows<bool, 1> marked;           // (node,) removed this turn
+    OwnRows<Int, 1> absences;          // (node,) turns after which a customer was left out
+    OwnRows<Int, 2> hit;               // (slot, trip) turn of the last string
+    OwnRows<Int, 2> kept_stamp;        // (node, slot) of the route whose best insertion is kept
+    OwnRows<Move, 2> kept_move;        // (node, slot) that insertion
+    OwnRows<double, 2> kept_cost;      // (node, slot) what it costs
+    OwnRows<double, 3> alone;          // (type, 2, node) cost of a route that serves one customer
+    std::shared_ptr<Scratch> scratch;  // where customers are inserted; none until somebody looks
 };
 
 // Copy what is chosen of a stop. In place.

@@ -222,12 +222,12 @@ private:
 
 using namespace tandem;
 
-extern "C" int tandem_exchange_routes(const tandem_problem_data* data,
-                                      const tandem_searcher* searcher, const tandem_i64_1d* one,
-                                      const tandem_i64_1d* other, int64_t* done) {
+extern "C" int tandem_exchange_routes(const tandem_problem_data* data, tandem_search* search,
+                                      const tandem_i64_1d* one, const tandem_i64_1d* other,
+                                      int64_t* done) {
     return guarded([&] {
         const ProblemData problem = data_of(*data);
-        Searcher working = searcher_of(*searcher);
+        Searcher& working = *search;
         *done = Exchange(problem, working, *one, *other).run() ? 1 : 0;
     });
 }

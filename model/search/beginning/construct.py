@@ -59,14 +59,15 @@ def begin_by_types(data: ProblemData, whole: Searcher, is_over: Callable[[], boo
 
     What a route costs its first customer says nothing of how many more a larger vehicle serves.
     """
-    alone = whole.alone
+    alone = whole.alone.copy()
     dearest = float(alone[np.isfinite(alone)].max(initial=0.0))
     for k in range(data.num_types):
         if is_over():
             return
-        others_last = alone + dearest
-        others_last[k] = alone[k]
-        begin_anew(data, whole._replace(alone=others_last), True)
+        whole.alone[:] = alone + dearest
+        whole.alone[k] = alone[k]
+        begin_anew(data, whole, True)
+        whole.alone[:] = alone
 
 
 def _construct(data: ProblemData, searcher: Searcher, linked: Linked | None) -> None:

@@ -7,18 +7,18 @@ from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 
 
-def tie(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked) -> None:
+def tie(data: ProblemData | Packed, searcher: Searcher, linked: Linked) -> None:
     """Link the routes of a search as they are, and of its best plan. In place."""
     call("tandem_tie", data, searcher, linked)
 
 
-def anneal_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked,
+def anneal_linked(data: ProblemData | Packed, searcher: Searcher, linked: Linked,
                   turns: int) -> None:
     """Ruin and recreate `turns` times among linked stops. In place. As `anneal`."""
     call("tandem_anneal_linked", data, searcher, linked, turns)
 
 
-def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linked: Linked,
+def insert_linked(data: ProblemData | Packed, searcher: Searcher, linked: Linked,
                   order: int) -> None:
     """Link the routes of a search, insert all who are left out in an order and write them back.
 
@@ -27,7 +27,7 @@ def insert_linked(data: ProblemData | Packed, searcher: Searcher | Packed, linke
     call("tandem_insert_linked", data, searcher, linked, order)
 
 
-def write_back(data: ProblemData | Packed, searcher: Searcher | Packed,
+def write_back(data: ProblemData | Packed, searcher: Searcher,
                linked: Linked) -> None:
     """Let the routes of a search, and of its best plan, be those that are linked. In place."""
     call("tandem_write_back", data, searcher, linked)

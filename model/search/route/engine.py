@@ -15,14 +15,11 @@ BY_FAR, BY_WIDTH = 2, 4
 """Orders in which customers are inserted: who is farthest from the depot first, or who has the
 least time."""
 
-INFEASIBLE = 1e300
-"""What an insertion costs that can't be."""
-
 LONGEST_STRING = 10
 """How many stops a string has at most, but where `Searcher.value` allows more on long routes."""
 
 
-def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, order: int) -> None:
+def anneal(data: ProblemData | Packed, searcher: Searcher, turns: int, order: int) -> None:
     """Ruin and recreate `turns` times. In place.
 
     Given an `order`, nobody is removed, all who are left out are inserted in it, and that is kept
@@ -33,17 +30,22 @@ def anneal(data: ProblemData | Packed, searcher: Searcher | Packed, turns: int, 
     call("tandem_anneal", data, searcher, turns, order)
 
 
-def missing_cost(data: ProblemData | Packed, searcher: Searcher | Packed) -> float:
+def missing_cost(data: ProblemData | Packed, searcher: Searcher) -> float:
     """Return what the customers left out cost."""
     return float(call("tandem_missing_cost", data, searcher))
 
 
-def go_back(searcher: Searcher | Packed) -> None:
+def go_back(searcher: Searcher) -> None:
     """Go on from the best routes. In place."""
     call("tandem_go_back", searcher)
 
 
-def leg_cost(data: ProblemData | Packed, searcher: Searcher | Packed) -> float:
+def take_better_parts(data: ProblemData | Packed, searcher: Searcher) -> None:
+    """Let the best plan take over the parts of the routes as they are that cost less. In place."""
+    call("tandem_take_better_parts", data, searcher)
+
+
+def leg_cost(data: ProblemData | Packed, searcher: Searcher) -> float:
     """Return what the truck's legs between customers cost on average.
 
     Where there are none, a share of the whole cost; always above zero.

@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 from model.engine.amount_rows import DIMENSIONS_PER_TIER
-from model.engine.header import dtype_of
 from model.engine.instance import pack
 from model.engine.records import Record, Records
 from model.judge.check import check
@@ -72,9 +71,8 @@ def test_what_is_left_is_what_was_there_less_the_demand() -> None:
 
 def weighed(kind: Record, amounts: IntArray, nodes: IntArray, more: int) -> tuple[bool, list[bool]]:
     """Tell whether a vehicle may serve some in turn, and behind which stops one more."""
-    halts = np.zeros((amounts.shape[1], len(nodes) + 2), dtype_of("tandem_stop_load"))
     allowed, *rooms = asked("rooms_between", len(nodes) + 2, kind, amounts, *amounts.shape[:2],
-                            nodes, len(nodes), halts, more)
+                            nodes, len(nodes), more)
     return bool(allowed), [bool(room) for room in rooms]
 
 

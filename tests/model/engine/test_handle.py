@@ -11,6 +11,7 @@ from model.engine.header import interface
 from model.engine.instance import pack
 from model.engine.library import call
 from model.search.beginning.construct import begin_anew
+from model.search.route.room import Room
 from model.search.beginning.translate import make_searcher
 from model.search.linked.layout import Linked
 from model.search.problem_data import make_data
@@ -57,25 +58,23 @@ def test_what_nobody_has_is_given_back() -> None:
 
 def test_rows_are_there_as_long_as_anybody_has_one() -> None:
     _, searcher = begun(5)
-    node, count = searcher.now.stop["node"], searcher.count
-    served = node.copy()
+    alone, count = searcher.alone, searcher.count
+    served = alone.copy()
     del searcher
     gc.collect()
     begun(50)
-    assert (node == served).all()
+    assert (alone == served).all()
     assert count.customers == 5
 
 
 def test_memory_is_taken_where_something_is_written() -> None:
     problem = generate(np.random.default_rng(5), 5, "drone")
     data = make_data(problem, pack([problem]))
-    before = resident()
-    alone = np.zeros(data.can.shape)
-    searcher = Searcher.opened(data, (100_000, 10_000, 100, 100), alone, np.random.SeedSequence(0))
-    stops = searcher.now.stop
-    assert stops.nbytes > 200_000_000_000
-    stops["node"][::1000, 0] = 7
-    assert stops[99_000, 0]["node"] == 7
+    before, had = resident(), mapped()
+    searcher = Searcher(data, Room(100_000, 10_000, 100, 100), np.random.SeedSequence(0))
+    assert mapped() - had > 200_000_000_000
+    searcher.cost[::1000] = 7
+    assert searcher.cost[99_000] == 7
     assert resident() - before < 100_000_000
 
 

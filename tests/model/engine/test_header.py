@@ -25,7 +25,7 @@ def test_rows_are_read_as_they_are_declared() -> None:
 def test_all_rows_can_be_read() -> None:
     ffi = interface()
     names = [name for name in ffi.list_types()[0] if is_row(ffi.typeof(name))]
-    assert {"tandem_node", "tandem_vehicle_type", "tandem_stop"} <= set(names)
+    assert {"tandem_node", "tandem_vehicle_type", "tandem_rate"} <= set(names)
     for name in names:
         assert dtype_of(name).itemsize == ffi.sizeof(name)
 

@@ -1,41 +1,67 @@
 """What a search holds, and what its routes would take."""
 
-from copy import deepcopy
-
 import numpy as np
 
+from model.engine.library import call
+from model.problem import IntArray
 from model.search.beginning.translate import left_out, read_routes
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
-from model.search.sharing import make_rooms
-from model.solution import Solution
+from model.search.sharing import go_on_from_best, make_rooms, take_all
+from model.solution import Route, Solution
+
+INFEASIBLE = 1e300
+"""What an insertion costs that can't be."""
 
 
 def read_plan(data: ProblemData, searcher: Searcher) -> Solution:
     """Return the best plan found, each trip begun as late as costs nothing."""
-    return Solution(tuple(read_routes(data, searcher)), left_out(data, searcher))
+    return Solution(read_routes(data, searcher), left_out(data, searcher))
 
 
 def copied(data: ProblemData, searcher: Searcher) -> Searcher:
-    """Return another search that is where one is, and keeps no places."""
+    """Return another search whose routes, and best ones, are those of one, and keeps no places."""
     fresh, = make_rooms(data, searcher, [np.random.SeedSequence(0)])
-    return Searcher._make((*map(deepcopy, searcher[:-1]), fresh.own))
+    take_all(data, searcher, fresh)
+    return fresh
 
 
-def beside_neighbours(data: ProblemData, searcher: Searcher, node: int) -> float:
+def at_best(data: ProblemData, searcher: Searcher) -> Searcher:
+    """Return another search that goes on from the best routes of one; costs are added up anew."""
+    fresh, = make_rooms(data, searcher, [np.random.SeedSequence(0)])
+    call("tandem_add_best", fresh, searcher, True)
+    go_on_from_best(data, fresh)
+    return fresh
+
+
+def nodes_of(searcher: Searcher) -> IntArray:
+    """Return whom each route serves as it is, in order, each route ended by NOWHERE."""
+    nodes = np.empty(2 * len(searcher.absences), np.int64)
+    return nodes[:call("tandem_write_served", searcher, nodes)]
+
+
+def served_by(searcher: Searcher) -> list[list[int]]:
+    """Return whom trucks serve by each route as it is."""
+    nodes = nodes_of(searcher)
+    return [part[:-1].tolist() for part in np.split(nodes, np.flatnonzero(nodes < 0) + 1)[:-1]]
+
+
+def beside_neighbours(data: ProblemData, routes: tuple[Route, ...], node: int) -> float:
     """Return the cheapest insertion of a customer beside a neighbour; infinite if there is none.
 
     All neighbours are looked at.
     """
-    now, kind, rate = searcher.now, data.type[0], data.rate[0]
+    kind, rate = data.type[0], data.rate[0]
     assert isinstance(data.leg, np.ndarray)
     legs, demand = data.leg[0, :, :, 1], data.place[0, :, 0]["demand"][:, 0]
+    served = {stop.node: (nodes, p) for route in routes
+              for nodes in [[stop.node for stop in route.trips[0].stops]]
+              for p, stop in enumerate(route.trips[0].stops)}
     least = np.inf
     for other in data.granular[node].tolist():
-        slot, p, _ = now.where[other].tolist()
-        if slot < 0:
+        if other not in served:
             continue
-        nodes = now.stop[slot, : now.route[slot].length]["node"]
+        nodes, p = served[other]
         if demand[nodes].sum() + demand[node] <= kind.capacity[0]:
             for a, b in ((nodes[p - 1], other), (other, nodes[p + 1])):
                 least = min(least, float(legs[a, node] + legs[node, b] - legs[a, b]))

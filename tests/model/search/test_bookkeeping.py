@@ -10,12 +10,15 @@ from model.engine.library import call
 from model.problem import Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.route.engine import ANY, BY_FAR, INFEASIBLE, anneal
-from model.search.route.layout import NOWHERE, ProblemData
+from model.search.route.engine import ANY, BY_FAR, anneal
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
+from model.search.sharing import slots_of
 from model.solution import Solution
-from tests.model.search.found import beside_neighbours
+from tests.model.search.found import (
+    INFEASIBLE, at_best, beside_neighbours, copied, read_plan, served_by,
+)
 from training.instances import generate
 
 pytestmark = pytest.mark.slow
@@ -46,14 +49,13 @@ def test_routes_in_use_and_the_best_are_known(variant: str, size: int, stay: int
     slots = np.arange(len(searcher.active))
     for _ in range(ROUNDS):
         anneal(data, searcher, TURNS, ANY)
-        used = searcher.now.route["length"][slots] > 0
+        used = np.unique(slots_of(searcher)[data.num_depots:])
         count = int(searcher.count.active)
-        assert sorted(searcher.active[:count]) == list(slots[used])
+        assert sorted(searcher.active[:count]) == used[used >= 0].tolist()
         assert sorted(searcher.active) == list(slots)
-        best = searcher.best.cost[slots][searcher.best.route["length"][slots] > 0].sum()
-        best += float(searcher.count.best_missing) * data.unassigned_cost
+        best = float(at_best(data, searcher).value.cost)
         assert best == pytest.approx(float(searcher.value.best))
-        now = searcher.now.cost[slots][used].sum()
+        now = searcher.cost[searcher.active[:count]].sum()
         now += float(searcher.count.missing) * data.unassigned_cost
         assert now == pytest.approx(float(searcher.value.cost))
 
@@ -71,10 +73,10 @@ def test_there_is_room_for_the_stops_that_a_vehicle_may_have(most_stops: int | N
     for one in (given, taken):
         data = make_data(one, pack([one]))
         searcher = make_searcher(one, data, Solution((), ()), np.random.SeedSequence(3))
-        assert most + 2 <= searcher.now.stop.shape[1] <= most + 10
+        assert most + 2 <= searcher.room.stops <= most + 10
         begin_anew(data, searcher, True)
         anneal(data, searcher, TURNS, ANY)
-        assert searcher.now.route["length"].max() <= most + 2
+        assert max(map(len, served_by(searcher))) <= most
 
 
 def test_there_is_room_for_what_drones_and_trucks_try() -> None:
@@ -88,8 +90,8 @@ def test_there_is_room_for_what_drones_and_trucks_try() -> None:
         lightest = np.sort([each.demand[0] for each in one.customers]).cumsum()
         most = int((lightest <= largest).sum())
         assert most > 3
-        assert searcher.now.stop.shape[1] >= most + 2
-        assert searcher.now.sortie.shape[1] >= most
+        assert searcher.room.stops >= most + 2
+        assert searcher.room.sorties >= most
 
 
 def test_a_search_that_stays_near_by_gets_everywhere() -> None:
@@ -104,19 +106,16 @@ def test_a_search_that_stays_near_by_gets_everywhere() -> None:
 
 
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
-    _, data, searcher = begun("cvrp", SOME)
+    problem, data, searcher = begun("cvrp", SOME)
     data = data._replace(strategy=data.strategy._replace(blink=0.0))
-    now = searcher.now
-    found = 0
-    for slot in searcher.active[: searcher.count.active].tolist():
-        left_out = now.stop[slot, 1: now.route[slot].length - 1]["node"].tolist()
-        now.where["slot"][left_out] = NOWHERE
-        for node in left_out:
-            cost = call("tandem_cost_beside", data, searcher, node)
-            assert cost == pytest.approx(
-                min(INFEASIBLE, beside_neighbours(data, searcher, node)))
+    plan, found = read_plan(data, copied(data, searcher)), 0
+    for route in plan.routes:
+        others = tuple(other for other in plan.routes if other is not route)
+        left = make_searcher(problem, data, Solution(others), np.random.SeedSequence(3))
+        for node in [stop.node for stop in route.trips[0].customer_stops]:
+            cost = call("tandem_cost_beside", data, left, node)
+            assert cost == pytest.approx(min(INFEASIBLE, beside_neighbours(data, others, node)))
             found += cost < INFEASIBLE
-        now.where["slot"][left_out] = slot
     assert found > SOME / 20
 
 

@@ -16,6 +16,7 @@ from model.search.problem_data import make_data
 from model.search.route.engine import ANY, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
+from model.search.sharing import slots_of
 from model.solution import Solution
 from tests.model.search.test_fewer_vehicles import planted
 
@@ -78,11 +79,11 @@ def test_routes_stay_where_not_all_can_be_served() -> None:
     data, searcher = begun(planted(0, 4, True))
     while eject(data, searcher):
         pass
-    routes = searcher.now.route["length"].copy()
+    routes = np.bincount(slots_of(searcher) + 1)
     missing = int(searcher.count.missing)
     assert missing > 0
     assert not call("tandem_eject", data, searcher, 50, False)[1]
-    assert (searcher.now.route["length"] == routes).all()
+    assert (np.bincount(slots_of(searcher) + 1) == routes).all()
     assert int(searcher.count.missing) == missing
 
 
@@ -107,7 +108,7 @@ def test_shipments_are_moved_by_one_vehicle_more_if_there_is_one() -> None:
         data.type["count"][0] = used + count
         call("tandem_move_shipments", data, searcher, 400, True)
         assert int(searcher.count.active) == used + more
-        assert int(searcher.now.used[0]) == used + more
+        assert int(searcher.used[0]) == used + more
         call("tandem_give_up_route", data, searcher)
         call("tandem_eject", data, searcher, ROUNDS, False)
         assert int(searcher.count.missing) == 0

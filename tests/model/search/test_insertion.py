@@ -203,4 +203,4 @@ def test_a_route_has_room_for_a_shipment_of_many_pickups() -> None:
     searcher = make_searcher(paired, make_data(paired, pack([paired])), Solution((), ()),
                              np.random.SeedSequence(0))
     # Where it is tried on a trip of its own, all ends lie between its start and its end.
-    assert searcher.now.stop.shape[1] >= len(ends) + 2
+    assert searcher.room.stops >= len(ends) + 2

@@ -10,12 +10,13 @@ from model.engine.library import call
 from model.problem import FloatArray, IntArray, Problem
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
-from model.search.route.engine import ANY, BY_FAR, INFEASIBLE, anneal
+from model.search.route.engine import ANY, BY_FAR, anneal
 from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import can_be_linked, make_data
+from model.search.sharing import slots_of
 from model.solution import Solution
-from tests.model.search.found import copied
+from tests.model.search.found import INFEASIBLE, copied, served_by
 from training.instances import generate
 
 pytestmark = pytest.mark.slow
@@ -39,18 +40,21 @@ def least_costs(data: ProblemData, searcher: Searcher, slot: int, nodes: IntArra
     All are tried on that route alone, and none is inserted, since it costs less to leave them out.
     """
     unwanted = data._replace(unassigned_cost=-INFEASIBLE)
-    stamp, rng = searcher.now.route[slot].stamp, searcher.rng.copy()
+    place, rng = searcher.active.tolist().index(slot), searcher.rng.copy()
     while True:
-        trial = copied(data, searcher)._replace(rng=rng)
+        trial = copied(data, searcher)
+        before = served_by(trial)[place]
+        trial.rng[:], trial.value.temperature = rng, searcher.value.temperature
         trial.count.active, trial.count.missing = 1, len(nodes)
-        trial.active[0], trial.missing[: len(nodes)] = slot, nodes
+        trial.active[0], trial.missing[: len(nodes)] = place, nodes
         trial.alone[:] = INFEASIBLE
         anneal(unwanted, trial, 1, BY_FAR)
+        rng = trial.rng.copy()
         # Now and then, the first is inserted at any cost.
         if trial.count.missing == len(nodes):
-            kind, cost = kept_on(trial, slot, nodes)
+            kind, cost = kept_on(trial, place, nodes)
             assert (kind != NOT_KEPT).all()
-            assert trial.now.route[slot].stamp == stamp
+            assert served_by(trial) == [before]
             return cost
 
 
@@ -67,9 +71,7 @@ def kept_places(data: ProblemData, searcher: Searcher) -> Iterator[tuple[int, In
     for _ in range(ROUNDS):
         anneal(data, searcher, TURNS, ANY)
         for slot in searcher.active[: searcher.count.active]:
-            stamp = searcher.now.route[slot].stamp
-            assert stamp != 0  # that of a route which changes
-            nodes = np.flatnonzero(searcher.now.where["slot"] != slot)
+            nodes = np.flatnonzero(slots_of(searcher) != slot)
             kept, _ = kept_on(searcher, int(slot), nodes)
             yield int(slot), nodes[kept != NOT_KEPT]
 

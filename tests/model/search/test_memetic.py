@@ -16,26 +16,14 @@ from model.search.limits import Span
 from model.search.route.layout import NOWHERE, ProblemData
 from model.search.route.state import Searcher
 from model.solution import Solution
-from tests.model.search.found import read_plan
+from tests.model.search.found import copied, nodes_of, read_plan
 from tests.model.search.test_ejection import ROUNDS, begun
 from tests.model.search.test_fewer_vehicles import planted
 
 
-def nodes_of(searcher: Searcher) -> IntArray:
-    """Return the ends that each route serves as it is, in order, each route ended by NOWHERE."""
-    nodes = list[int]()
-    for slot in searcher.active[:searcher.count.active].tolist():
-        length = int(searcher.now.route["length"][slot])
-        nodes.extend([*searcher.now.stop["node"][slot, 1:length - 1].tolist(), NOWHERE])
-    return np.array(nodes, np.int64)
-
-
 def as_it_is(data: ProblemData, searcher: Searcher) -> Solution:
     """Return the plan as it is."""
-    count = searcher.count.copy()
-    count.best_missing = count.missing
-    return read_plan(data, searcher._replace(best=searcher.now, count=count,
-                                             best_missing=searcher.missing))
+    return read_plan(data, copied(data, searcher))
 
 
 def test_a_plan_bred_from_itself_is_that_plan() -> None:

@@ -14,15 +14,14 @@ from model.search import worker
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.recombining import take_better_parts
-from model.search.route.engine import ANY, anneal
-from model.search.route.layout import Fleet, ProblemData
+from model.search.route.engine import ANY, anneal, take_better_parts
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import generate
 from tests.model.fliers import charging, from_hubs
-from tests.model.search.found import read_plan
+from tests.model.search.found import at_best, read_plan, served_by
 
 pytestmark = pytest.mark.slow
 
@@ -41,14 +40,12 @@ def searched(problem: Problem, seed: int, turns: int) -> tuple[ProblemData, Sear
     return data, searcher
 
 
-def routes_of(searcher: Searcher, fleet: Fleet, missing: list[int], data: ProblemData) -> Routes:
+def routes_of(searcher: Searcher, data: ProblemData) -> Routes:
     """Return the customers of each route and what it costs, those left out being routes, too."""
     routes: Routes = {frozenset([node]): data.unassigned_cost + data.unassigned_more[node]
-                      for node in missing}
-    for slot in np.flatnonzero(fleet.route["length"][:len(searcher.active)]):
-        nodes = fleet.stop[slot, :fleet.route[slot]["length"]]["node"].tolist()
-        routes[frozenset(node for node in nodes if node >= data.num_depots)] = fleet.cost[slot]
-    return routes
+                      for node in searcher.missing[:searcher.count.missing].tolist()}
+    return routes | {frozenset(served): float(searcher.cost[slot]) for served, slot in zip(
+        served_by(searcher), searcher.active.tolist(), strict=False)}
 
 
 def cheapest(routes: Routes, left: frozenset[int]) -> float:
@@ -68,10 +65,8 @@ def test_best_plan_is_the_cheapest_of_the_routes_of_two() -> None:
         few = 3 * max(customer.demand[0] for customer in problem.customers)
         problem = replace(problem, vehicle_types=(replace(kind, count=40, capacity=(few,)),))
         data, searcher = searched(problem, seed, 20)
-        count, before = searcher.count, float(searcher.value.best)
-        both, other = (routes_of(searcher, fleet, missing.tolist(), data) for fleet, missing in (
-            (searcher.best, searcher.best_missing[:count.best_missing]),
-            (searcher.now, searcher.missing[:count.missing])))
+        before = float(searcher.value.best)
+        both, other = (routes_of(each, data) for each in (at_best(data, searcher), searcher))
         both |= {route: min(cost, both.get(route, cost)) for route, cost in other.items()}
         take_better_parts(data, searcher)
         everyone = frozenset(range(data.num_depots, data.num_nodes))

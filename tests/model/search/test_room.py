@@ -10,7 +10,7 @@ from model.engine.library import call
 from model.judge.check import check
 from model.problem import Customer, Depot, DroneType, Problem, Travel, VehicleType
 from model.search.beginning import translate
-from model.search.beginning.room import STOPS_OPENED, Room, room_for
+from model.search.route.room import STOPS_OPENED, Room, room_for
 from model.search.improve import SearchConfig, improve
 from model.search.problem_data import make_data
 from model.search.route.layout import ProblemData

@@ -5,11 +5,12 @@ import pytest
 
 from model.judge.check import check
 from model.engine.instance import pack
+from model.engine.library import call
 from model.search.beginning.construct import begin_anew
 from model.search.beginning.translate import make_searcher
 from model.search.improve import SearchConfig, improve
-from model.search.hubs import shared_out, taken_by
-from model.search.sharing import DIVIDED_FROM, regions
+from model.search.hubs import shared_out
+from model.search.sharing import DIVIDED_FROM, regions, slots_of
 from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.fliers import from_hubs
@@ -38,8 +39,9 @@ def test_regions_share_what_hubs_have() -> None:
     whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
     begin_anew(data, whole, False)
     owner = np.arange(len(whole.active)) % 3
-    taken = taken_by(data, whole.now, len(whole.active))
-    parts = [part.hub["batteries"] for part in shared_out(data, taken, owner, 3)]
+    taken = np.zeros((len(owner), len(data.hub)), np.int64)
+    call("tandem_write_taken", data, whole, taken)
+    parts = [part.hub["batteries"] for part in shared_out(data, whole, owner, 3)]
     assert np.sum(parts, axis=0).tolist() == [90]
     for number, part in enumerate(parts):
         assert part[0] >= taken[owner == number, 0].sum()
@@ -52,7 +54,7 @@ def test_regions_have_about_as_many_customers(threads: int) -> None:
     data = make_data(problem, pack([problem]))
     whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(0))
     begin_anew(data, whole, False)
-    slot = whole.now.where[1:]["slot"]
+    slot = slots_of(whole)[1:]
     slot = slot[slot >= 0]
     longest = np.bincount(slot).max()
     for seed in range(20):

@@ -66,16 +66,9 @@ def test_plans_keep_rules_and_cost_what_they_are_said_to(seed: int, scan_all: bo
         searcher.value.temperature, searcher.value.longest = temperature, 10.0
         searcher.value.cooling = 1.0
         anneal(data, searcher, 150, ANY)
-        assert len(searcher.active[:searcher.count.active]) == searcher.now.used[0]
-        for routes in (searcher, _as_they_are(data, searcher)):
+        assert len(searcher.active[:searcher.count.active]) == searcher.used[0]
+        for routes in (searcher, copied(data, searcher)):
             plan = check(problem, best_plan(data, routes, range(data.num_nodes)))
             assert plan.violations == ()
             assert plan.cost.total == pytest.approx(float(routes.value.best))
     assert float(searcher.value.best) < first
-
-
-def _as_they_are(data: ProblemData, searcher: Searcher) -> Searcher:
-    """Return a copy of a search whose best routes are those that it goes on from."""
-    found = copied(data, searcher)
-    found.count.best_missing, found.value.best = found.count.missing, found.value.cost
-    return found._replace(best=found.now, best_missing=found.missing)

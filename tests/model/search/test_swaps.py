@@ -10,11 +10,13 @@ from model.engine.instance import pack
 from model.engine.library import call
 from model.problem import UNLIMITED, Problem
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import make_searcher
-from model.search.route.layout import END, START, ProblemData
+from model.search.beginning.translate import make_searcher, read_routes
+from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import make_data
-from model.solution import Solution
+from model.search.sharing import slots_of
+from model.solution import Route, Solution
+from tests.model.search.found import copied
 from tests.model.tiny import MINUTE
 from training.instances import generate
 
@@ -49,18 +51,22 @@ def swapping(seed: int, count: int) -> Problem:
     return replace(problem, vehicle_types=(carrier,), customers=customers)
 
 
-def places(searcher: Searcher, slot: int) -> Iterator[tuple[int, int, int]]:
+def places(route: Route) -> Iterator[tuple[int, int, int]]:
     """Yield moves that change which launch of a trip is the first, or none: kind, stop, last."""
-    stops, route = searcher.now.stop[slot], searcher.now.route[slot]
-    for p in range(1, route.length):
-        last = searcher.now.trip[slot, stops[p].trip].last
-        yield from ((BY_SORTIE, p, q) for q in range(p, min(p + SPAN, last) + 1))
-        if stops[p].kind == END:
-            yield FLIGHT_TRIP, p, 0
-        else:
+    first = 0
+    for trip in route.trips:
+        last = first + len(trip.stops) - 1
+        for p in range(max(1, first), last + 1):
+            yield from ((BY_SORTIE, p, q) for q in range(p, min(p + SPAN, last) + 1))
+            if p == last:
+                yield FLIGHT_TRIP, p, 0
+                continue
             yield AT_STOP, p, 0
-            if stops[p].kind != START and stops[p].flying == 0 and stops[p + 1].kind != END:
+            flying = [each for each in trip.sorties
+                      if each.launch_stop <= p - first < each.recovery_stop]
+            if p > first and not flying and p + 1 < last:
                 yield from ((TRIP_FROM, p, 0), (TRIP_UNTIL, p, 0))
+        first = last + 1
 
 
 def begun(seed: int) -> tuple[Problem, ProblemData, Searcher]:
@@ -80,16 +86,17 @@ def test_an_insertion_costs_what_the_whole_route_does_timed_again() -> None:
         problem, data, searcher = begun(seed)
         timed = data._replace(evaluation=data.evaluation.copy())
         timed.evaluation["priced"] = True
+        routes = read_routes(data, copied(data, searcher))
         # How much is aboard is looked at before.
         data.type["capacity"] *= 100
         rng = np.random.default_rng(seed)
-        for slot in searcher.active[: searcher.count.active].tolist():
+        for slot, route in zip(searcher.active.tolist(), routes, strict=False):
             others = [node for node in range(problem.num_depots, problem.num_nodes)
-                      if searcher.now.where[node].slot != slot]
-            for kind, first, last in places(searcher, slot):
+                      if slots_of(searcher)[node] != slot]
+            for kind, first, last in places(route):
                 node = int(rng.choice(others))
                 move = kind, slot, first, last
-                part, whole = (call("tandem_price_move", each, searcher.now, *move, node)
+                part, whole = (call("tandem_price_move", each, searcher, *move, node)
                                for each in (data, timed))
                 assert part == pytest.approx(whole), (seed, slot, kind, first, last, node)
                 refused += part > 1e200

@@ -9,7 +9,7 @@ from model.judge.check import check
 from model.engine.instance import pack
 from model.problem import UNLIMITED, Depot, Points, Problem, StraightLegs, Travel
 from model.search.beginning.construct import begin_anew
-from model.search.beginning.translate import make_searcher
+from model.search.beginning.translate import make_searcher, read_routes
 from model.search.improve import SearchConfig, improve
 from model.search.linked.engine import anneal_linked, tie, write_back
 from model.search.linked.layout import Linked
@@ -17,7 +17,7 @@ from model.search.route.layout import ProblemData
 from model.search.route.state import Searcher
 from model.search.problem_data import are_timed, can_be_linked, make_data
 from model.solution import Solution
-from tests.model.search.found import read_plan
+from tests.model.search.found import copied, read_plan, served_by
 from training.instances import generate
 
 BATCHES, TURNS = 60, 20
@@ -192,12 +192,10 @@ def begun(problem: Problem, moments: int | None = None) -> tuple[ProblemData, Se
 def routes_of(data: ProblemData, searcher: Searcher, linked: Linked) -> list[list[int]]:
     """Return the customers of all routes as they are, which are written back and linked again."""
     write_back(data, searcher, linked)
-    now = searcher.now
-    slots = searcher.active[:searcher.count.active]
-    types = now.route["type"][slots]
-    assert (now.used == np.bincount(types, minlength=data.num_types)).all()
+    types = [route.vehicle_type for route in read_routes(data, copied(data, searcher))]
+    assert (searcher.used == np.bincount(types, minlength=data.num_types)).all()
     tie(data, searcher, linked)
-    return [now.stop["node"][slot, 1:now.route["length"][slot] - 1].tolist() for slot in slots]
+    return served_by(searcher)
 
 
 @pytest.mark.parametrize("make", [
@@ -210,7 +208,7 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
     problem = make(size)
     data, searcher, linked = begun(problem)
     everybody = set(range(data.num_depots, data.num_nodes))
-    best, left_out, used = float(searcher.value.best), 0, searcher.now.used.copy()
+    best, left_out, used = float(searcher.value.best), 0, searcher.used.copy()
     for _ in range(BATCHES):
         anneal_linked(data, searcher, linked, TURNS)
         missing = searcher.missing[:searcher.count.missing].tolist()
@@ -225,7 +223,7 @@ def test_links_agree_and_costs_add_up(make, size) -> None:  # type: ignore[no-un
     if make is with_few_vehicles:
         assert left_out > 0
     if make is with_several_types:
-        assert (searcher.now.used != used).any()
+        assert (searcher.used != used).any()
     write_back(data, searcher, linked)
     assert check(problem, read_plan(data, searcher)).violations == ()
 
@@ -241,14 +239,14 @@ def test_what_is_refused_leaves_no_trace(make, moments) -> None:  # type: ignore
     for _ in range(5):
         anneal_linked(data, searcher, linked, TURNS)
     routes = routes_of(data, searcher, linked)
-    runs, cost = searcher.now.cost.copy(), float(searcher.value.cost)
+    runs, cost = searcher.cost.copy(), float(searcher.value.cost)
     temperature = float(searcher.value.temperature)
     # No plan is cheaper by so much, and nothing is given up before all are inserted.
     searcher.value.temperature = -1e12
     whole_turns = data._replace(strategy=data.strategy._replace(give_up_early=False))
     anneal_linked(whole_turns, searcher, linked, 200)
     assert sorted(routes_of(data, searcher, linked)) == sorted(routes)
-    assert sorted(searcher.now.cost) == sorted(runs)
+    assert sorted(searcher.cost) == sorted(runs)
     assert float(searcher.value.cost) == pytest.approx(cost, rel=1e-9)
     # Times are as they were, or later turns break windows.
     anneal_linked(whole_turns, searcher, linked, 200)

@@ -1,5 +1,7 @@
 """Among linked stops, customers of many are tried beside all neighbours."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from model.engine.instance import pack
@@ -8,11 +10,9 @@ from model.search.beginning.translate import make_searcher
 from model.search.linked.engine import insert_linked, tie, write_back
 from model.search.linked.layout import Linked
 from model.search.problem_data import are_timed, make_data
-from model.search.route.engine import BY_FAR, INFEASIBLE, missing_cost
-from model.search.route.layout import NOWHERE
-from model.search.route.state import Searcher
-from model.solution import Solution
-from tests.model.search.found import beside_neighbours
+from model.search.route.engine import BY_FAR, missing_cost
+from model.solution import Route, Solution
+from tests.model.search.found import INFEASIBLE, beside_neighbours, copied, read_plan
 from training.instances import generate
 
 MANY = 2000
@@ -21,15 +21,15 @@ MANY = 2000
 TRIED = 60
 
 
-def take_out(searcher: Searcher, node: int) -> None:
-    """Leave a customer out whom a truck serves among others. In place."""
-    now = searcher.now
-    slot, p, _ = now.where[node].tolist()
-    length = int(now.route[slot].length)
-    now.stop[slot, p:length - 1] = now.stop[slot, p + 1:length].copy()
-    now.route[slot].length -= 1
-    now.where[node]["slot"] = NOWHERE
-    searcher.missing[0], searcher.count.missing = node, 1
+def without(routes: tuple[Route, ...], node: int) -> tuple[Route, ...]:
+    """Return routes without a customer, who is among others."""
+    found = []
+    for route in routes:
+        trip, = route.trips
+        stops = tuple(stop for stop in trip.stops if stop.node != node)
+        if len(stops) > 2:
+            found.append(replace(route, trips=(replace(trip, stops=stops),)))
+    return tuple(found)
 
 
 def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
@@ -40,17 +40,16 @@ def test_no_cheaper_place_beside_a_neighbour_is_passed_over() -> None:
     linked = Linked(data, searcher, are_timed(data))
     begin_anew(data, searcher, False, linked=linked)
     assert searcher.count.missing == 0
-    searcher.alone[:] = INFEASIBLE
-    found = 0
+    plan, found = read_plan(data, copied(data, searcher)), 0
     for node in np.random.default_rng(4).choice(MANY, TRIED, replace=False) + 1:
-        slot = searcher.now.where[node]["slot"]
-        if searcher.now.route[slot].length <= 3:
-            continue
-        take_out(searcher, int(node))
+        routes = without(plan.routes, node)
+        searcher = make_searcher(problem, data, Solution(routes), np.random.SeedSequence(3))
+        searcher.alone[:] = INFEASIBLE
+        assert searcher.count.missing == 1
         tie(data, searcher, linked)
         write_back(data, searcher, linked)
         cost = searcher.value.cost - missing_cost(data, searcher)
-        least = beside_neighbours(data, searcher, int(node))
+        least = beside_neighbours(data, routes, int(node))
         insert_linked(data, searcher, linked, BY_FAR)
         assert searcher.count.missing == 0
         assert searcher.value.cost - cost <= least + 1e-6
