@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from model.engine.header import (
-    dtype_of_type, interface, is_laid_out_as, is_opaque, name_of, pointer_to,
+    dtype_of_type, interface, is_laid_out_as, name_of, pointer_to,
 )
 
 Encode = Callable[[Any, list[Any]], None]
@@ -115,15 +115,12 @@ def _plan(kind: Any, path: str) -> _Plan:
     """Return how values of a type are packed, which errors call by a path of fields."""
     if kind.kind == "primitive":
         return _Plan(_FORMATS[kind.cname], _number(kind, path))
-    if kind.kind == "pointer":
-        return _Plan("Q", _handle(kind, path) if is_opaque(kind.item)
-                     else _row(dtype_of_type(kind.item), path))
     if is_view(kind):
         (_, data), (_, shape) = kind.fields
         return _Plan(f"Q{shape.type.length}q",
                      _array(dtype_of_type(data.type.item), shape.type.length, path))
-    if kind.kind == "array":
-        raise TypeError(f"{path}: arrays are not part of others")
+    if kind.kind != "struct":
+        raise TypeError(f"{path}: arrays and pointers are not part of others")
     plans = {name: _plan(field.type, f"{path}.{name}") for name, field in kind.fields}
     return _Plan(_with_gaps(kind, [plan.format for plan in plans.values()]),
                  (_legs if name_of(kind) == LEGS else _fields)(plans, path))
@@ -143,29 +140,6 @@ def _number(kind: Any, path: str) -> Encode:
 
     def encode(value: Any, numbers: list[Any]) -> None:
         numbers.append(number(value))
-
-    return encode
-
-
-def _row(dtype: np.dtype[Any], path: str) -> Encode:
-    address, cast = address_of(dtype, path), interface().cast
-    integer = pointer_to("uintptr_t").item
-
-    def encode(value: Any, numbers: list[Any]) -> None:
-        numbers.append(int(cast(integer, address(value))))
-
-    return encode
-
-
-def _handle(kind: Any, path: str) -> Encode:
-    typeof, cast = interface().typeof, interface().cast
-    integer = pointer_to("uintptr_t").item
-
-    def encode(value: Any, numbers: list[Any]) -> None:
-        pointer = getattr(value, "pointer", None)
-        if pointer is None or typeof(pointer) is not kind:
-            raise TypeError(f"{path}: {name_of(kind.item)} was expected, not {_told(value)}")
-        numbers.append(int(cast(integer, pointer)))
 
     return encode
 

@@ -102,10 +102,10 @@ def test_computed_legs_of_other_rows_are_refused() -> None:
 
 @pytest.fixture(scope="module")
 def made_up() -> Any:
-    """Return pointers to a struct with gaps, a pointer, numbers and an array."""
+    """Return pointers to a struct with gaps, numbers and an array."""
     ffi = declared()
     ffi.cdef("typedef struct made_up { bool flag; int64_t count; bool other; double share;"
-             " tandem_price *row; bool last; tandem_i64_1d numbers; bool end; } made_up;")
+             " bool last; tandem_i64_1d numbers; bool end; } made_up;")
     return ffi.typeof("made_up *")
 
 
@@ -116,29 +116,24 @@ class MadeUp(NamedTuple):
     flag: Any
     other: Any
     share: Any
-    row: Any
     last: Any
     end: Any
     numbers: Any
 
 
 def test_fields_are_packed_by_name_and_as_the_compiler_lays_them_out(made_up: Any) -> None:
-    row = np.zeros(1, dtype_of("tandem_price"))[0]
-    row.late = 4.5
     value = Packed(MadeUp(count=np.int64(-7), flag=True, other=False, share=np.float32(0.5),
-                          row=row, last=np.True_, end=True, numbers=np.arange(5)), made_up)
+                          last=np.True_, end=True, numbers=np.arange(5)), made_up)
     struct = value.pointer
     assert (struct.flag, struct.count, struct.other, struct.share, struct.last, struct.end) == (
         True, -7, False, 0.5, True, True)
-    assert struct.row.late == 4.5
     assert [struct.numbers.data[index] for index in range(5)] == list(range(5))
 
 
 @pytest.mark.parametrize(("field", "other"), [
-    ("count", 1.5), ("count", None), ("share", "much"), ("row", np.zeros(1)), ("row", 0),
+    ("count", 1.5), ("count", None), ("share", "much"),
 ])
-def test_other_numbers_and_rows_are_refused(made_up: Any, field: str, other: Any) -> None:
-    value = MadeUp(1, True, True, 0.0, np.zeros(1, dtype_of("tandem_price")), True, True,
-                   np.arange(1))._replace(**{field: other})
+def test_other_numbers_are_refused(made_up: Any, field: str, other: Any) -> None:
+    value = MadeUp(1, True, True, 0.0, True, True, np.arange(1))._replace(**{field: other})
     with pytest.raises(TypeError, match=rf"made_up\.{field}: "):
         Packed(value, made_up)
