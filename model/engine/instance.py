@@ -5,7 +5,7 @@ rows of nodes, types and so on hold.
 """
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -25,13 +25,14 @@ from model.engine.pair_rows import (
 from model.engine.pausing import Pause, go_on
 from model.engine.records import Records
 from model.engine.serving import in_range, vehicle_costs
+from model.engine.structs import Struct
 from model.engine.share_rows import write_shares
 from model.engine.type_rows import limit, most_sorties, rate_row, write_type
 from model.engine.variants import (
     Variant, Way, durations_of, variant_of, ways_of, weighed_variant_of, write_legs,
 )
 from model.problem import (
-    BoolArray, Customer, FloatArray, IntArray, Problem, has_timed_zones, shares_chargers,
+    Customer, IntArray, Problem, has_timed_zones, shares_chargers,
 )
 
 MAX_NEIGHBOURS = 24
@@ -44,36 +45,8 @@ AMOUNTS = 2 * DIMENSIONS_PER_TIER + 2
 """Of a tier at a node: what is delivered, what is picked up, and both sums over all dimensions."""
 
 
-class Instance(NamedTuple):
+class Instance(Struct):
     """Packed problems."""
-
-    size: Records  # (problem,)
-    node: Records  # (problem, variant, node, 1 + gaps)
-    amount: IntArray  # (problem, node, tier, AMOUNTS); no tiers where the demand of nodes tells all
-    price: Records  # (problem, node)
-    goods: Records  # (problem, node), or (problem, 0)
-    setup: Records  # (problem, node), or (problem, 0)
-    max_time_aboard: IntArray  # (problem, node) ms, FAR without limit; (problem, 0) where none
-    pair: Records  # (problem, node), or (problem, 0)
-    max_between: IntArray  # (problem, type, node) ms, FAR without limit; (problem, 0, 0) where none
-    lag: Records  # (problem, node, rank), or (problem, 0, 0) where nobody is served behind others
-    across: Records  # (problem, node, rank) behind or before them by any vehicle, likewise
-    vehicle_cost: FloatArray  # (problem, type, node) of being served by it, or (problem, 0, 0)
-    no_launch: BoolArray  # (problem, node) no drone takes off there; (problem, 0) where any may
-    zones: IntArray  # (problem, node) with hours that hold it, as bits, or (problem, 0)
-    hub: Records  # (problem, depot), or (problem, 0) where all have enough
-    type: Records  # (problem, row); trucks first, as many as `size` says
-    rate: Records  # (problem, row)
-    reload: BoolArray  # (problem, type, node) where a trip may end and the next begin
-    can_drive: BoolArray  # (problem, type, node) table, kind, skills and capacity allow a truck
-    can_fly: BoolArray  # (problem, type, node) likewise for its drones
-    profile_time: IntArray  # (problem, type, change)
-    profile_factor: IntArray  # (problem, type, change + 1)
-    duration: IntArray  # (problem, travel, node, node)
-    distance: IntArray  # (problem, travel, node, node)
-    unassigned_cost: FloatArray  # (problem,) of whoever it costs least to leave out
-    unassigned_more: FloatArray  # (problem, node) what leaving out another costs above that
-    neighbour: IntArray  # (problem, node, rank) nearest customers first, -1 behind the last
 
 
 def pack(problems: Sequence[Problem], legs: bool = True, pause: Pause = go_on) -> Instance:

@@ -13,6 +13,7 @@ from model.engine.amount_rows import DIMENSIONS_PER_TIER
 from model.engine.instance import FAR, Instance
 from model.engine.library import dtype_of
 from model.engine.records import Records
+from model.engine.structs import Struct
 from model.engine.type_rows import ANY
 from model.problem import MM_PER_KM, MS_PER_HOUR, UNLIMITED, FloatArray, IntArray
 
@@ -49,14 +50,8 @@ NUM_TYPE_FEATURES = TYPE.itemsize // 4
 NUM_PAIR_FEATURES = 4
 
 
-class Scales(NamedTuple):
+class Scales(Struct):
     """Units of each problem, a row per problem."""
-
-    time: FloatArray  # (problem,) ms from a depot to a customer, mean
-    near: FloatArray  # (problem,) ms from a customer to its nearest neighbour, mean
-    horizon: FloatArray  # (problem,) ms, the last limit stated, or a guess
-    cost: FloatArray  # (problem,) cost of driving from a depot to a customer, mean
-    amount: FloatArray  # (problem,) total demand in the first dimension, or of pickups if more
 
 
 class Tokens(NamedTuple):
@@ -71,7 +66,7 @@ class Tokens(NamedTuple):
 def scales(instance: Instance) -> Scales:
     """Measure the units of each problem."""
     rows = len(instance.size)
-    result = Scales(*(np.ones(rows) for _ in Scales._fields))
+    result = Scales(**{name: np.ones(rows) for name in Scales._fields})
     picked = picked_up(instance)
     for b in range(rows):
         depots, customers, types, _ = instance.size[b].tolist()

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from model.engine.alarm import Alarm
 from model.engine.library import call, packed
+from model.engine.structs import Struct
 from model.policy.decision_features import (
     NUM_ACTION_FEATURES, NUM_GLOBAL_FEATURES, Observation, Scene,
 )
@@ -38,21 +39,8 @@ CLIP = 10.0
 """What the scores are clipped to, softly."""
 
 
-class StepWeights(NamedTuple):
+class StepWeights(Struct):
     """The weights of a decision, matrices as (input, output)."""
-
-    globe: Float32Array
-    globe_bias: Float32Array
-    globe_output: Float32Array
-    globe_output_bias: Float32Array
-    action: Float32Array
-    action_bias: Float32Array
-    glimpse_bias: Float32Array
-    glimpse_output: Float32Array
-    action_query: Float32Array
-    action_mix: Float32Array
-    action_mix_bias: Float32Array
-    action_score: Float32Array
 
 
 SHAPES = {

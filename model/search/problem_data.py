@@ -26,6 +26,11 @@ TURNED_FROM = 2000
 the search has soon made more of any plan."""
 
 
+AS_PACKED = (set(ProblemData._fields) & set(Instance._fields)) - {
+    "price", "rate", "unassigned_cost"}
+"""Tables that policies and the search read alike."""
+
+
 def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
               neighbourhood: Neighbourhood | None = None,
               deadline: IntArray | None = None) -> ProblemData:
@@ -48,29 +53,24 @@ def make_data(problem: Problem, instance: Instance, moves: Moves = ALL_MOVES,
     most_visits = max(1, int(visits.max()))
     halts = halts_of(problem, neighbourhood.numbering)
     must_serve, more = _must_serve(problem, instance), instance.unassigned_more[0]
+    as_packed = {name: getattr(instance, name)[0] for name in AS_PACKED}
     return ProblemData(
+        **as_packed,
         num_depots=problem.num_depots, num_nodes=problem.num_nodes,
         num_types=len(problem.vehicle_types), max_visits=most_visits,
         strategy=strategy_of(problem, instance, moves, evaluation, swap, most_visits),
         fairness=_plan_prices(problem), all_optional=not bool(must_serve.any()),
-        unassigned_cost=float(instance.unassigned_cost[0]), unassigned_more=more,
+        unassigned_cost=float(instance.unassigned_cost[0]),
         unassigned_costs_differ=bool((more > 0.0).any()), must_serve=must_serve,
-        place=instance.node[0], amount=instance.amount[0], goods=instance.goods[0],
-        setup=instance.setup[0], max_time_aboard=instance.max_time_aboard[0],
-        pair=instance.pair[0], max_between=instance.max_between[0],
-        lag=instance.lag[0], across=instance.across[0],
+        place=instance.node[0],
         span=np.zeros(instance.across.shape[1], dtype_of("tandem_span")),
         plugging=np.zeros(2 * problem.num_nodes + 1 if limits_chargers(problem) else 0,
                           dtype_of("tandem_plugging")),
-        vehicle_cost=instance.vehicle_cost[0],
-        no_launch=instance.no_launch[0], zones=instance.zones[0],
-        hub=instance.hub[0], **halts._asdict(),
-        price=_per_ms(instance.price[0]), type=types, rate=_per_unit(instance.rate[0]),
-        evaluation=evaluation, reload=instance.reload[0], visits=visits,
+        **halts._asdict(), price=_per_ms(instance.price[0]), rate=_per_unit(instance.rate[0]),
+        evaluation=evaluation, visits=visits,
         can=_can(instance, halts),
         swap=swap, splice=_splices(problem, instance.rate[0], swap),
         leg=neighbourhood.leg, back=neighbourhood.back,
-        profile_time=instance.profile_time[0], profile_factor=instance.profile_factor[0],
         near=neighbourhood.near, granular=neighbourhood.granular,
         deadline=Alarm().setting if deadline is None else deadline,
     )

@@ -1,13 +1,12 @@
 """Running plans as arrays, which the engine reads and writes; `tandem.h` says what rows hold."""
 
-from typing import NamedTuple
-
 import numpy as np
 
 from model.engine.instance import FAR, Instance
 from model.engine.library import dtype_of
 from model.engine.records import Records
-from model.problem import BoolArray, FloatArray, IntArray
+from model.engine.structs import Struct
+from model.problem import FloatArray
 
 NO_VEHICLE = -1
 """Type of the open vehicle before the first opens."""
@@ -16,34 +15,15 @@ IN_FLIGHT = -1
 """Recovery stop of a sortie until it is recovered, sortie of a drone that is aboard."""
 
 
-class VehicleLogs(NamedTuple):
+class VehicleLogs(Struct):
     """What each rollout's open vehicle does, in order."""
 
-    count: Records  # type: ignore[assignment]  # (rollout,) how many of each there are
-    trip: Records  # (rollout, trip)
-    stop: Records  # (rollout, stop)
-    op: Records  # (rollout, op) launches and recoveries
-    sortie: Records  # (rollout, sortie)
 
-
-class State(NamedTuple):
+class State(Struct):
     """Running plans, a row per rollout, then scratch rows. Times in ms since plan start.
 
     Times of sorties in flight are as if they were launched at once, in the log and in `drone`.
     """
-
-    problem: IntArray  # (rollout,) row in the Instance
-    served: BoolArray  # (rollout, node)
-    num_unserved: IntArray  # (rollout,)
-    used: IntArray  # (rollout, type) vehicles opened
-    taken: Records  # (rollout, depot) by the vehicles closed so far, or (rollout, 0)
-    starts: IntArray  # (rollout, node) by them, in orders across vehicles, or (rollout, 0)
-    done: BoolArray  # (rollout,)
-    vehicle: Records  # (rollout,) the open one
-    drone: Records  # (rollout, drone) its drones
-    log: VehicleLogs
-    cost: Records  # (rollout,) of the vehicles closed so far
-    fresh: BoolArray  # (problem, type, node) servable alone by a fresh vehicle
 
 
 def empty_logs(rows: int, num_customers: int) -> VehicleLogs:
