@@ -5,8 +5,8 @@ One truck, one to three customers or two shipments, one or two breaks; all in wh
 Orders, places of breaks and departures are enumerated by a clock of its own, and what is found
 cheapest is judged. With `--orders`, the judge's times of each order are compared.
 
-On 29 November 2026, 3,000 days, a third of them `--soft`: no order that can be driven is refused,
-none is dearer.
+On 29 November 2026, 1,000 days with `--soft` had 4,602 orders that can be driven: none is refused,
+none dearer.
 """
 
 from collections.abc import Iterator
