@@ -5,8 +5,8 @@ One truck, one to three customers or two shipments, one or two breaks; all in wh
 Orders, places of breaks and departures are enumerated by a clock of its own, and what is found
 cheapest is judged. With `--orders`, the judge's times of each order are compared.
 
-On 29 November 2026, 1,000 days with `--soft` had 4,602 orders that can be driven: none is refused,
-none dearer.
+On 29 November 2026, 2,000 days from seed 10000 and 1,000 with `--soft` from seed 3000 had 11,925
+orders that can be driven: none is refused, none dearer.
 """
 
 from collections.abc import Iterator
