@@ -877,15 +877,17 @@ int tandem_go_back(tandem_search* search);
 
 /* Search: insertion. */
 
-/* Tell what it costs to insert a customer on a route by a move of a kind, by the second drone. */
+/* Tell what it costs to insert a customer on a route: 0: behind a stop, 1: on a sortie from stop
+   `first` to `last` by the second drone, 2: by that on a trip of its own behind `first`, 3 or 4:
+   where a trip begins, or ends, there. */
 int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
                       int64_t slot, int64_t first, int64_t last, int64_t node, double* cost);
 /* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
 int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search,
                        int64_t node, double* cost);
 
-/* Tell what is kept of a customer's place on a route: what kind of move is found, -1 if none that
-   costs less, -2 if nothing is kept; and that cost. */
+/* Tell what is kept of a customer's place on a route: how many placements, 0 if none is found that
+   costs less, -1 if nothing is kept; and that cost. */
 int tandem_kept_place(tandem_search* search, int64_t node, int64_t slot, double* cost,
                       int64_t* found);
 

@@ -160,7 +160,7 @@ struct Scratch {
     Row<Int> moved_customers;       // (node,) of those trips
     Row<double> key;                // (node,) order of insertion
     Row<Int> moved;                 // slots that a ruin touches, or where stops move to
-    Row<Move> offer;                // insertions that may be best
+    Row<Offer> offer;               // insertions that may be best
     Row<double> least;              // what each costs at least
     Int offers = 0;                 // how many are listed
 

@@ -105,7 +105,7 @@ int tandem_kept_place(tandem_search* search, int64_t node, int64_t slot, double*
                       int64_t* found) {
     return guarded([&] {
         const bool is_kept = search->kept_stamp(node, slot) == search->now.route[slot].stamp;
-        *found = is_kept ? search->kept_move(node, slot).kind : elsewhere;
+        *found = is_kept ? search->kept_move(node, slot).count : nowhere;
         *cost = search->kept_cost(node, slot);
     });
 }

@@ -28,7 +28,8 @@ inline void trace_priced([[maybe_unused]] double cost, [[maybe_unused]] const Mo
         };
         mix(0);
         if (move != nullptr) {
-            for (const Int part : {move->kind, move->slot, move->first}) mix(part);
+            mix(move->slot);
+            for (const Placement& placed : move->placements()) mix(placed.from);
         }
         priced_digest.fetch_add(mixed, std::memory_order_relaxed);
     }

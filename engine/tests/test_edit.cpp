@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
+#include <utility>
 #include <vector>
 
 #include "search/route/edit.h"
@@ -9,20 +11,8 @@
 namespace tandem {
 namespace {
 
-constexpr Int depot = 0, site = 1, other_site = 2, served = 3, pickup = 4, second = 5, delivery = 6;
+constexpr Int depot = 0, site = 1, other_site = 2, served = 3, other = 4;
 constexpr Int untouched = -77;
-
-// A shipment with one pickup, or two.
-std::array<Pair, 7> pairs_with(bool gathered) {
-    std::array<Pair, 7> pairs{};
-    for (Int node = 0; node < Int(pairs.size()); ++node) {
-        pairs[std::size_t(node)] = {nowhere, 0, node, node};
-    }
-    pairs[pickup] = {delivery, 0, pickup, gathered ? second : pickup};
-    pairs[delivery] = {pickup, 1, pickup, pickup};
-    if (gathered) pairs[second] = {delivery, 0, pickup, pickup};
-    return pairs;
-}
 
 // A route from depot to depot by way of a customer, with room for some stops and sorties more.
 class Day {
@@ -31,7 +21,7 @@ public:
         for (Stop& stop : stop_) stop.node = untouched;
         for (Sortie& sortie : sortie_) sortie.drone = untouched;
         REQUIRE(begin_empty(sequence(), VehicleType{}, 0));
-        REQUIRE(insert_stops(sequence(), 1, {{served, customer_stop}}));
+        REQUIRE(insert_stop(sequence(), 1, served, customer_stop));
     }
 
     Sequence sequence() {
@@ -56,77 +46,48 @@ private:
     std::array<Sortie, 8> sortie_{};
 };
 
-// How a move adds a node, and how many stops and sorties that takes.
+// A move, and how many stops and sorties it takes.
 struct Addition {
     Move move;
-    Int node;
-    bool gathered;
     Int stops, sorties;
 };
 
-Move move_of(Int kind, Int drone = nowhere, Int sortie = nowhere) {
-    Move move{};
-    move.kind = kind;
-    move.first = move.last = move.landing = 0;
-    move.halt = site;
-    move.drone = drone;
-    move.sortie = sortie;
-    return move;
+Addition adding(std::initializer_list<Placement> placements) {
+    Addition addition{};
+    addition.move.between(0, 0, 0, 1);
+    for (const Placement& placed : placements) {
+        addition.move.add(placed.how, placed.node, placed.from, placed.to, placed.drone);
+        if (is_stop(placed)) ++addition.stops;
+        if (is_flight(placed)) ++addition.sorties;
+    }
+    return addition;
 }
 
 std::vector<Addition> additions() {
-    Move by_two = move_of(by_halts, 0);
-    by_two.last = 1;
-    by_two.landing = other_site;
-    Move both_flown = move_of(by_drones, 0, 1);
-    both_flown.halt = 0;
-    Move parts = move_of(all_ends, 0);
-    parts.drone = parts.halt = 0;
-    parts.end[0] = picked_behind(0, 0);
-    parts.end[1] = picked_behind(0, 1);
-    Move trip_of_parts = parts;
-    trip_of_parts.kind = parts_trip;
-    Move flown_part = parts;
-    note_fetched(flown_part, 0, 0, 0);
-    Move brought = parts;
-    brought.sortie = 0;
-    brought.late = from_last_pickup;
-    return {{move_of(at_stop), served, false, 1, 0},
-            {move_of(by_sortie, 0), served, false, 0, 1},
-            {move_of(new_trip), served, false, 3, 0},
-            {move_of(flight_trip, 0), served, false, 2, 1},
-            {move_of(trip_from), served, false, 3, 0},
-            {move_of(trip_until), served, false, 3, 0},
-            {move_of(from_halt, 0), served, false, 1, 1},
-            {move_of(to_halt, 0), served, false, 1, 1},
-            {by_two, served, false, 2, 1},
-            {move_of(halt_trip, 0), served, false, 3, 1},
-            {move_of(both_ends), pickup, false, 2, 0},
-            {move_of(by_truck_and_drone, 0), pickup, false, 1, 1},
-            {move_of(from_pickup, 0), pickup, false, 1, 1},
-            {move_of(by_drone_and_truck, 0), pickup, false, 1, 1},
-            {both_flown, pickup, false, 0, 2},
-            {move_of(on_one_flight, 0), pickup, false, 0, 1},
-            {move_of(pair_trip), pickup, false, 4, 0},
-            {move_of(pair_trip, 0), pickup, false, 3, 1},
-            {move_of(pair_trip, 0, 0), pickup, false, 2, 2},
-            {move_of(pair_trip, 0, on_same_flight), pickup, false, 2, 1},
-            {parts, pickup, true, 3, 0},
-            {flown_part, pickup, true, 2, 1},
-            {brought, pickup, true, 2, 1},
-            {trip_of_parts, pickup, true, 5, 0}};
+    Addition flown = adding({}), split = adding({});
+    fly_trip(flown.move, 0, depot, other, 0);
+    flown.stops = 2, flown.sorties = 1;
+    split_trip(split.move, 0, depot, other, true);
+    split.stops = 3;
+    return {flown,
+            split,
+            adding({{other, How::serve, 1, 0, 0}}),
+            adding({{site, How::halt, 1, 0, 0}, {other, How::fly, 1, 2, 0}}),
+            adding({{site, How::halt, 1, 0, 0},
+                    {other_site, How::halt, 3, 0, 0},
+                    {other, How::fly_first, 1, 3, 0}}),
+            adding({{served, How::fly, 0, 1, 0}, {other, How::ride, served, 0, 0}}),
+            adding({{served, How::fly, 0, 1, 0}, {other, How::fly_first, 0, 1, 1}})};
 }
 
 TEST_CASE("whatever is added to a route asks for room") {
-    for (Addition& addition : additions()) {
-        CAPTURE(addition.move.kind);
-        std::array<Pair, 7> pairs = pairs_with(addition.gathered);
-        const View<const Pair, 1> pair(pairs.data(), {Int(pairs.size())});
+    for (const Addition& addition : additions()) {
+        CAPTURE(int(addition.move.placement[0].how));
         for (Int stops = 0; stops <= addition.stops; ++stops) {
             for (Int sorties = 0; sorties <= addition.sorties; ++sorties) {
                 Day day(stops, sorties);
                 const bool fits = stops == addition.stops && sorties == addition.sorties;
-                CHECK(apply(depot, day.sequence(), addition.move, addition.node, pair) == fits);
+                CHECK(apply(day.sequence(), addition.move) == fits);
                 CHECK(day.is_within());
                 if (fits) {
                     CHECK(day.route().length == 3 + stops);
@@ -137,12 +98,30 @@ TEST_CASE("whatever is added to a route asks for room") {
     }
 }
 
+TEST_CASE("placements are where they say once all are placed") {
+    Day day(3, 3);
+    const Sequence route = day.sequence();
+    REQUIRE(apply(route, adding({{served, How::fly, 0, 1, 0}}).move));
+    Move move = adding({{site, How::halt, 1, 0, 0},
+                        {other_site, How::halt, 3, 0, 0},
+                        {other, How::fly_first, 0, 2, 1},
+                        {site, How::join, 0, 1, 0}})
+                    .move;
+    REQUIRE(apply(route, move));
+    for (const auto& [p, node] : {std::pair{1, site}, {2, served}, {3, other_site}, {4, depot}}) {
+        CHECK(route.stops[p].node == node);
+    }
+    const Sortie &first = route.sorties[0], &second = route.sorties[1];
+    CHECK((first.nodes[0] == other && first.nodes[1] == site && first.drone == 1));
+    CHECK((second.nodes[0] == served && second.launch == 0 && second.recovery == 2));
+}
+
 TEST_CASE("stops for which there is no room change nothing") {
     Day day(1, 0);
-    CHECK_FALSE(insert_stops(day.sequence(), 1, {{site, halt_stop}, {other_site, halt_stop}}));
-    CHECK(day.route().length == 3);
-    CHECK(day.sequence().stops[1].node == served);
     CHECK(add_stop(day.sequence(), site, halt_stop));
+    CHECK_FALSE(insert_stop(day.sequence(), 1, other_site, halt_stop));
+    CHECK(day.route().length == 4);
+    CHECK(day.sequence().stops[1].node == served);
     CHECK_FALSE(add_stop(day.sequence(), site, halt_stop));
     CHECK(day.is_within());
 }
@@ -154,15 +133,6 @@ TEST_CASE("a sortie takes as many customers as it has room for") {
     CHECK_FALSE(join_sortie(sortie, 0, most));
     CHECK(sortie.count == most);
     CHECK(sortie.nodes[0] == 0);
-}
-
-TEST_CASE("a route that begins anew asks for room") {
-    Day day(0, 0);
-    for (const Int way : {from_start, across, from_end, at_halt, start_to_halt, halt_to_end}) {
-        CHECK_FALSE(begin_route(day.sequence(), VehicleType{}, 0, served, way, 0, site));
-    }
-    CHECK(begin_route(day.sequence(), VehicleType{}, 0, served, by_truck, 0, site));
-    CHECK(day.is_within());
 }
 
 }  // namespace

@@ -45,13 +45,15 @@ TEST_CASE("the first of places that cost the same is the best") {
     auto state = seed();
     Best best{0.0, {state.data(), {1}}};
     const auto may_come = [] { return true; };
-    CHECK(best.try_behind({3, 0, 2.0, 10.0}, 5, 20, may_come));
-    CHECK_FALSE(best.try_behind({4, 1, 2.0, 10.0}, 6, 20, may_come));
+    CHECK(best.try_behind({9, 3, 0, 2.0, 10.0}, 5, 20, may_come));
+    CHECK_FALSE(best.try_behind({9, 4, 1, 2.0, 10.0}, 6, 20, may_come));
     CHECK(best.cost == 50.0);
-    CHECK(best.move.kind == at_stop);
+    CHECK(is_one_stop(best.move));
+    CHECK(best.move.placement[0].node == 9);
+    CHECK(best.move.placement[0].from == 6);
     CHECK(best.move.slot == 3);
     CHECK(best.move.first == 5);
-    CHECK(best.try_behind({4, 1, 2.0, 10.0}, 6, 19, may_come));
+    CHECK(best.try_behind({9, 4, 1, 2.0, 10.0}, 6, 19, may_come));
     CHECK(best.move.slot == 4);
     CHECK(best.move.type == 1);
 }
@@ -61,9 +63,9 @@ TEST_CASE("whether a customer may come is asked of cheaper places alone") {
     Best best{0.0, {state.data(), {1}}, 50.0};
     Int asked = 0;
     const auto may_come = [&] { return ++asked == 0; };
-    CHECK_FALSE(best.try_behind({3, 0, 2.0, 10.0}, 5, 20, may_come));
+    CHECK_FALSE(best.try_behind({9, 3, 0, 2.0, 10.0}, 5, 20, may_come));
     CHECK(asked == 0);
-    CHECK_FALSE(best.try_behind({3, 0, 2.0, 10.0}, 5, 19, may_come));
+    CHECK_FALSE(best.try_behind({9, 3, 0, 2.0, 10.0}, 5, 19, may_come));
     CHECK(asked == 1);
     CHECK(best.cost == 50.0);
     // Nor is anything drawn of places where he may not come.

@@ -9,7 +9,7 @@
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "search/beginning/plans.h"
-#include "search/insertion/evaluate.h"
+#include "search/insertion/alone.h"
 #include "search/moves/two_opt_star.h"
 #include "search/route/fairness.h"
 #include "search/route/freshness.h"

@@ -11,6 +11,7 @@ namespace tandem {
 // Which route a customer joins, by which type, what driving costs that, and what all costs but for
 // the detour.
 struct Joining {
+    Int node;
     Int slot;
     Int type;
     double rate;
@@ -36,7 +37,7 @@ struct Best {
 
     // Takes a move for the best likewise.
     void try_move(double other, const Move& made) {
-        if (takes(other, &made)) move = made;
+        if (takes(other, &made)) move.become(made);
     }
 
     // Takes the place behind `before` if that is the best and the customer may come there, which is
@@ -45,10 +46,8 @@ struct Best {
     bool try_behind(const Joining& joins, Int before, Int further, const MayCome& may_come) {
         const double other = double(further) * joins.rate + joins.cost;
         if (other >= cost || !may_come() || !takes(other)) return false;
-        move.kind = at_stop;
-        move.slot = joins.slot;
-        move.first = before;
-        move.type = joins.type;
+        move.between(joins.slot, joins.type, before, before + 1)
+            .add(How::serve, joins.node, before + 1);
         return true;
     }
 };

@@ -34,7 +34,7 @@ bool may_join(const Insertion& insertion, Int slot, Int index, Joining& joins) {
     const Int k = fleet.route[slot].type;
     if (!goods_may_join(data, fleet, slot, index, node)) return false;
     if (takes(data, fleet, slot, index, k, node)) {
-        joins = {slot, k, data.rate[k].distance,
+        joins = {node, slot, k, data.rate[k].distance,
                  data.rate[k].stop + vehicle_cost_at(data.vehicle_cost, k, node)};
         return true;
     }
@@ -45,7 +45,7 @@ bool may_join(const Insertion& insertion, Int slot, Int index, Joining& joins) {
     });
     if (by < 0) return false;
     const double more = route_cost(data, by, haul) - fleet.cost[slot];
-    joins = {slot, by, data.rate[by].distance, more + data.rate[by].stop};
+    joins = {node, slot, by, data.rate[by].distance, more + data.rate[by].stop};
     return joins.cost < best.cost;
 }
 

@@ -72,38 +72,39 @@ Int copy_part(const Fleet& fleet, Int slot, ChangedStops part, Int to) {
 ChangedStops part_of(const VehicleType& type, const Fleet& fleet, Int slot, const Move& move,
                      bool held) {
     const View<const Stop, 1> stops = fleet.stop[slot];
-    Int p = move.first, q = p + 1;
-    if (move.kind == by_sortie) {
-        q = move.last;
-    } else if (uses_halt(move)) {
-        q = std::max(q, move.last + (move.kind == from_halt ? 0 : 1));
-    } else if (move.kind == on_sortie) {
-        p = fleet.sortie(slot, move.sortie).launch;
-        q = fleet.sortie(slot, move.sortie).recovery;
-    }
-    p = std::max(p, Int{0});
-    q = std::min(q, fleet.route[slot].length - 1);
+    Int p = std::max(Int{move.first}, Int{0});
+    Int q = std::min(Int{move.last}, fleet.route[slot].length - 1);
     const Trip& trip = fleet.trip(slot, stops[p].trip);
-    const bool is_sortie = move.kind == by_sortie || uses_halt(move);
-    if (is_sortie || move.kind == trip_from || move.kind == trip_until) {
+    const bool alone = begins_trip(move), by_drone = flies(move);
+    if (!alone && (by_drone || move.count > 1)) {
         q = std::max(
-            q, launch_changed(type, fleet.route[slot], fleet.sortie[slot], trip, p, is_sortie));
+            q, launch_changed(type, fleet.route[slot], fleet.sortie[slot], trip, p, by_drone));
     }
-    const bool whole = bounds_trips(type) && move.kind != new_trip;
+    const bool whole = bounds_trips(type) && !(alone && !by_drone);
     if (held || whole) p = trip.first;
     if (whole) q = std::max(q, trip.last);
     return {stops[p].block, stops[stops[q].block].last};
 }
 
 // The move as it is in a part of the route that begins so many stops and sorties later.
-Move within(Move move, Int stops, Int sorties) {
-    if (move.kind == on_sortie) {
-        move.sortie -= sorties;
-    } else {
-        move.first -= stops;
-        move.last -= stops;
+Move within(const Move& move, Int stops, Int sorties) {
+    Move moved;
+    moved.become(move);
+    for (Placement& placed : std::span(moved.placement.data(), std::size_t(moved.count))) {
+        const bool joins = placed.how == How::join;
+        placed.from -= std::int32_t(joins ? sorties : stops);
+        if (!joins) placed.to -= std::int32_t(stops);
     }
-    return move;
+    return moved;
+}
+
+// Returns what a move costs with the stops that it adds, if so much without.
+double with_stops(const ProblemData& data, const Move& move, double cost) {
+    for (const Placement& placed : move.placements()) {
+        if (placed.how == How::serve) cost += data.rate[move.type].stop;
+        if (placed.how == How::halt) cost += data.halt_cost[placed.node];
+    }
+    return cost;
 }
 
 // A route up to the end of some stops, and how far those are driven.
@@ -217,77 +218,6 @@ void give_releases(const Fleet& fleet, Int to, bool alone, const Trip& trip, Int
     }
 }
 
-// How many ways there are to deliver what a route fetches alone: by truck, on the sortie that
-// fetches it, or by a drone of a row from where the route ends, or from the pickup's stop and back
-// there or to the end.
-Int ways_to_deliver(const ProblemData& data, Int k, Int node) {
-    const bool flies = is_pickup(data.pair, node) && data.can(k, 1, data.pair[node].partner);
-    return flies ? ways_to_bring * num_drone_rows(data.type, k) + 2 : 1;
-}
-
-// Lets a route deliver what it fetches alone in one of these ways; false if it may not. In place.
-bool deliver_alone(const ProblemData& data, const Sequence& sequence, Int node, Int way) {
-    if (!is_pickup(data.pair, node)) return true;
-    const auto& [route, stops, sorties] = sequence;
-    const Int delivery = data.pair[node].partner, end = route.length - 1;
-    if (way == 0) return insert_stops(sequence, end, {{delivery, customer_stop}});
-    const bool fetched = route.sorties > 0;
-    if (way == 1) {
-        const Int row = fetched ? row_of_drone(data.type, route.type, sorties[0].drone) : 0;
-        return fetched && data.visits[row] >= 2 && data.can(row, 1, delivery) &&
-               join_sortie(sorties[0], 1, delivery);
-    }
-    const Int row = drone_row_at(data.type, route.type, (way - 2) / ways_to_bring);
-    const Int bringing = (way - 2) % ways_to_bring;
-    if (!data.can(row, 1, delivery) || (bringing > 0 && fetched)) return false;
-    const auto [launch, recovery] = bringing_flight(bringing, end);
-    return add_sortie(sequence, launch, recovery, first_drone(data.type, route.type, row),
-                      delivery);
-}
-
-// The ways in which a route of a type serves a customer alone, or a shipment, by its pickup.
-class WaysAlone {
-public:
-    WaysAlone(const ProblemData& data, Int k, Int node, bool by_drone)
-        : data_(data), k_(k), node_(node), by_drone_(by_drone) {}
-
-    Int number() const { return begun_ * ways_to_deliver(data_, k_, node_); }
-
-    // Writes a route that serves it in one of them; false if that may not be. In place.
-    bool serve(const Fleet& fleet, Int slot, Int way) const {
-        const Int option = way % begun_;
-        const bool halting = option >= flights_;
-        const Int place = halting ? (option - flights_) / ways_by_halt : option;
-        const Int row = drone_row_at(data_.type, k_, place / (halting ? halts_ : options_));
-        if (by_drone_ && !data_.can(row, 1, node_)) return false;
-        Int begun = (by_drone_ ? from_start : by_truck) + option % options_, halt = nowhere;
-        if (halting) {
-            begun = at_halt + (option - flights_) % ways_by_halt;
-            halt = data_.near_halts(node_, place % halts_);
-            if (halt < 0) return false;
-        }
-        const Sequence sequence = sequence_in(fleet, slot);
-        return begin_route(sequence, data_.type[k_], k_, node_, begun,
-                           first_drone(data_.type, k_, row), halt) &&
-               deliver_alone(data_, sequence, node_, way / begun_) && refresh(data_, fleet, slot);
-    }
-
-private:
-    // Whether a drone may fly across an empty trip: a driver may have a break meanwhile.
-    static bool may_cross(const VehicleType& type) {
-        return type.begins_at != type.ends_at || has_breaks(type);
-    }
-
-    const ProblemData& data_;
-    const Int k_;
-    const Int node_;
-    const bool by_drone_;
-    const Int options_ = by_drone_ && may_cross(data_.type[k_]) ? ways - from_start : 1;
-    const Int halts_ = by_drone_ && has_halts(data_) ? data_.near_halts.shape(1) : 0;
-    const Int flights_ = by_drone_ ? options_ * num_drone_rows(data_.type, k_) : 1;
-    const Int begun_ = flights_ + ways_by_halt * halts_ * num_drone_rows(data_.type, k_);
-};
-
 // As `price_stop`.
 template <class Rarer>
 double price_between(const OnTrip& on, Int p, const Newcomer& newcomer) {
@@ -302,73 +232,31 @@ double price_between(const OnTrip& on, Int p, const Newcomer& newcomer) {
 
 }  // namespace
 
-bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-                 bool by_drone) {
-    if (is_gathered(data.pair, node))
-        return serve_parts_alone(data, fleet, slot, k, node, by_drone);
-    const WaysAlone all(data, k, node, by_drone);
-    double best = infeasible;
-    Int chosen = 0, end = far;
-    bool done = false;
-    // The last time, the best of them is written once more.
-    for (Int tried = 0; tried < (all.number() == 1 ? 1 : all.number() + 1); ++tried) {
-        const Int way = tried == all.number() ? chosen : tried;
-        done = all.serve(fleet, slot, way);
-        const bool is_sooner =
-            data.fairness.makespan > 0.0 && fleet.cost[slot] == best && fleet.route[slot].end < end;
-        if (done && (fleet.cost[slot] < best || is_sooner)) {
-            best = fleet.cost[slot];
-            end = fleet.route[slot].end;
-            chosen = way;
-        }
-    }
-    return done;
-}
-
-bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-                        View<std::uint64_t, 1> rng) {
-    if (is_gathered(data.pair, node)) return serve_parts_anyhow(data, fleet, slot, k, node, rng);
-    const WaysAlone driven(data, k, node, false), flown(data, k, node, true);
-    const Int way = below(rng, driven.number() + flown.number());
-    return way < driven.number() ? driven.serve(fleet, slot, way)
-                                 : flown.serve(fleet, slot, way - driven.number());
-}
-
 double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,
                   double bar) {
     const Int slot = move.slot, to = fleet.route.size() - 1;
-    const Int k = fleet.route[slot].type, kind = move.kind;
-    const Int depot = data.type[k].depot;
-    const bool whole = is_paired(data.pair, node);
+    const Int k = fleet.route[slot].type;
     if (data.evaluation[k].priced || has_driving_rules(data.type[k]) ||
-        (is_apart(data, k) && (kind >= new_trip || bounds_reach(data.type[k]))) || whole) {
+        (is_apart(data, k) && (move.count > 1 || bounds_reach(data.type[k]))) ||
+        is_paired(data.pair, node)) {
         copy_part(fleet, slot, {0, fleet.route[slot].length - 1}, to);
-        if (!apply(depot, sequence_in(fleet, to), move, node, data.pair) ||
+        if (!apply(sequence_in(fleet, to), move) ||
             !refresh_cost(data, fleet, to, bar + fleet.cost[slot])) {
             return infeasible;
         }
         return fleet.cost[to] - fleet.cost[slot];
     }
-    const Int there =
-        kind == on_sortie ? fleet.sortie(slot, move.sortie).launch : std::max(move.first, Int{0});
-    const Trip& trip = fleet.trip(slot, fleet.stop(slot, there).trip);
+    const Trip& trip = fleet.trip(slot, fleet.stop(slot, std::max(Int{move.first}, Int{0})).trip);
     const Int release = release_of(data.place[0][node]);
-    const bool alone = kind == new_trip || kind == flight_trip || kind == halt_trip;
+    const bool alone = begins_trip(move);
     const ChangedStops part =
         part_of(data.type[k], fleet, slot, move, !alone && release > trip.release);
     const Int skipped = copy_part(fleet, slot, part, to);
-    const Move moved = within(move, part.first, skipped);
-    if (!apply(depot, sequence_in(fleet, to), moved, node, data.pair)) return infeasible;
+    if (!apply(sequence_in(fleet, to), within(move, part.first, skipped))) return infeasible;
     give_releases(fleet, to, alone, trip, release);
-    double cost =
-        price_part(data, fleet, slot, part, to) + vehicle_cost_at(data.vehicle_cost, k, node);
-    if (kind == at_stop || kind == new_trip || kind == trip_from || kind == trip_until) {
-        cost += data.rate[k].stop;
-    } else if (uses_halt(move) || kind == halt_trip) {
-        cost += data.halt_cost[move.halt];
-        if (move.kind == by_halts) cost += data.halt_cost[move.landing];
-    }
-    return cost;
+    return with_stops(
+        data, move,
+        price_part(data, fleet, slot, part, to) + vehicle_cost_at(data.vehicle_cost, k, node));
 }
 
 bool stands_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node) {
@@ -394,12 +282,24 @@ using namespace tandem;
 int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
                       int64_t slot, int64_t first, int64_t last, int64_t node, double* cost) {
     return guarded([&] {
+        const Fleet& routes = search->now;
+        const ProblemData problem = data_of(*data);
+        const Int type = routes.route[slot].type, depot = problem.type[type].depot;
         Move move{};
-        move.kind = kind;
-        move.slot = slot;
-        move.first = first;
-        move.last = last;
-        move.drone = 1;
-        *cost = price_move(data_of(*data), search->now, move, node, infeasible);
+        move.between(slot, type, first, std::max(last, first + 1));
+        switch (kind) {
+            case 0:
+                move.add(How::serve, node, first + 1);
+                break;
+            case 1:
+                move.between(slot, type, first, last).add(How::fly, node, first, last, 1);
+                break;
+            case 2:
+                fly_trip(move, first, depot, node, 1);
+                break;
+            default:
+                split_trip(move, first, depot, node, kind == 4);
+        }
+        *cost = price_move(problem, routes, move, node, infeasible);
     });
 }

@@ -6,16 +6,6 @@
 
 namespace tandem {
 
-// Writes the route that serves a customer alone at the least cost. False if none may.
-//
-// Where it begins and ends at one place, a drone leaves from the start, and comes back there.
-bool serve_alone(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-                 bool by_drone);
-
-// Writes the route that serves a shipment alone in some way, drawn of all. False if it may not.
-bool serve_alone_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-                        View<std::uint64_t, 1> rng);
-
 // Returns what it costs to insert a customer as `move` says; `infeasible` if it can't be, or is
 // known to cost no less than `bar` before the route is timed.
 double price_move(const ProblemData& data, const Fleet& fleet, const Move& move, Int node,

@@ -88,9 +88,8 @@ public:
                 cost += load_more(data_, searcher_.now, slot_, launch, recovery, node_);
             }
             if (cost < best_ && flight.can_serve() && room_between(room_, launch, recovery)) {
-                Move& offer = add_offer(searcher_, cost, by_sortie, slot_, launch);
-                offer.last = recovery;
-                offer.type = row_;
+                add_offer(searcher_, cost, slot_, launch, recovery)
+                    .add(How::fly, node_, launch, recovery, drone_);
             }
         }
     }
@@ -104,6 +103,7 @@ private:
     const Int node_ = insertion_.node;
     const View<const Stop, 1> stops_ = searcher_.now.stop[slot_];
     const Route& route_ = searcher_.now.route[slot_];
+    const Int drone_ = first_drone(data_.type, route_.type, row_);  // stands for the row's
     const VehicleType& type_ = data_.type[row_];
     const Rate rate_ = data_.rate[row_];
     const Windows place_ = data_.place.by_air(type_)[node_];

@@ -96,34 +96,28 @@ private:
         });
     }
 
-    Int drone_for(const EndPlace& place) const {
-        if (place.row < 0) return nowhere;
-        return free_drone(data, fleet, slot, {place.launch(), place.recovery()}, place.row);
-    }
-
-    static Int kind_of(const PairPlace& place) {
-        if (place.delivery.flies_on()) return from_pickup;
-        if (place.pickup.row == by_wheels) return by_truck_and_drone;
-        if (place.delivery.row == by_wheels) return by_drone_and_truck;
-        return place.delivery.row == by_same ? on_one_flight : by_drones;
-    }
-
     void price(const PairPlace& place) {
         const auto& [cost, pickup, delivery] = place;
-        const Int fetching = drone_for(pickup), bringing = drone_for(delivery);
-        const bool fetches = pickup.row >= 0, brings = delivery.row >= 0;
-        if ((fetches && fetching < 0) || (brings && bringing < 0)) return;
-        const bool lands = fetches && delivery.row != by_wheels;
-        Move move = move_of(kind_of(place), pickup.first, lands ? pickup.last : delivery.first);
-        move.halt = delivery.first;
-        move.landing = brings ? delivery.last : pickup.last;
-        move.drone = fetches ? fetching : bringing;
-        move.sortie = bringing;
+        const bool fetches = pickup.is_flown(), brings = delivery.is_flown();
+        const Int fetching = fetches ? drone_for(pickup) : 0;
+        const Int bringing = brings ? drone_for(delivery) : 0;
+        if (fetching < 0 || bringing < 0) return;
+        const Int driven = fetches ? 0 : 1;
+        Move move{};
+        move_between(move, pickup.first, std::max(pickup.last, delivery.last));
+        if (!fetches) move.add(How::serve, node, pickup.first + 1);
+        if (delivery.row == by_wheels) move.add(How::serve, delivery_, delivery.first + 1);
+        if (fetches) move.add(How::fly, node, pickup.first, pickup.last, fetching);
+        if (delivery.row == by_same) move.add(How::ride, delivery_, node);
         const bool relays = fetches && brings && pickup.last == delivery.first;
-        move.late = relays ? 1 : 0;
+        if (brings) {
+            // What is brought from elsewhere is aboard no longer than it need be.
+            const How how = relays || delivery.flies_on() ? How::fly : How::fly_first;
+            move.add(how, delivery_, delivery.first + driven, delivery.last + driven, bringing);
+        }
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
         if (!brings || relays || delivery.flies_on() || !flies_beside(delivery)) return;
-        move.late = 1;
+        move.placement[std::size_t(move.count - 1)].how = How::fly;
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 

@@ -140,24 +140,40 @@ private:
     }
 
     void price(const Choice& choice) {
-        Move move = move_of(all_ends, 0, 0);
         const EndPlace& delivery = place_of(pickups_.count, choice);
-        move.last = delivery.first;
-        move.landing = delivery.last;
-        move.sortie = nowhere;
-        if (delivery.is_flown()) {
-            move.sortie = drone_for(delivery, {});
-            if (move.sortie < 0) return;
+        taken_ = 0;
+        const Int bringing = delivery.is_flown() ? drone_for(delivery) : 0;
+        Move move{};
+        move_between(move, delivery.last, delivery.last + 1);
+        if (bringing < 0 || !fetch(choice, move)) return;
+        const Int driven = move.count;
+        if (!delivery.is_flown()) move.add(How::serve, delivery_, delivery.first + 1 + driven);
+        for (Int flight = 0; flight < taken_; ++flight) {
+            const auto& [pickup, drone, first, last] = flights_[std::size_t(flight)];
+            move.add(How::fly, pickup, first + driven_before(move, first),
+                     last + driven_before(move, last), drone);
         }
-        move.late = delivery.flies_on() ? from_last_pickup : delivery.is_flown() ? 1 : 0;
-        if (!note_pickups(choice, move)) return;
-        move.first = move.end[0] / most_pickups;
+        if (delivery.is_flown()) {
+            // All pickups come before.
+            move.add(How::fly, delivery_, delivery.first + driven, delivery.last + driven,
+                     bringing);
+        }
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 
-    // Notes the pickups by their stops, each with a drone of its own meanwhile. In place; false if
+    // How many stops are placed before what was one.
+    static Int driven_before(const Move& move, Int stop) {
+        Int number = 0;
+        while (number < move.count && is_stop(move.placement[std::size_t(number)]) &&
+               move.placement[std::size_t(number)].from <= stop + number) {
+            ++number;
+        }
+        return number;
+    }
+
+    // Places the pickups by truck, and takes a drone for each of the others. In place; false if
     // there are none left.
-    bool note_pickups(const Choice& choice, Move& move) {
+    bool fetch(const Choice& choice, Move& move) {
         // Behind those that there are, none.
         std::array<std::pair<Int, Int>, most_pickups> order;
         order.fill({far, 0});
@@ -170,41 +186,41 @@ private:
         for (Int rank = 0; rank < pickups_.count; ++rank) {
             const Int end = order[std::size_t(rank)].second;
             const EndPlace& place = place_of(end, choice);
-            move.end[rank] = picked_behind(place.first, end);
-            if (!place.is_flown()) continue;
-            const Int drone = drone_for(place, {rank, move});
-            if (drone < 0 || !may_note_fetched(drone)) return false;
-            note_fetched(move, rank, drone, place.last - place.first);
+            move.first = std::int32_t(std::min(Int{move.first}, place.first));
+            if (!place.is_flown()) {
+                move.add(How::serve, end_node(end), place.first + 1 + move.count);
+                continue;
+            }
+            const Int drone = idle_drone_for(place);
+            if (drone < 0) return false;
+            flights_[std::size_t(taken_++)] = {end_node(end), drone, place.first, place.last};
         }
         return true;
     }
 
-    // Which pickups of a move have drones already: so many, by their ranks.
-    struct Noted {
-        Int count = 0;
-        Move move{};
+    // A flight to a pickup, by the stops as they were.
+    struct Flight {
+        Int node, drone, first, last;
 
-        // Whether a drone flies for another pickup while it were to fly from and to these stops.
-        bool takes(Int drone, const EndPlace& place) const {
-            for (Int rank = 0; rank < count; ++rank) {
-                if (fetching_drone(move, rank) != drone) continue;
-                const Int launch = move.end[rank] / most_pickups;
-                const Int recovery = launch + fetching_span(move, rank);
-                const bool is_apart = recovery <= place.first || place.last <= launch;
-                if (!is_apart) return true;
-            }
-            return false;
+        // Whether it takes a drone while that were to fly from and to these stops.
+        bool takes(Int other, const EndPlace& place) const {
+            return drone == other && place.first < last && first < place.last;
         }
     };
 
+    // Whether a drone is taken for another pickup while it were to fly from and to these stops.
+    bool is_taken(Int drone, const EndPlace& place) const {
+        return std::any_of(flights_.begin(), flights_.begin() + taken_,
+                           [&](const Flight& flight) { return flight.takes(drone, place); });
+    }
+
     // A drone of a place's row that is free then; `nowhere` if there is none.
-    Int drone_for(const EndPlace& place, const Noted& noted) const {
-        const Int drone =
-            free_drone(data, fleet, slot, {place.launch(), place.recovery()}, place.row);
-        if (drone < 0 || !noted.takes(drone, place)) return drone;
+    Int idle_drone_for(const EndPlace& place) const {
+        const Int drone = drone_for(place);
+        if (drone < 0 || !is_taken(drone, place)) return drone;
         const Int first = first_drone(data.type, route.type, place.row);
         for (Int other = first; other < first + data.type[place.row].drones; ++other) {
-            if (!noted.takes(other, place) && is_idle(other, place)) return other;
+            if (!is_taken(other, place) && is_idle(other, place)) return other;
         }
         return nowhere;
     }
@@ -222,6 +238,8 @@ private:
     const Int delivery_;
     std::array<EndPlaces, std::size_t(most_ends)> places_;
     Cheapest<Combination, most_priced> combined_;
+    std::array<Flight, most_pickups> flights_{};
+    Int taken_ = 0;  // of these
 };
 
 }  // namespace

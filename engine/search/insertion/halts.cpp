@@ -19,13 +19,13 @@
 namespace tandem {
 namespace {
 
-// Which stops at launch sites are inserted where, as `Move` has it.
+// From where to where a drone flies, and at which of these the truck stops at a launch site by
+// more, behind that stop; `nowhere` at others.
 struct Way {
-    Int kind;
-    Int first;
-    Int last;
-    Int halt;
-    Int landing;
+    Int launch;
+    Int recovery;
+    Int launch_halt;
+    Int recovery_halt;
 };
 
 // Sorties to a customer by drones of a row that begin or end at stops at launch sites to come.
@@ -35,7 +35,7 @@ public:
         : data_(insertion.data),
           searcher_(insertion.searcher),
           slot_(slot),
-          row_(row),
+          drone_(first_drone(data_.type, searcher_.now.route[slot].type, row)),
           node_(insertion.node),
           k_(searcher_.now.route[slot].type),
           stops_(searcher_.now.stop[slot]),
@@ -72,7 +72,7 @@ public:
         if (driven + usual_work_cost(data_.rate[k_], least_longer) >= best_) return;
         if (data_.strategy.loops) {
             const Flight loop{type_, place_, out.duration, home.duration};
-            offer({from_halt, p, p, halt, nowhere}, loop, driven, out.distance + home.distance,
+            offer({p, p, halt, halt}, loop, driven, out.distance + home.distance,
                   recovery_end(type_, longer + loop.duration()));
         }
         if (!crossing_) return;
@@ -84,8 +84,7 @@ public:
             if (!may_end_at(to)) continue;
             const Flight flight{type_, place_, out.duration, back.duration};
             const Int begun = recovery_end(type_, here.leave + there.duration);
-            offer({from_halt, p, recovery, halt, nowhere}, flight, driven,
-                  out.distance + back.distance,
+            offer({p, recovery, halt, nowhere}, flight, driven, out.distance + back.distance,
                   std::max(longer, begun + flight.duration() - to.leave - idle_));
         }
         for (Int launch = std::max(trip.first, p - max_span + 1); launch <= p; ++launch) {
@@ -94,7 +93,7 @@ public:
             const Leg way = leg_from(inward_, from.node);
             const Flight flight{type_, place_, way.duration, home.duration};
             const Int begun = recovery_end(type_, from.arrival + on.duration);
-            offer({to_halt, launch, p, halt, nowhere}, flight, driven, way.distance + home.distance,
+            offer({launch, p, nowhere, halt}, flight, driven, way.distance + home.distance,
                   std::max(longer - handled, begun + flight.duration() - behind.leave - idle_));
         }
     }
@@ -124,7 +123,7 @@ private:
                     driven + data_.halt_cost[landing] +
                     drive_cost(data_.rate[k_], there.distance + on.distance - here.leg);
                 if (cost >= best_ || !is_served_by(q, data_.halt_after[landing])) continue;
-                offer({by_halts, p, q, halt, landing}, flight, cost, out.distance + home.distance,
+                offer({p, q, halt, landing}, flight, cost, out.distance + home.distance,
                       longer + std::max(Int{0}, detour));
             }
         }
@@ -153,17 +152,21 @@ private:
             !flight.can_serve()) {
             return;
         }
-        Move& move = add_offer(searcher_, cost, way.kind, slot_, way.first);
-        move.last = way.last;
-        move.type = row_;
-        move.halt = way.halt;
-        move.landing = way.landing;
+        const auto& [launch, recovery, from, to] = way;
+        const bool comes_back = from >= 0 && launch == recovery;
+        const Int last = std::max(launch + 1, to < 0 ? recovery : recovery + 1);
+        Offer& move = add_offer(searcher_, cost, slot_, launch, last);
+        Int begin = launch, end = recovery;
+        if (from >= 0) move.add(How::halt, from, begin = launch + 1);
+        if (from >= 0) ++end;
+        if (to >= 0 && !comes_back) move.add(How::halt, to, ++end);
+        move.add(How::fly, node_, begin, end, drone_);
     }
 
     const ProblemData& data_;
     const Searcher& searcher_;
     Int slot_;
-    Int row_;
+    Int drone_;  // stands for the row's
     Int node_;
     Int k_;
     View<const Stop, 1> stops_;
@@ -223,9 +226,11 @@ void offer_halt_trips(const Insertion& insertion, Int slot) {
             if (cost >= best.cost || !flight.can_serve()) continue;
             for (Int p = -1; p < route.length; ++p) {
                 if (p >= 0 && now.stop(slot, p).kind != end_stop) continue;
-                Move& move = add_offer(searcher, cost, halt_trip, slot, p);
-                move.drone = first_drone(data.type, k, row);
-                move.halt = halt;
+                Offer& move = add_offer(searcher, cost, slot, p, p + 1);
+                move.add(How::begin, depot, p + 1);
+                move.add(How::halt, halt, p + 2);
+                move.add(How::end, depot, p + 3);
+                move.add(How::fly, node, p + 2, p + 2, first_drone(data.type, k, row));
             }
         }
     }

@@ -15,16 +15,12 @@ inline double most_saved(const ProblemData& data, const Fleet& fleet, Int slot, 
 
 // Lists an insertion that costs at least `cost`; returns it, to complete it. Were there no room, it
 // would take the place of the last one.
-inline Move& add_offer(const Searcher& searcher, double cost, Int kind, Int slot, Int first) {
+inline Offer& add_offer(const Searcher& searcher, double cost, Int slot, Int first, Int last) {
     Scratch& scratch = *searcher.scratch;
     if (scratch.offers < scratch.offer.size()) ++scratch.offers;
     const Int index = scratch.offers - 1;
     scratch.least[index] = cost;
-    Move& offer = scratch.offer[index];
-    offer.kind = kind;
-    offer.slot = slot;
-    offer.first = first;
-    return offer;
+    return scratch.offer[index].between(slot, searcher.now.route[slot].type, first, last);
 }
 
 }  // namespace tandem

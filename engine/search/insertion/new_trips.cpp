@@ -155,10 +155,10 @@ bool may_begin(const ProblemData& data, Int k, Int node) {
     return true;
 }
 
-bool more_trips_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
-                    Int kind) {
-    if (kind == new_trip) return trip_fits(data, fleet, slot, p, node);
-    return split_fits(data, fleet, slot, p, node, kind == trip_until);
+bool more_trips_fit(const ProblemData& data, const Fleet& fleet, const Move& move, Int node) {
+    if (begins_trip(move)) return trip_fits(data, fleet, move.slot, move.first, node);
+    const bool until = move.placement[0].how == How::serve;
+    return split_fits(data, fleet, move.slot, move.first, node, until);
 }
 
 }  // namespace tandem

@@ -11,8 +11,7 @@ bool part_fits(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int
 // Tells whether a vehicle of type `k` may serve a customer on a trip of its own, by loads.
 bool may_begin(const ProblemData& data, Int k, Int node);
 
-// Tells whether a simple route may have a trip more as a move of `kind` behind stop `p` says.
-bool more_trips_fit(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
-                    Int kind);
+// Tells whether a simple route may have a trip more as a move says.
+bool more_trips_fit(const ProblemData& data, const Fleet& fleet, const Move& move, Int node);
 
 }  // namespace tandem

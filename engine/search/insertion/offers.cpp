@@ -72,12 +72,14 @@ Int spare_time(const ProblemData& data, const Route& route, View<const Stop, 1> 
                                                 : idle_time(route);
 }
 
-Stretch stretch_of(const Move& move) {
-    const Int first = 2 * move.first, last = 2 * move.last;
-    if (move.kind == by_halts) return {first + 1, last + 1};
-    if (move.kind == to_halt) return {first, last + 1};
-    if (move.kind == from_halt) return {first + 1, move.last == move.first ? first + 1 : last};
-    return {first, last};
+// Returns where a stop is, in half stops of the route as it was: one placed there is between two.
+Int half_stop(const Move& move, Int stop) {
+    Int former = 2 * stop;
+    for (const Placement& placed : move.placements()) {
+        if (!is_stop(placed) || placed.from > stop) break;
+        former -= placed.from == stop ? 1 : 2;
+    }
+    return former;
 }
 
 // Returns what an insertion costs, at least `least`; `infeasible` if it can't be, or perhaps if
@@ -87,20 +89,41 @@ Stretch stretch_of(const Move& move) {
 double price_offer(const ProblemData& data, const Searcher& searcher, Move& move, Int node,
                    double least, double best) {
     const Fleet& now = searcher.now;
-    const Int kind = move.kind, slot = move.slot, p = move.first;
-    if (kind == by_sortie || uses_halt(move)) {
-        move.drone = free_drone(data, now, slot, stretch_of(move), move.type);
-        if (move.drone < 0) return infeasible;
-    } else if (kind == at_stop) {
+    const Int slot = move.slot, p = move.first;
+    Placement& placed = move.placement[std::size_t(move.count - 1)];
+    if (is_one_stop(move)) {
         if (stands_alone(data, now, slot, p, node)) {
             const VehicleType& type = data.type[now.route[slot].type];
             return price_stop(data, now, slot, p, newcomer_for(data, type, node));
         }
-    } else if ((kind == new_trip || kind == trip_from || kind == trip_until) &&
-               is_simple(data, now, slot) && !is_apart(data, now.route[slot].type)) {
-        return more_trips_fit(data, now, slot, p, node, kind) ? least : infeasible;
+    } else if (is_flight(placed) && !begins_trip(move)) {
+        const Stretch stretch{half_stop(move, placed.from), half_stop(move, placed.to)};
+        const Int row = row_of_drone(data.type, now.route[slot].type, placed.drone);
+        placed.drone = std::int32_t(free_drone(data, now, slot, stretch, row));
+        if (placed.drone < 0) return infeasible;
+    } else if (is_stop(placed) && is_simple(data, now, slot) &&
+               !is_apart(data, now.route[slot].type)) {
+        return more_trips_fit(data, now, move, node) ? least : infeasible;
     }
     return price_move(data, now, move, node, best);
+}
+
+// Where a trip more begins: before a customer whom the former trip's others follow, behind one whom
+// they go before, or for a customer alone.
+enum class Begun { before, behind, alone };
+
+// Lists a customer where a trip more begins behind stop `p`.
+void offer_trip(const Insertion& insertion, Int slot, double cost, Int p, Begun begun) {
+    const auto& [data, searcher, node, enlarge, best] = insertion;
+    Offer& move = add_offer(searcher, cost, slot, p, p + 1);
+    const Int depot = data.type[move.type].depot;
+    if (begun != Begun::alone) {
+        split_trip(move, p, depot, node, begun == Begun::behind);
+        return;
+    }
+    move.add(How::begin, depot, p + 1);
+    move.add(How::serve, node, p + 2);
+    move.add(How::end, depot, p + 3);
 }
 
 }  // namespace
@@ -158,7 +181,7 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
                 load_more_behind(data, now, slot, p, node, detour.out.distance, detour.on.distance);
         }
         if (cost < best && detour.distance <= most && room_behind(room, p)) {
-            add_offer(searcher, cost, at_stop, slot, p);
+            add_offer(searcher, cost, slot, p, p + 1).add(How::serve, node, p + 1);
         }
     }
 }
@@ -197,7 +220,9 @@ void offer_joining(const Insertion& insertion, Int slot) {
             if (place > 0 && tiers_of(data) > 0) {
                 may_carry = can_carry(data, row, sortie, place, node);
             }
-            if (may_carry) add_offer(searcher, cost, on_sortie, slot, place).sortie = s;
+            if (!may_carry) continue;
+            add_offer(searcher, cost, slot, sortie.launch, sortie.recovery)
+                .add(How::join, node, s, place);
         }
     }
 }
@@ -222,8 +247,8 @@ void offer_flight_trips(const Insertion& insertion, Int slot) {
         }
         for (Int p = -1; p < route.length; ++p) {
             if (p < 0 || stops[p].kind == end_stop) {
-                add_offer(searcher, cost, flight_trip, slot, p).drone =
-                    first_drone(data.type, k, row);
+                fly_trip(add_offer(searcher, cost, slot, p, p + 1), p, depot, node,
+                         first_drone(data.type, k, row));
             }
         }
     }
@@ -241,33 +266,31 @@ void offer_trips(const Insertion& insertion, Int slot) {
     const LegRow inward = legs_to(data.back, m, node);
     const Int out = leg_from(inward, depot).distance, home = leg(legs, node, depot).distance;
     for (Int p = -1; p < route.length; ++p) {
-        Int kind = new_trip;
+        const bool alone = p < 0 || stops[p].kind == end_stop;
+        bool until = false;
         double cost = double(out + home) * rate;
-        if (p >= 0 && stops[p].kind != end_stop) {
+        if (!alone) {
             if (stops[p].flying > 0 || stops[p].kind == start_stop ||
                 stops[p + 1].kind == end_stop) {
                 continue;
             }
             const Int here = stops[p].node, there = stops[p + 1].node;
-            const double until = double(-stops[p].leg + leg_from(inward, here).distance + home +
-                                        leg(legs, depot, there).distance) *
-                                 rate;
+            const double before = double(-stops[p].leg + leg_from(inward, here).distance + home +
+                                         leg(legs, depot, there).distance) *
+                                  rate;
             cost = double(-stops[p].leg + leg(legs, here, depot).distance + out +
                           leg(legs, node, there).distance) *
                    rate;
-            kind = trip_from;
-            if (until < cost) {
-                kind = trip_until;
-                cost = until;
-            }
-            if (cost < best && !part_fits(data, now, slot, p, node, kind == trip_until)) continue;
+            until = before < cost;
+            cost = std::min(cost, before);
+            if (cost < best && !part_fits(data, now, slot, p, node, until)) continue;
         }
         cost += data.rate[k].stop - most_saved(data, now, slot, node);
         // Each of two trips carries less, at best next to nothing.
-        if (kind != new_trip && loads_cost(data, k)) cost -= load_cost(data, now, slot);
-        if (kind == new_trip && !may_begin(data, k, node)) continue;
+        if (!alone && loads_cost(data, k)) cost -= load_cost(data, now, slot);
+        if (alone && !may_begin(data, k, node)) continue;
         if (cost < best && (p < 0 || !data.place[0][node].too_late(stops[p].leave))) {
-            add_offer(searcher, cost, kind, slot, p);
+            offer_trip(insertion, slot, cost, p, alone ? Begun::alone : Begun(until));
         }
     }
 }
@@ -281,7 +304,8 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
     const Int k = route.type, last = route.length - 1;
     const double rate = data.rate[k].distance;
     for (Int p = -1; p <= last; ++p) {
-        Int kind = new_trip, here, there;
+        Begun begun = Begun::alone;
+        Int here, there;
         if (p < 0) {
             here = stops[0].node;
             there = stops[1].node;
@@ -297,39 +321,39 @@ void offer_trips_apart(const Insertion& insertion, Int slot) {
         } else {
             here = stops[p].node;
             there = stops[p + 1].node;
-            kind = trip_until;
+            begun = Begun::behind;
         }
         double cost = double(detour_by_reload(data, k, here, node, there, p != last)) * rate;
-        if (kind == trip_until) {
+        if (begun == Begun::behind) {
             const double behind =
                 double(detour_by_reload(data, k, here, node, there, false)) * rate;
             if (behind < cost) {
-                kind = trip_from;
+                begun = Begun::before;
                 cost = behind;
             }
         }
         cost += data.rate[k].stop - most_saved(data, now, slot, node);
         // Whoever was served may be carried less far, at best next to nowhere.
         if (loads_cost(data, k)) cost -= load_cost(data, now, slot);
-        if (kind == new_trip && !may_begin(data, k, node)) continue;
-        if (cost < best) add_offer(searcher, cost, kind, slot, p);
+        if (begun == Begun::alone && !may_begin(data, k, node)) continue;
+        if (cost < best) offer_trip(insertion, slot, cost, p, begun);
     }
 }
 
 void take_cheapest(const Insertion& insertion) {
     const auto [data, searcher, node, enlarge, best] = insertion;
-    const View<Move, 1> offer = searcher.scratch->offer;
+    const View<Offer, 1> offer = searcher.scratch->offer;
+    Move move;
     const View<double, 1> least = searcher.scratch->least;
     Int left = searcher.scratch->offers;
     Least cheapest(least, left);
     while (left > 0 && !data.deadline.passed()) {
         const Int first = cheapest.first();
         if (least[first] >= best.cost) break;
-        const double cost =
-            price_offer(data, searcher, offer[first], node, least[first], best.cost);
-        best.try_move(cost, offer[first]);
+        move.become(offer[first]);
+        best.try_move(price_offer(data, searcher, move, node, least[first], best.cost), move);
         cheapest.take_out(first);
-        offer[first] = offer[--left];
+        if (first < --left) offer[first].become(offer[left]);
     }
     searcher.scratch->offers = 0;
 }

@@ -1,6 +1,7 @@
 #include "search/insertion/pairs.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <tuple>
 
@@ -11,6 +12,7 @@
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
+#include "search/insertion/alone.h"
 #include "search/insertion/cheapest.h"
 #include "search/insertion/flown_pairs.h"
 #include "search/insertion/flown_parts.h"
@@ -65,7 +67,8 @@ public:
                 if (data.deadline.passed()) return;
                 last = spot;
                 if (is_dear(spot.least)) continue;
-                const Move move = move_of(both_ends, spot.p, spot.q);
+                Move move{};
+                serve_both(move, spot.p, spot.q);
                 const double cost = price_move(data, fleet, move, node, infeasible);
                 possible = possible || cost < infeasible;
                 best.try_move(cost, move);
@@ -183,7 +186,14 @@ private:
         const Leg out = q == p ? aboard_ : leg_from(delivery_.inward, stops[q].node);
         if (!way.serve(delivery_, out)) return;
         const double cost = way.price(leg_to(delivery_.onward, stops[q + 1].node), stops_cost_);
-        if (cost < infeasible && best.takes(cost)) best.move = move_of(both_ends, p, q);
+        if (cost < infeasible && best.takes(cost)) serve_both(best.move, p, q);
+    }
+
+    // Lets a move serve the pickup behind a stop, and the delivery behind it or a later one.
+    void serve_both(Move& move, Int p, Int q) const {
+        move_between(move, p, q + 1);
+        move.add(How::serve, pickup_.node, p + 1);
+        move.add(How::serve, delivery_.node, q + 2);
     }
 
     const Newcomer pickup_;
@@ -208,6 +218,30 @@ void for_each_server(const ProblemData& data, Int k, Int node, const Visit& visi
 bool may_bring_within(const ProblemData& data, Int k, Int drone, Int delivery) {
     const Int row = row_of_drone(data.type, k, drone);
     return data.visits[row] > 1 && data.can(row, 1, delivery);
+}
+
+constexpr Int on_same_flight = -2;
+
+// By which drones a shipment is fetched and brought on a trip of its own, by truck if `nowhere`,
+// and from where to where it is brought.
+struct Relayed {
+    Int fetching, bringing, way;
+};
+
+// Lets a shipment have a trip of its own behind a move's first stop. In place.
+void begin_pair(Move& move, Int depot, std::array<Int, 2> ends, const Relayed& served) {
+    const auto& [fetching, bringing, way] = served;
+    const Int start = move.first + 1;
+    Int end = start;
+    move.add(How::begin, depot, start);
+    if (fetching < 0) move.add(How::serve, ends[0], ++end);
+    if (bringing == nowhere) move.add(How::serve, ends[1], ++end);
+    move.add(How::end, depot, ++end);
+    if (fetching >= 0) move.add(How::fly, ends[0], start, start, fetching);
+    if (bringing == on_same_flight) move.add(How::ride, ends[1], ends[0]);
+    if (bringing < 0) return;
+    const auto [launch, recovery] = bringing_flight(way, end);
+    move.add(How::fly, ends[1], launch, recovery, bringing);
 }
 
 // Whether a part of a shipment comes from the depot, or its trip has to wait for it there.
@@ -269,31 +303,27 @@ void try_pair_trips(const Insertion& insertion, Int slot) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
     const View<const Stop, 1> stops = fleet.stop[slot];
-    const Int length = fleet.route[slot].length;
-    Move move{};
-    move.kind = pair_trip;
-    move.slot = slot;
-    move.type = fleet.route[slot].type;
+    const Int k = fleet.route[slot].type;
     const Int partner = data.pair[node].partner;
-    for (move.first = -1; move.first < length; ++move.first) {
-        if (move.first >= 0 && stops[move.first].kind != end_stop) continue;
+    const auto try_trip = [&](Int p, const Relayed& served) {
+        Move move{};
+        move.between(slot, k, p, p + 1);
+        begin_pair(move, data.type[k].depot, {node, partner}, served);
+        best.try_move(price_move(data, fleet, move, node, best.cost), move);
+    };
+    for (Int p = -1; p < fleet.route[slot].length; ++p) {
+        if (p >= 0 && stops[p].kind != end_stop) continue;
         if (is_gathered(data.pair, node)) {
-            try_parts_trip(insertion, slot, move.first);
+            try_parts_trip(insertion, slot, p);
             continue;
         }
-        for_each_server(data, move.type, node, [&](Int fetching) {
-            move.drone = fetching;
-            if (fetching >= 0 && may_bring_within(data, move.type, fetching, partner)) {
-                move.sortie = on_same_flight;
-                best.try_move(price_move(data, fleet, move, node, best.cost), move);
+        for_each_server(data, k, node, [&](Int fetching) {
+            if (fetching >= 0 && may_bring_within(data, k, fetching, partner)) {
+                try_trip(p, {fetching, on_same_flight, 0});
             }
-            for_each_server(data, move.type, partner, [&](Int bringing) {
-                move.sortie = bringing;
+            for_each_server(data, k, partner, [&](Int bringing) {
                 const Int ways = fetching < 0 && bringing >= 0 ? ways_to_bring : 1;
-                for (move.last = 0; move.last < ways; ++move.last) {
-                    best.try_move(price_move(data, fleet, move, node, best.cost), move);
-                }
-                move.last = 0;
+                for (Int way = 0; way < ways; ++way) try_trip(p, {fetching, bringing, way});
             });
         });
     }

@@ -114,7 +114,8 @@ private:
         way.aboard += picked_of(data.amount, newcomer.node, 0)[0];
         if (is_too_far(way.on.further()) || !holds_more(way.on.behind(), way.aboard)) return;
         if (!is_served && is_walked_) return;
-        end_[std::size_t(way.rank++)] = picked_behind(way.on.behind(), number);
+        const Int rank = way.rank++;
+        served_[std::size_t(rank)] = {newcomer.node, way.on.behind() + 1 + rank};
         way.taken |= Int{1} << number;
         way.here = number;
         do {
@@ -149,9 +150,13 @@ private:
         const bool is_served = whole.serve(delivery_, leg_to_end(way, delivery_));
         if (is_too_far(whole.further() + on.distance - stops[behind].leg)) return;
         if (is_walked_ && (!is_served || whole.price(on, stops_cost_) >= best.cost)) return;
-        Move move = move_of(all_ends, end_[0] / most_pickups, behind);
-        move.sortie = nowhere;
-        std::copy(end_.begin(), end_.end(), move.end);
+        Move move{};
+        move_between(move, served_[0].stop - 1, behind + 1);
+        for (Int rank = 0; rank < count_; ++rank) {
+            const auto [served, stop] = served_[std::size_t(rank)];
+            move.add(How::serve, served, stop);
+        }
+        move.add(How::serve, delivery_.node, behind + 1 + count_);
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
 
@@ -162,7 +167,11 @@ private:
     const double stops_cost_;
     std::array<Int, most_pickups> limit_{};
     Int steps_ = 0;
-    std::array<std::int32_t, most_pickups> end_{};
+    // Which pickups a vehicle has been at, and as which stops of the changed route.
+    struct Served {
+        Int node, stop;
+    };
+    std::array<Served, most_pickups> served_{};
     Inserted inserted_;
 };
 

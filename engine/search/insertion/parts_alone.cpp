@@ -5,6 +5,7 @@
 #include "randomness.h"
 #include "rules/drone_types.h"
 #include "rules/pair.h"
+#include "search/insertion/alone.h"
 #include "search/route/edit.h"
 #include "search/route/refresh.h"
 #include "search/route/routes.h"
@@ -51,18 +52,30 @@ public:
 
     Int number() const { return by_drone_ && rows_ == 0 ? 0 : orders_ * fetchings_ * bringings_; }
 
-    // Lets a move serve it in one of them on a trip that begins at a stop, its end the next; false
-    // if that may not be. In place.
-    bool note(Int way, Int start, Move& move) const {
+    // Lets a move serve it in one of them on a trip that begins at stop `start`, and with it if
+    // that is to come from a depot; false if that may not be. In place.
+    bool note(Int way, Int start, Int depot, Move& move) const {
         const Int order = way % orders_, bringing = way / orders_ % bringings_;
         const Int fetching = way / orders_ / bringings_;
         if (by_drone_ && fetching == 0 && bringing == 0) return false;
-        move.sortie = nowhere;
-        move.last = start;
-        move.drone = move.halt = 0;
-        Int driven = 0;
-        return note_fetching(fetching, order, start, move, driven) &&
-               (bringing == 0 || note_bringing(bringing - 1, start, driven, move));
+        const Fetching fetched = fetching_of(fetching);
+        const auto numbers = in_order(all_numbers(), order);
+        Int end = start + 1;
+        if (depot >= 0) move.add(How::begin, depot, start);
+        for (const Int number : numbers) {
+            if (!fetched.takes(number)) move.add(How::serve, pickup(number), end++);
+        }
+        const Int driven = end - start - 1;
+        if (bringing == 0) move.add(How::serve, delivery_, end++);
+        if (depot >= 0) move.add(How::end, depot, end);
+        for (const Int number : numbers) {
+            if (!fetched.takes(number)) continue;
+            if (!data_.can(fetched.row, 1, pickup(number))) return false;
+            const Int launch = start + fetched.launch;
+            move.add(How::fly, pickup(number), launch, launch + fetched.span,
+                     first_drone(data_.type, k_, fetched.row));
+        }
+        return bringing == 0 || note_bringing(bringing - 1, driven, end, move);
     }
 
 private:
@@ -72,48 +85,47 @@ private:
                            [&](Int pickup) { return data.can(k_, 1, pickup); });
     }
 
-    // Notes the pickups, in an order, those flown that a number tells: none, or by a row of drones
-    // all or one; counts who is driven to. In place; false if that may not be.
-    bool note_fetching(Int fetching, Int order, Int start, Move& move, Int& driven) const {
-        const Int count = pickups_.count, each = 1 + count * flights_;
+    // Which pickups drones of a row fetch: all, one, or none; from which stop of the trip, and how
+    // many stops later they are recovered.
+    struct Fetching {
+        static constexpr Int all = most_pickups;
+
         Int row = nowhere, flown = nowhere, launch = 0, span = 0;
-        if (fetching > 0) {
-            row = drone_row_at(data_.type, k_, (fetching - 1) / each);
-            const Int single = (fetching - 1) % each - 1;
-            flown = single < 0 ? count : single / flights_;
-            launch = single < 0 ? 0 : single % flights_;
-            // There is a flight fewer of each span more.
-            for (; launch >= count - span; ++span) launch -= count - span;
+
+        bool takes(Int number) const { return row >= 0 && (flown == all || flown == number); }
+    };
+
+    Fetching fetching_of(Int way) const {
+        Fetching fetched;
+        if (way == 0) return fetched;
+        const Int count = pickups_.count, each = 1 + count * flights_;
+        const Int single = (way - 1) % each - 1;
+        fetched.row = drone_row_at(data_.type, k_, (way - 1) / each);
+        fetched.flown = single < 0 ? Fetching::all : single / flights_;
+        Int& launch = fetched.launch = single < 0 ? 0 : single % flights_;
+        // There is a flight fewer of each span more.
+        for (; launch >= count - fetched.span; ++fetched.span) launch -= count - fetched.span;
+        return fetched;
+    }
+
+    Int pickup(Int number) const { return pickups_.node[std::size_t(number)]; }
+
+    Pickups all_numbers() const {
+        Pickups numbers{{}, pickups_.count};
+        for (Int number = 0; number < pickups_.count; ++number) {
+            numbers.node[std::size_t(number)] = number;
         }
-        Pickups numbers{{}, count};
-        for (Int number = 0; number < count; ++number) numbers.node[std::size_t(number)] = number;
-        Int rank = 0;
-        for (const Int number : in_order(numbers, order)) {
-            const bool flies = row >= 0 && (flown == count || flown == number);
-            move.end[rank] = picked_behind(start + (flies ? launch : 0), number);
-            if (!flies) {
-                ++driven;
-            } else {
-                if (!data_.can(row, 1, pickups_.node[std::size_t(number)])) return false;
-                const Int drone = first_drone(data_.type, k_, row);
-                if (!may_note_fetched(drone)) return false;
-                note_fetched(move, rank, drone, span);
-            }
-            ++rank;
-        }
-        return true;
+        return numbers;
     }
 
     // Notes that a drone of a row delivers from the trip's end, or the last of so many pickups by
     // truck; false if that may not be.
-    bool note_bringing(Int number, Int start, Int driven, Move& move) const {
+    bool note_bringing(Int number, Int driven, Int end, Move& move) const {
         const Int row = drone_row_at(data_.type, k_, number / ways_to_bring);
         const Int way = number % ways_to_bring;
         if (!data_.can(row, 1, delivery_) || (way > 0 && driven == 0)) return false;
-        move.sortie = first_drone(data_.type, k_, row);
-        const auto [launch, recovery] = bringing_flight(way, start + driven + 1);
-        move.last = launch;
-        move.landing = recovery;
+        const auto [launch, recovery] = bringing_flight(way, end);
+        move.add(How::fly_first, delivery_, launch, recovery, first_drone(data_.type, k_, row));
         return true;
     }
 
@@ -130,14 +142,12 @@ private:
 };
 
 // Writes a route that serves a shipment alone in one of the ways. False if it may not. In place.
-bool serve(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
-           const PartWays& ways, Int way) {
+bool serve(const ProblemData& data, const Fleet& fleet, Int slot, Int k, const PartWays& ways,
+           Int way) {
     Move move{};
-    if (!ways.note(way, 0, move)) return false;
     const Sequence sequence = sequence_in(fleet, slot);
-    return begin_empty(sequence, data.type[k], k) &&
-           lay_out_parts(sequence, 0, move, pickups_of(data.pair, node), data.pair[node].partner) &&
-           refresh(data, fleet, slot);
+    return ways.note(way, 0, nowhere, move) && begin_empty(sequence, data.type[k], k) &&
+           apply(sequence, move) && refresh(data, fleet, slot);
 }
 
 }  // namespace
@@ -145,15 +155,13 @@ bool serve(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int nod
 void try_parts_trip(const Insertion& insertion, Int slot, Int behind) {
     const auto& [data, searcher, node, enlarge, best] = insertion;
     const Fleet& fleet = searcher.now;
-    Move move{};
-    move.kind = parts_trip;
-    move.slot = slot;
-    move.first = behind;
-    move.type = fleet.route[slot].type;
+    const Int k = fleet.route[slot].type;
     for (const bool by_drone : {false, true}) {
-        const PartWays ways(data, move.type, node, by_drone, 1);
+        const PartWays ways(data, k, node, by_drone, 1);
         for (Int way = 0; way < ways.number(); ++way) {
-            if (!ways.note(way, behind + 1, move)) continue;
+            Move move{};
+            move.between(slot, k, behind, behind + 1);
+            if (!ways.note(way, behind + 1, data.type[k].depot, move)) continue;
             best.try_move(price_move(data, fleet, move, node, best.cost), move);
         }
     }
@@ -165,11 +173,11 @@ bool serve_parts_alone(const ProblemData& data, const Fleet& fleet, Int slot, In
     double best = infeasible;
     Int chosen = 0;
     for (Int way = 0; way < ways.number(); ++way) {
-        if (!serve(data, fleet, slot, k, node, ways, way) || fleet.cost[slot] >= best) continue;
+        if (!serve(data, fleet, slot, k, ways, way) || fleet.cost[slot] >= best) continue;
         best = fleet.cost[slot];
         chosen = way;
     }
-    return best < infeasible && serve(data, fleet, slot, k, node, ways, chosen);
+    return best < infeasible && serve(data, fleet, slot, k, ways, chosen);
 }
 
 bool serve_parts_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, Int k, Int node,
@@ -177,8 +185,8 @@ bool serve_parts_anyhow(const ProblemData& data, const Fleet& fleet, Int slot, I
     const PartWays driven(data, k, node, false, most_flights);
     const PartWays flown(data, k, node, true, most_flights);
     const Int way = below(rng, driven.number() + flown.number());
-    return way < driven.number() ? serve(data, fleet, slot, k, node, driven, way)
-                                 : serve(data, fleet, slot, k, node, flown, way - driven.number());
+    return way < driven.number() ? serve(data, fleet, slot, k, driven, way)
+                                 : serve(data, fleet, slot, k, flown, way - driven.number());
 }
 
 }  // namespace tandem

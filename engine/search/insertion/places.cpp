@@ -7,8 +7,8 @@
 #include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/window.h"
+#include "search/insertion/alone.h"
 #include "search/insertion/cheapest_stop.h"
-#include "search/insertion/evaluate.h"
 #include "search/insertion/offers.h"
 #include "search/insertion/pairs.h"
 #include "search/route/edit.h"
@@ -103,7 +103,7 @@ void try_route(const Insertion& insertion, Int slot) {
 bool is_kept(const Insertion& insertion, Int slot) {
     const auto [data, searcher, node, enlarge, best] = insertion;
     return searcher.kept_stamp(node, slot) == searcher.now.route[slot].stamp &&
-           (searcher.kept_move(node, slot).kind >= 0 ||
+           (searcher.kept_move(node, slot).count > 0 ||
             searcher.kept_cost(node, slot) >= best.cost);
 }
 
@@ -113,8 +113,8 @@ void keep(const Insertion& insertion, Int slot, double before) {
     searcher.kept_stamp(node, slot) = searcher.now.route[slot].stamp;
     searcher.kept_cost(node, slot) = best.cost;
     Move& kept = searcher.kept_move(node, slot);
-    kept = best.move;
-    if (best.cost >= before) kept.kind = nowhere;
+    kept.count = 0;
+    if (best.cost < before) kept.become(best.move);
 }
 
 // Tries a customer on all routes, those first where that takes little. As `try_route`.
@@ -137,7 +137,7 @@ void try_routes(const Insertion& insertion) {
             const bool known = data.strategy.keep_places && !enlarge && route.stamp != changing;
             if (known && is_kept(insertion, slot)) {
                 if (!costly && best.takes(searcher.kept_cost(node, slot))) {
-                    best.move = searcher.kept_move(node, slot);
+                    best.move.become(searcher.kept_move(node, slot));
                 }
                 continue;
             }
@@ -230,8 +230,7 @@ void try_new_route(const ProblemData& data, const Searcher& searcher, Int node, 
                                     : 0.0);
         for (Int way = 0; way < (data.strategy.loops ? 2 : 1); ++way) {
             if (!best.takes(cost_alone(data, searcher, k, way, node))) continue;
-            best.move.kind = way == 0 ? new_route : new_flight;
-            best.move.type = k;
+            best.move.between(nowhere, k, 0, 1).add(way == 0 ? How::serve : How::fly, node, 1);
         }
     }
 }
@@ -262,8 +261,6 @@ void find_beside(const Insertion& insertion) {
     }
     take_cheapest(insertion);
 }
-
-bool opens_route(const Move& move) { return move.kind == new_route || move.kind == new_flight; }
 
 void try_trips(const Insertion& insertion, Int number) {
     const Searcher& searcher = insertion.searcher;

@@ -46,14 +46,14 @@ struct TripScan : OnTrip {
     // Whether what costs at least so much may be passed over.
     bool is_dear(double least) const { return data.strategy.give_up_early && least >= best.cost; }
 
-    Move move_of(Int kind, Int first, Int last) const {
-        Move move{};
-        move.kind = kind;
-        move.slot = slot;
-        move.first = first;
-        move.last = last;
-        move.type = route.type;
-        return move;
+    // Lets a move begin between two stops. In place.
+    Move& move_between(Move& move, Int first, Int last) const {
+        return move.between(slot, route.type, first, last);
+    }
+
+    // A drone that is free for a place's flight; `nowhere` if there is none.
+    Int drone_for(const EndPlace& place) const {
+        return free_drone(data, fleet, slot, {place.launch(), place.recovery()}, place.row);
     }
 
     // Calls `visit` with each row of drones that may serve two customers and has a battery.

@@ -253,7 +253,7 @@ private:
         if (room_.is_on(run) && has_stop_left(run) &&
             (!looks_aboard(linked_) || may_hold(slot, run.type))) {
             const Rate& rate = data_.rate[run.type];
-            joins = {{slot, run.type, rate.distance, rate.stop}, newcomer_by(run.type)};
+            joins = {{newcomer_.node, slot, run.type, rate.distance, rate.stop}, newcomer_by(run.type)};
             return true;
         }
         return enlarge_ && may_join_enlarged(slot, joins);
@@ -281,7 +281,7 @@ private:
         if (by < 0) return false;
         const Rate& rate = data_.rate[by];
         const double more = route_cost(data_, by, haul) - route_cost(data_, run.type, haul);
-        joins = {{slot, by, rate.distance, more + rate.stop}, newcomer_by(by)};
+        joins = {{newcomer_.node, slot, by, rate.distance, more + rate.stop}, newcomer_by(by)};
         return true;
     }
 

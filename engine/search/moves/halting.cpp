@@ -49,7 +49,7 @@ void halt_for(const ProblemData& data, const Searcher& searcher, Int node) {
     if (halt < 0) return;
     const Int spare = now.route.size() - 2;
     set_aside(data, now, slot, spare);
-    if (!insert_stops(sequence_in(now, slot), p + 1, {{halt, halt_stop}})) return;
+    if (!insert_stop(sequence_in(now, slot), p + 1, halt, halt_stop)) return;
     if (!refresh(data, now, slot)) put_back(data, now, slot, spare);
     locate(now, slot);
 }

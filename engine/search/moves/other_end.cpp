@@ -124,11 +124,14 @@ private:
 
     void price(const EndPlace& place) {
         const bool flies = place.row >= 0;
-        Move move = move_of(flies ? by_sortie : at_stop, place.first, place.last);
+        Move move{};
         if (flies) {
-            move.drone =
-                free_drone(data, fleet, slot, {2 * place.first, 2 * place.last}, place.row);
-            if (move.drone < 0) return;
+            const Int drone = drone_for(place);
+            if (drone < 0) return;
+            move_between(move, place.first, place.last)
+                .add(How::fly, node, place.first, place.last, drone);
+        } else {
+            move_between(move, place.first, place.first + 1).add(How::serve, node, place.first + 1);
         }
         best.try_move(price_move(data, fleet, move, node, best.cost), move);
     }
@@ -164,9 +167,7 @@ bool move_end(const ProblemData& data, const Searcher& searcher, double rise) {
     Best best{data.strategy.blink, searcher.rng};
     OtherEnd({data, searcher, node, false, best}, slot, trip).find(former);
     if (best.cost >= rise) return false;
-    const Int depot = data.type[now.route[slot].type].depot;
-    const bool allowed = apply(depot, sequence_in(now, slot), best.move, node, data.pair) &&
-                         refresh(data, now, slot);
+    const bool allowed = apply(sequence_in(now, slot), best.move) && refresh(data, now, slot);
     locate(now, slot);
     return allowed;
 }

@@ -8,7 +8,7 @@
 #include "rules/load.h"
 #include "rules/pair.h"
 #include "rules/window.h"
-#include "search/insertion/evaluate.h"
+#include "search/insertion/alone.h"
 #include "search/insertion/places.h"
 #include "search/moves/halting.h"
 #include "search/route/edit.h"
@@ -97,7 +97,7 @@ bool open_route(const ProblemData& data, const Searcher& searcher, Int node, Int
 bool insert(const ProblemData& data, const Searcher& searcher, Int node, const Move& move) {
     const Fleet& now = searcher.now;
     if (opens_route(move)) {
-        return open_route(data, searcher, node, move.type, move.kind == new_flight);
+        return open_route(data, searcher, node, move.type, flies(move));
     }
     const Int slot = move.slot;
     touch(searcher, slot);
@@ -107,9 +107,7 @@ bool insert(const ProblemData& data, const Searcher& searcher, Int node, const M
     const Int former = route.type;
     const bool retyped = data.evaluation[former].by_distance && move.type != former;
     if (retyped) change_type(data, now, slot, move.type);
-    const bool allowed =
-        apply(data.type[route.type].depot, sequence_in(now, slot), move, node, data.pair) &&
-        refresh(data, now, slot);
+    const bool allowed = apply(sequence_in(now, slot), move) && refresh(data, now, slot);
     if (!allowed) {
         if (retyped) change_type(data, now, slot, former);
         put_back(data, now, slot, spare);

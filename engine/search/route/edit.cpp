@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 namespace tandem {
 namespace {
@@ -43,49 +42,6 @@ bool put_sortie(Sortie* sortie, Int launch, Int recovery, Int drone, Int node) {
     return true;
 }
 
-// One of several pickups in a move, by its rank: the node, and the former stop that it belongs to.
-std::pair<Int, Int> picked_as(const Move& move, const Pickups& pickups, Int rank) {
-    const std::size_t number = std::size_t(move.end[rank]) % most_pickups;
-    return {pickups.node[number], move.end[rank] / most_pickups};
-}
-
-// Add the sorties that fetch some of several pickups, and that which delivers, as a move says. In
-// place; false if there is no room.
-bool add_flights(const Sequence& sequence, const Move& move, const Pickups& pickups, Int delivery) {
-    for (Int rank = 0; rank < pickups.count; ++rank) {
-        const auto [node, stop] = picked_as(move, pickups, rank);
-        const Int drone = fetching_drone(move, rank);
-        if (drone < 0) continue;
-        if (!add_sortie(sequence, stop, stop + fetching_span(move, rank), drone, node)) {
-            return false;
-        }
-    }
-    if (move.sortie < 0 || move.late == from_last_pickup) return true;
-    const auto add = move.late != 0 ? add_sortie : add_first_sortie;
-    return add(sequence, move.last, move.landing, move.sortie, delivery);
-}
-
-// Serve both ends of a shipment on the empty trip that begins at stop `start`. In place; likewise.
-bool begin_pair(const Sequence& sequence, Int start, const Move& move, Int pickup, Int delivery) {
-    Int end = start + 1;
-    if (move.drone >= 0) {
-        if (!add_sortie(sequence, start, start, move.drone, pickup)) return false;
-    } else if (!insert_stops(sequence, end++, {{pickup, customer_stop}})) {
-        return false;
-    }
-    if (move.sortie < 0) return insert_stops(sequence, end, {{delivery, customer_stop}});
-    const auto [launch, recovery] = bringing_flight(move.last, end);
-    return add_sortie(sequence, launch, recovery, move.sortie, delivery);
-}
-
-// Let the sortie that fetches a shipment alone deliver it, too. In place; likewise.
-bool bring_within(const Sequence& sequence, Int pickup, Int delivery) {
-    for (Sortie& sortie : sequence.sorties.first(sequence.route.sorties)) {
-        if (sortie.nodes[0] == pickup && !join_sortie(sortie, 1, delivery)) return false;
-    }
-    return true;
-}
-
 // Open the place of a sortie in the order: before those from the same stop that are recovered at
 // stop `later` or behind it. In place; null if there is no room.
 Sortie* open_sortie(const Sequence& sequence, Int launch, Int later) {
@@ -100,11 +56,19 @@ Sortie* open_sortie(const Sequence& sequence, Int launch, Int later) {
     return &sorties[s];
 }
 
-}  // namespace
+// Let a sortie that serves one customer serve another behind. In place; false if there is none.
+bool ride_along(const Sequence& sequence, Int customer, Int node) {
+    const View<Sortie, 1> flown = sequence.sorties.first(sequence.route.sorties);
+    const auto found = std::find_if(flown.begin(), flown.end(), [&](const Sortie& sortie) {
+        return sortie.nodes[0] == customer;
+    });
+    return found != flown.end() && join_sortie(*found, 1, node);
+}
 
-bool insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> visits) {
+// Let so many stops more have room from place `p` on. In place; false, with nothing changed, if
+// there is none.
+bool open_stops(const Sequence& sequence, Int p, Int more) {
     const auto& [route, stops, sorties] = sequence;
-    const Int more = Int(visits.size());
     if (!sequence.has_room(more)) return false;
     for (Int q = route.length - 1; q >= p; --q) move_stop(stops[q], stops[q + more]);
     route.length += more;
@@ -112,7 +76,39 @@ bool insert_stops(const Sequence& sequence, Int p, std::initializer_list<Visit> 
         if (sortie.launch >= p) sortie.launch += more;
         if (sortie.recovery >= p) sortie.recovery += more;
     }
-    for (const Visit& visit : visits) put(stops, p++, visit.node, visit.kind);
+    return true;
+}
+
+// Place what is no stop. In place; false if there is no room.
+bool fly(const Sequence& sequence, const Placement& placed) {
+    const auto [node, how, from, to, drone] = placed;
+    switch (how) {
+        case How::fly:
+            return add_sortie(sequence, from, to, drone, node);
+        case How::fly_first:
+            return put_sortie(open_sortie(sequence, from, to), from, to, drone, node);
+        case How::join:
+            return join_sortie(sequence.sorties[from], to, node);
+        default:
+            return ride_along(sequence, from, node);
+    }
+}
+
+// How many stops in a row begin some placements.
+std::size_t stops_in_row(std::span<const Placement> placements) {
+    std::size_t count = 1;
+    while (count < placements.size() && is_stop(placements[count]) &&
+           placements[count].from == placements[count - 1].from + 1) {
+        ++count;
+    }
+    return count;
+}
+
+}  // namespace
+
+bool insert_stop(const Sequence& sequence, Int p, Int node, Int kind) {
+    if (!open_stops(sequence, p, 1)) return false;
+    put(sequence.stops, p, node, kind);
     return true;
 }
 
@@ -126,41 +122,6 @@ bool add_sortie(const Sequence& sequence, Int launch, Int recovery, Int drone, I
     return put_sortie(open_sortie(sequence, launch, recovery + 1), launch, recovery, drone, node);
 }
 
-bool add_first_sortie(const Sequence& sequence, Int launch, Int recovery, Int drone, Int node) {
-    return put_sortie(open_sortie(sequence, launch, recovery), launch, recovery, drone, node);
-}
-
-bool insert_parts(const Sequence& sequence, const Move& move, const Pickups& pickups,
-                  Int delivery) {
-    if (!add_flights(sequence, move, pickups, delivery)) return false;
-    if (move.sortie < 0 && !insert_stops(sequence, move.last + 1, {{delivery, customer_stop}})) {
-        return false;
-    }
-    Int driven = 0;
-    for (Int rank = pickups.count - 1; rank >= 0; --rank) {
-        const auto [node, stop] = picked_as(move, pickups, rank);
-        if (fetching_drone(move, rank) >= 0) continue;
-        if (!insert_stops(sequence, stop + 1, {{node, customer_stop}})) return false;
-        ++driven;
-    }
-    if (move.sortie < 0 || move.late != from_last_pickup) return true;
-    const Int launch = move.last + driven;
-    const Int recovery = move.landing == move.last ? launch : move.landing + driven;
-    return add_sortie(sequence, launch, recovery, move.sortie, delivery);
-}
-
-bool lay_out_parts(const Sequence& sequence, Int start, const Move& move, const Pickups& pickups,
-                   Int delivery) {
-    Int p = start + 1;
-    for (Int rank = 0; rank < pickups.count; ++rank) {
-        const auto [node, stop] = picked_as(move, pickups, rank);
-        if (fetching_drone(move, rank) >= 0) continue;
-        if (!insert_stops(sequence, p++, {{node, customer_stop}})) return false;
-    }
-    if (move.sortie < 0 && !insert_stops(sequence, p, {{delivery, customer_stop}})) return false;
-    return add_flights(sequence, move, pickups, delivery);
-}
-
 bool join_sortie(Sortie& sortie, Int place, Int node) {
     if (sortie.count >= Int(std::size(sortie.nodes))) return false;
     std::copy_backward(sortie.nodes + place, sortie.nodes + sortie.count,
@@ -170,77 +131,20 @@ bool join_sortie(Sortie& sortie, Int place, Int node) {
     return true;
 }
 
-bool apply(Int depot, const Sequence& sequence, const Move& move, Int node,
-           View<const Pair, 1> pair) {
-    const View<Sortie, 1> sorties = sequence.sorties;
-    const Int partner = is_paired(pair, node) ? pair[node].partner : nowhere;
-    const Visit start{depot, start_stop}, end{depot, end_stop}, served{node, customer_stop};
-    const Visit halt{move.halt, halt_stop}, delivered{partner, customer_stop};
-    const Int behind = move.first + 1;
-    const auto insert = [&](Int p, std::initializer_list<Visit> visits) {
-        return insert_stops(sequence, p, visits);
-    };
-    const auto fly = [&](Int launch, Int recovery) {
-        return add_sortie(sequence, launch, recovery, move.drone, node);
-    };
-    const auto bring = [&](Int launch, Int drone) {
-        const auto add = move.late != 0 ? add_sortie : add_first_sortie;
-        return add(sequence, launch, move.landing, drone, partner);
-    };
-    switch (move.kind) {
-        case at_stop:
-            return insert(behind, {served});
-        case by_sortie:
-            return fly(move.first, move.last);
-        case on_sortie:
-            return join_sortie(sorties[move.sortie], move.first, node);
-        case new_trip:
-            return insert(behind, {start, served, end});
-        case flight_trip:
-            return insert(behind, {start, end}) && fly(behind, behind);
-        case trip_from:
-            return insert(behind, {end, start, served});
-        case trip_until:
-            return insert(behind, {served, end, start});
-        case from_halt:
-            return insert(behind, {halt}) &&
-                   fly(behind, move.last == move.first ? behind : move.last + 1);
-        case to_halt:
-            return insert(move.last + 1, {halt}) && fly(move.first, move.last + 1);
-        case by_halts:
-            return insert(move.last + 1, {{move.landing, halt_stop}}) && insert(behind, {halt}) &&
-                   fly(behind, move.last + 2);
-        case both_ends:
-            return insert(move.last + 1, {delivered}) && insert(behind, {served});
-        case by_truck_and_drone:
-            return bring(move.last, move.drone) && insert(behind, {served});
-        case from_pickup:
-            return insert(behind, {served}) &&
-                   add_sortie(sequence, behind,
-                              move.landing == move.first ? behind : move.landing + 1, move.drone,
-                              partner);
-        case by_drone_and_truck:
-            return insert(move.last + 1, {delivered}) && fly(move.first, move.landing);
-        case by_drones:
-            return fly(move.first, move.last) && bring(move.halt, move.sortie);
-        case on_one_flight:
-            return fly(move.first, move.last) && bring_within(sequence, node, partner);
-        case pair_trip:
-            if (!insert(behind, {start, end})) return false;
-            if (move.sortie != on_same_flight) {
-                return begin_pair(sequence, behind, move, node, partner);
-            }
-            return fly(behind, behind) && bring_within(sequence, node, partner);
-        case parts_trip:
-            return insert(behind, {start, end}) &&
-                   lay_out_parts(sequence, behind, move, pickups_of(pair, node), partner);
-        case all_ends:
-            return insert_parts(sequence, move, pickups_of(pair, node), partner);
-        case halt_trip:
-            return insert(behind, {start, halt, end}) && fly(behind + 1, behind + 1);
-        default:
+bool apply(const Sequence& sequence, const Move& move) {
+    std::span<const Placement> left = move.placements();
+    while (!left.empty()) {
+        const Placement& next = left.front();
+        const std::size_t count = is_stop(next) ? stops_in_row(left) : 1;
+        if (is_stop(next) ? !open_stops(sequence, next.from, Int(count)) : !fly(sequence, next)) {
             return false;
+        }
+        for (const Placement& placed : left.first(is_stop(next) ? count : 0)) {
+            put(sequence.stops, placed.from, placed.node, Int(placed.how));
+        }
+        left = left.subspan(count);
     }
+    return true;
 }
 
 bool begin_empty(const Sequence& sequence, const VehicleType& type, Int k) {
@@ -248,19 +152,8 @@ bool begin_empty(const Sequence& sequence, const VehicleType& type, Int k) {
     route.length = route.trips = route.sorties = route.end = route.cum = route.working = 0;
     route.offset = route.stamp = 0;
     route.type = k;
-    return insert_stops(sequence, 0, {{type.begins_at, start_stop}, {type.ends_at, end_stop}});
-}
-
-bool begin_route(const Sequence& sequence, const VehicleType& type, Int k, Int node, Int way,
-                 Int drone, Int halt) {
-    if (!begin_empty(sequence, type, k)) return false;
-    if (way == by_truck) return insert_stops(sequence, 1, {{node, customer_stop}});
-    if (way >= at_halt) {
-        return insert_stops(sequence, 1, {{halt, halt_stop}}) &&
-               add_sortie(sequence, way == start_to_halt ? 0 : 1, way == halt_to_end ? 2 : 1, drone,
-                          node);
-    }
-    return add_sortie(sequence, way == from_end ? 1 : 0, way == from_start ? 0 : 1, drone, node);
+    return add_stop(sequence, type.begins_at, start_stop) &&
+           add_stop(sequence, type.ends_at, end_stop);
 }
 
 void drop_visits(const Sequence& sequence, View<const bool, 1> marked) {

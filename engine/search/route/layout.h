@@ -19,6 +19,7 @@
 #include "rules/fairness.h"
 #include "rules/load.h"
 #include "rules/window.h"
+#include "search/route/move.h"
 
 namespace tandem {
 
@@ -127,22 +128,6 @@ struct Place {
     Int slot;      // of the route; -1 if left out, -2 if another thread's
     Int position;  // of the stop; else -1
     Int sortie;    // its number; else -1
-};
-
-// Where a customer is inserted; which fields tell, `kind` says.
-struct Move {
-    Int kind;
-    Int slot;
-    Int first;
-    Int last;  // of a pair on a trip of its own, how the delivery is flown
-    Int drone;
-    Int sortie;
-    Int type;
-    Int halt;     // the launch site
-    Int landing;  // that of recovery, if there are two; of a pair, the stop
-    Int late;     // 1: a pair is flown to after others from and to the same stops; 2: its delivery
-                  // from the last of several pickups behind a stop
-    std::int32_t end[8];  // of several pickups, in order: the stop times 8, and the pickup's number
 };
 
 // `Stop.kind`.

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.slow
 
 SEEDS = 12
 
-AT_STOP, BY_SORTIE, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL = 0, 1, 4, 5, 6
+AT_STOP, BY_SORTIE, FLIGHT_TRIP, TRIP_FROM, TRIP_UNTIL = range(5)
 """Kinds of moves, as in `engine/search/route/edit.h`."""
 
 SPAN = 3
