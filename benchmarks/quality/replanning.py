@@ -81,7 +81,7 @@ class Forgetful(Recorder):
 
 def nothing(problem: Problem) -> Solution:
     """Return the plan that serves nobody."""
-    return Solution((), tuple(range(problem.num_depots, problem.num_nodes)))
+    return Solution((), problem.left_out(()))
 
 
 def part_of(problem: Problem, customers: Sequence[int]) -> Problem:
