@@ -22,6 +22,9 @@ from model.judge.timing import (
 from model.problem import REST, Problem, VehicleType
 from model.solution import Route, Trip
 
+DRIVERS_OWN = "BREAK", "DRIVING"
+"""Rules that drivers keep though others are broken then."""
+
 BISECTIONS = 8
 """Steps in which the latest start of a trip with drones or a speed profile is looked for."""
 
@@ -33,9 +36,13 @@ class TimedRoute(NamedTuple):
     judged: JudgedRoute
 
     @property
-    def rank(self) -> tuple[int, float]:
-        """What is smaller for a better route: fewest broken rules, then lowest cost."""
-        return len(self.judged.violations), self.judged.cost.total
+    def rank(self) -> tuple[int, int, float]:
+        """What is smaller for a better route: fewest broken rules, then lowest cost.
+
+        Drivers rest when they have to, and come too late, rather than the other way about.
+        """
+        broken = [each.code for each in self.judged.violations]
+        return len(broken), sum(code in DRIVERS_OWN for code in broken), self.judged.cost.total
 
 
 def read_route(problem: Problem, route: Route) -> RouteDecision:
