@@ -253,7 +253,8 @@ private:
         if (room_.is_on(run) && has_stop_left(run) &&
             (!looks_aboard(linked_) || may_hold(slot, run.type))) {
             const Rate& rate = data_.rate[run.type];
-            joins = {{newcomer_.node, slot, run.type, rate.distance, rate.stop}, newcomer_by(run.type)};
+            joins = {{newcomer_.node, slot, run.type, rate.distance, rate.stop},
+                     newcomer_by(run.type)};
             return true;
         }
         return enlarge_ && may_join_enlarged(slot, joins);
