@@ -19,9 +19,6 @@ void find_place(const Insertion& insertion);
 // Finds the cheapest insertion of a customer beside its neighbours.
 void find_beside(const Insertion& insertion);
 
-// Tells whether an insertion is on a route of its own.
-bool opens_route(const Move& move);
-
 // Tries a customer on a trip more of so many routes, or where one of theirs is split.
 //
 // Follows `find_place` or `find_beside`. Where these are not all routes, they are drawn.

@@ -93,6 +93,7 @@ inline bool is_one_stop(const Move& move) {
     return move.count == 1 && move.placement[0].how == How::serve;
 }
 
+// Tell whether a customer gets a route of its own.
 inline bool opens_route(const Move& move) { return move.slot < 0; }
 
 // Let a drone serve a customer on a trip of its own behind stop `p`. In place.
