@@ -150,8 +150,7 @@ class _Timer:
         stated = {taken.number: (number, taken.stop)
                   for number, trip in enumerate(trips[known:], known)
                   for taken in trip.breaks if taken.number != REST} if stays else {}
-        for paused in with_breaks(self._problem, free, route, stated, known,
-                                  likely):
+        for paused in with_breaks(self._problem, free, route, stated, known, likely):
             yield with_due_rests(self._problem, paused)
 
     def _soonest_from(self, begin: int) -> Route:

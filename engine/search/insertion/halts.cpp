@@ -157,8 +157,10 @@ private:
         const Int last = std::max(launch + 1, to < 0 ? recovery : recovery + 1);
         Offer& move = add_offer(searcher_, cost, slot_, launch, last);
         Int begin = launch, end = recovery;
-        if (from >= 0) move.add(How::halt, from, begin = launch + 1);
-        if (from >= 0) ++end;
+        if (from >= 0) {
+            move.add(How::halt, from, ++begin);
+            ++end;
+        }
         if (to >= 0 && !comes_back) move.add(How::halt, to, ++end);
         move.add(How::fly, node_, begin, end, drone_);
     }
