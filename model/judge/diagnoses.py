@@ -272,7 +272,7 @@ def _shift(attempt: Attempt) -> Diagnosis:
     if closed is not None:
         return closed
     closes = attempt.problem.depots[vehicle_type.ends_at].latest
-    if closes <= vehicle_type.latest + allowed_overtime(vehicle_type) < UNLIMITED:
+    if closes <= vehicle_type.latest + allowed_overtime(vehicle_type) and closes < UNLIMITED:
         return _depot_hours(attempt, closes)
     if overtime is not None:
         end = vehicle_type.latest + overtime.max_duration

@@ -66,9 +66,13 @@ def time_route(problem: Problem, decision: RouteDecision, path: str, past: Past)
     for stays in (True, False) if any(trip.breaks for trip in decision.trips) else (False,):
         # What is estimated is so anew by the best times, where those aren't legal yet.
         rounds = 1 if is_exact(problem, decision) else 3 if best.judged.violations else 2
+        tried = set[RouteDecision]()
         for number in range(rounds):
             begin = (0, late, best.route.trips[0].stops[0].arrival)[number]
             for paused in timer.paused(begin, late, stays):
+                if paused in tried:
+                    continue
+                tried.add(paused)
                 best = min(best, _best_timed(problem, paused, path, past), key=attrgetter("rank"))
         if not best.judged.violations and not has_needless_break(problem, best.route):
             break

@@ -118,3 +118,18 @@ def test_vehicles_that_fly_have_depots_open_from_the_first(client: httpx.Client,
     smallest["depots"].append({"id": "yard", "location": [9, 9], "time_window": {"earliest": 600}})
     smallest["fleet"][0] |= {"flies": True, "max_trips": 2, "reload_depots": ["yard"]}
     assert [code for code, _ in errors_of(client, smallest)] == ["HOURS_DIFFER"]
+
+
+def test_a_depot_that_closes_is_told_beside_overtime_without_end(client: httpx.Client,
+                                                                 smallest: Request) -> None:
+    smallest["depots"] = [{"id": "hub", "location": [0, 0], "time_window": {"latest": 3600}}]
+    smallest["planar_unit"] = 1
+    smallest["customers"] = [{"id": "far", "location": [20_000, 0], "demand": [1]}]
+    smallest["fleet"] = [{"id": "van", "count": 1, "capacity": [1], "speed_kmh": 36,
+                          "max_working_duration": 600, "overtime": {"cost_per_hour": 1}}]
+    (left_out,) = client.post("/plan", json=smallest).json()["unassigned"]
+    (reason,) = left_out["reasons"]
+    assert reason["message"] == "van would be back 6.7 minutes after hub closes."
+    assert reason["remedy"] == "fits if hub closed 6.7 minutes later"
+    smallest["depots"][0]["time_window"]["latest"] += 402
+    assert not client.post("/plan", json=smallest).json()["unassigned"]
