@@ -8,7 +8,7 @@ CASES ?= 10000
 RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw,ovrp,vrpb,vrpspd
 
 BIN := .venv/bin
-PIP := $(BIN)/python -m pip --disable-pip-version-check
+INSTALL := $(BIN)/python .ci/install.py
 # On all cores, by `tests/conftest.py`; who is idle takes over what others have left. Threads of PyTorch's own would wait for
 # each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the
 # environment says: dozens of processes load them all.
@@ -25,7 +25,7 @@ help: ## List what can be made
 engine: .venv/tools ## Compile what of the engine changed
 	@$(BIN)/python engine/backend.py
 
-guide: .venv/tools app/console/built_guide ## Build what changed of the guide, which the service shows at /guide
+guide: app/console/built_guide ## Build what changed of the guide, which the service shows at /guide
 
 serve: .venv/serving engine guide ## Run the service (PORT=8000, HOST=127.0.0.1)
 	@echo "Starting. Open $(URL) for the console, $(URL)/guide for help, $(URL)/docs for the API or, in another terminal and in this folder, run"
@@ -104,37 +104,41 @@ clean: ## Remove caches, compiled code and plan.json; keep .venv and training ru
 	rm -rf build dist *.egg-info model/engine/libtandem.* app/console/built_guide plan.json .pytest_cache .mypy_cache .ruff_cache .hypothesis
 	find app model training benchmarks examples tests -name __pycache__ -prune -exec rm -rf {} +
 
-app/console/built_guide: zensical.toml $(shell find docs)
+app/console/built_guide: zensical.toml $(shell find docs) | .venv/guiding
 	@$(BIN)/python engine/backend.py guide
 	@touch $@
 
 .venv/serving: pyproject.toml .venv/tools
 	@echo "Installing Tandem into .venv."
-	@$(PIP) install --quiet --no-build-isolation --editable .
+	@$(INSTALL) --no-build-isolation --editable .
 	@touch $@
 
-# Modules are compiled on all cores; pip has one. What is no Python for this version stays as it is.
+# What is no Python for this version stays as it is.
 .venv/testing: pyproject.toml .venv/tools
 	@echo "Installing Tandem and all that its tests need into .venv; PyTorch is large."
-	@$(PIP) install --quiet --no-compile --no-build-isolation --editable '.[test,train]'
+	@$(INSTALL) --no-build-isolation --editable '.[test,train]'
 	@$(BIN)/python -m compileall -qq -j 0 .venv/lib || true
 	@$(BIN)/python -m tests.app.maps.roads.wheels
 	@touch $@ .venv/serving
 
 .venv/linting: pyproject.toml .venv/testing
 	@echo "Installing what checks style and types into .venv."
-	@$(PIP) install --quiet --no-build-isolation --editable '.[lint]'
+	@$(INSTALL) --no-build-isolation --editable '.[lint]'
 	@touch $@ .venv/serving .venv/testing
 
 .venv/benching: pyproject.toml .venv/tools
 	@echo "Installing Tandem and its benchmarks into .venv."
-	@$(PIP) install --quiet --no-build-isolation --editable '.[bench]'
+	@$(INSTALL) --no-build-isolation --editable '.[bench]'
 	@touch $@ .venv/serving
 
-# What is installed once builds faster than pip, which would get it anew for each build.
+.venv/guiding: engine/backend.py | .venv/tools
+	@$(INSTALL) $$($(BIN)/python engine/backend.py guidance)
+	@touch $@
+
+# What is installed once builds faster than what is got anew for each build.
 .venv/tools: pyproject.toml engine/backend.py | .venv/created
 	@.ci/compiler
-	@$(PIP) install --quiet --no-compile $$($(BIN)/python engine/backend.py requires)
+	@$(INSTALL) $$($(BIN)/python engine/backend.py requires)
 	@touch $@
 
 .venv/created:

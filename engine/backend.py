@@ -7,10 +7,12 @@ change only what changed is compiled. A wheel holds what all processors of a fam
     python engine/backend.py             builds the library in place
     python engine/backend.py guide       builds the guide in place, from `docs/`
     python engine/backend.py tests       builds what tests of the engine run, in `build/tests`
-    python engine/backend.py requires    tells what must be installed to build anything here
+    python engine/backend.py requires    tells what must be installed to build the library here
+    python engine/backend.py guidance    tells what must be installed to build the guide
     python engine/backend.py spare       tells which compiler it takes where there is none
 """
 
+import importlib.util
 import os
 import shutil
 import subprocess
@@ -27,6 +29,9 @@ COMPILERS = ("c++", "g++", "clang++")
 SPARE_COMPILER = "ziglang==0.17.1"
 BUILDERS = {"cmake": "cmake>=3.20", "ninja": "ninja>=1.11"}
 """Programs, and the packages that have them."""
+
+CACHED = {"cmake": "CMAKE_COMMAND", "ninja": "CMAKE_MAKE_PROGRAM"}
+"""How CMake notes which of them built in a folder."""
 
 GUIDE_BUILDER = "zensical==0.0.73"
 
@@ -47,7 +52,7 @@ def get_requires_for_build_wheel(config_settings: Settings = None) -> list[str]:
 
 def get_requires_for_build_editable(config_settings: Settings = None) -> list[str]:
     """Return what library and guide are built with in place."""
-    return requires()
+    return [*requires(), GUIDE_BUILDER]
 
 
 def get_requires_for_build_sdist(config_settings: Settings = None) -> list[str]:
@@ -92,18 +97,22 @@ def build_wheel(wheel_directory: str, config_settings: Settings = None,
 
 def build_editable(wheel_directory: str, config_settings: Settings = None,
                    metadata_directory: str | None = None) -> str:
-    """Build library and guide in place, and a wheel that leads there."""
+    """Build library and guide in place, and a wheel that leads there.
+
+    The guide where what it is built with is there: a plan needs none.
+    """
     from scikit_build_core import build
 
     build_in_place()
-    build_guide()
+    if importlib.util.find_spec("zensical"):
+        build_guide()
     return build.build_editable(wheel_directory, config_settings, metadata_directory)
 
 
 def requires() -> list[str]:
     """Return what must be installed to build the library here."""
     return [package for name, package in BUILDERS.items()
-            if program(name) is None] + [*spare_compiler(), GUIDE_BUILDER]
+            if program(name) is None] + spare_compiler()
 
 
 def spare_compiler() -> list[str]:
@@ -119,6 +128,16 @@ def compiler() -> str | None:
 def program(name: str) -> str | None:
     """Return where a program is that is on the path, or installed beside Python."""
     return shutil.which(name) or shutil.which(name, path=str(Path(sys.executable).parent))
+
+
+def before(folder: Path, name: str) -> str | None:
+    """Return what built in a folder so far, if it is there yet: with another, all is built anew."""
+    cache = folder / "CMakeCache.txt"
+    if not cache.exists():
+        return None
+    lines = (line.partition("=") for line in cache.read_text("utf-8").splitlines())
+    return next((path for entry, _, path in lines
+                 if entry.startswith(CACHED[name] + ":") and Path(path).exists()), None)
 
 
 def choose_compiler() -> None:
@@ -153,7 +172,7 @@ def build(name: str, *targets: str) -> None:
     """Build targets, or what of them changed since, in a folder of that name."""
     folder = BUILD / (name if compiler() else f"{name}-zig")
     choose_compiler()
-    cmake, ninja = (program(name) or name for name in BUILDERS)
+    cmake, ninja = (before(folder, name) or program(name) or name for name in BUILDERS)
     # Both may be elsewhere than last time: pip has them in a folder for each build.
     subprocess.run([cmake, "-S", ROOT / "engine", "-B", folder, "-G", "Ninja",
                     f"-DCMAKE_MAKE_PROGRAM={ninja}"], check=True, stdout=subprocess.DEVNULL)
@@ -168,9 +187,14 @@ def run(command: list[str]) -> None:
 
 
 def print_requires() -> None:
-    """Print what must be installed to build anything here, a line each."""
+    """Print what must be installed to build the library here, a line each."""
     with (ROOT / "pyproject.toml").open("rb") as file:
         print(*tomllib.load(file)["build-system"]["requires"], *requires(), sep="\n")
+
+
+def print_guidance() -> None:
+    """Print what must be installed to build the guide."""
+    print(GUIDE_BUILDER)
 
 
 def print_spare() -> None:
@@ -181,7 +205,8 @@ def print_spare() -> None:
 def main(arguments: list[str]) -> None:
     """Build in place or for tests, or tell what that needs."""
     tasks = {(): build_in_place, ("guide",): build_guide, ("tests",): build_tests,
-             ("requires",): print_requires, ("spare",): print_spare}
+             ("requires",): print_requires, ("guidance",): print_guidance,
+             ("spare",): print_spare}
     tasks[tuple(arguments)]()
 
 

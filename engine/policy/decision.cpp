@@ -91,7 +91,7 @@ Decider::Decider(const StepWeights& weights, Int most)
       weight_(static_cast<std::size_t>(whole_blocks(most, abreast) * num_heads)) {}
 
 // Ask from the present place and the state of the vehicle.
-void Decider::ask(Memory memory, const Seen& seen) {
+void Decider::ask(Embedding memory, const Seen& seen) {
     alignas(64) float hidden[width];
     const float* place = memory[seen.here].data() + place_part;
     const float* glob = reinterpret_cast<const float*>(&seen.vehicle);
@@ -109,7 +109,7 @@ void Decider::ask(Memory memory, const Seen& seen) {
 }
 
 // Run the network over actions but for what is asked of them and for its score.
-void Decider::describe_actions(Memory memory, const Seen& seen) {
+void Decider::describe_actions(Embedding memory, const Seen& seen) {
     const float* bias = weights_.action_bias.data();
     for (Int first = 0; first < seen.count; first += abreast) {
         const float* feature[abreast];
@@ -150,7 +150,7 @@ void Decider::describe_actions(Memory memory, const Seen& seen) {
 }
 
 // Find how much each head looks at each candidate, before the softmax.
-void Decider::weigh(Memory memory, const Seen& seen) {
+void Decider::weigh(Embedding memory, const Seen& seen) {
     HalfLanes query[num_heads][head_blocks];
     Lanes bias[num_heads][action_blocks];
     for (Int head = 0; head < num_heads; ++head) {
@@ -226,7 +226,7 @@ void Decider::normalise(Int count) {
 }
 
 // Ask again, by the candidates' values mixed by weight.
-void Decider::glimpse(Memory memory, const Seen& seen) {
+void Decider::glimpse(Embedding memory, const Seen& seen) {
     HalfLanes sum[num_heads][head_blocks]{};
     for (Int index = 0; index < seen.count; ++index) {
         const float* value = memory[seen.token[index]].data() + value_part;
@@ -249,7 +249,7 @@ void Decider::glimpse(Memory memory, const Seen& seen) {
 }
 
 // Write the scores, four at a time.
-void Decider::point(Memory memory, const Seen& seen, View<float, 1> scores) {
+void Decider::point(Embedding memory, const Seen& seen, View<float, 1> scores) {
     alignas(64) float asked[action_width];
     std::copy_n(weights_.action_mix_bias.data(), action_width, asked);
     add_product<action_blocks>(query_, weights_.action_query, asked);
@@ -288,7 +288,7 @@ void Decider::point(Memory memory, const Seen& seen, View<float, 1> scores) {
 }
 
 TANDEM_FOR_PROCESSORS
-void Decider::score(Memory memory, const Seen& seen, View<float, 1> scores) {
+void Decider::score(Embedding memory, const Seen& seen, View<float, 1> scores) {
     ask(memory, seen);
     describe_actions(memory, seen);
     weigh(memory, seen);

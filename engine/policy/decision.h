@@ -19,7 +19,7 @@ constexpr Int action_width = 48;
 
 // What the encoder made of a problem, (token, part after part): what queries read of the present
 // place, keys, values, pointers, and a candidate's share of the network over actions.
-using Memory = View<const float, 2>;
+using Embedding = View<const float, 2>;
 
 // Decides between the candidates of one rollout after another.
 class Decider {
@@ -28,15 +28,15 @@ public:
     Decider(const StepWeights& weights, Int most);
 
     // Write the scores of the candidates, (candidate,), before they are clipped.
-    void score(Memory memory, const Seen& seen, View<float, 1> scores);
+    void score(Embedding memory, const Seen& seen, View<float, 1> scores);
 
 private:
-    void ask(Memory memory, const Seen& seen);
-    void describe_actions(Memory memory, const Seen& seen);
-    void weigh(Memory memory, const Seen& seen);
+    void ask(Embedding memory, const Seen& seen);
+    void describe_actions(Embedding memory, const Seen& seen);
+    void weigh(Embedding memory, const Seen& seen);
     void normalise(Int count);
-    void glimpse(Memory memory, const Seen& seen);
-    void point(Memory memory, const Seen& seen, View<float, 1> scores);
+    void glimpse(Embedding memory, const Seen& seen);
+    void point(Embedding memory, const Seen& seen, View<float, 1> scores);
 
     const StepWeights& weights_;
     alignas(64) float query_[width];

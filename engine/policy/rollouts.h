@@ -7,7 +7,7 @@ namespace tandem {
 
 // Where a rollout begins, and how it goes on.
 struct Course {
-    Memory memory;
+    Embedding memory;
     double temperature;
     View<std::uint64_t, 1> random;
     Int kept;              // actions that are given

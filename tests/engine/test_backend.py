@@ -36,20 +36,20 @@ def have(monkeypatch: pytest.MonkeyPatch, backend: ModuleType, folder: Path, *na
 def test_nothing_is_asked_for_that_is_there(
         monkeypatch: pytest.MonkeyPatch, backend: ModuleType, tmp_path: Path) -> None:
     have(monkeypatch, backend, tmp_path, "cmake", "ninja", "clang++")
-    assert backend.requires() == [backend.GUIDE_BUILDER]
+    assert backend.requires() == []
 
 
 def test_what_is_missing_comes_from_pypi(
         monkeypatch: pytest.MonkeyPatch, backend: ModuleType, tmp_path: Path) -> None:
     have(monkeypatch, backend, tmp_path, "ninja")
-    assert backend.requires() == ["cmake>=3.20", backend.SPARE_COMPILER, backend.GUIDE_BUILDER]
+    assert backend.requires() == ["cmake>=3.20", backend.SPARE_COMPILER]
 
 
 def test_a_compiler_that_is_named_is_taken(
         monkeypatch: pytest.MonkeyPatch, backend: ModuleType, tmp_path: Path) -> None:
     have(monkeypatch, backend, tmp_path, "cmake", "ninja")
     monkeypatch.setenv("CXX", "c++-17")
-    assert backend.requires() == [backend.GUIDE_BUILDER]
+    assert backend.requires() == []
 
 
 def test_where_there_is_no_compiler_pythons_is_run(
@@ -68,3 +68,14 @@ def test_what_is_installed_to_build_is_told() -> None:
     told = subprocess.run([sys.executable, ROOT / "engine/backend.py", "requires"], check=True,
                           text=True, capture_output=True)
     assert told.stdout.startswith("scikit-build-core")
+
+
+def test_what_built_so_far_builds_on_while_it_is_there(backend: ModuleType, tmp_path: Path) -> None:
+    ninja = tmp_path / "ninja"
+    ninja.touch()
+    assert backend.before(tmp_path, "ninja") is None
+    (tmp_path / "CMakeCache.txt").write_text(
+        f"//Program\nCMAKE_MAKE_PROGRAM:FILEPATH={ninja}\n"
+        f"CMAKE_COMMAND:INTERNAL={tmp_path}/gone/cmake\n")
+    assert backend.before(tmp_path, "ninja") == str(ninja)
+    assert backend.before(tmp_path, "cmake") is None

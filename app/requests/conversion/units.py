@@ -25,17 +25,24 @@ def by_name(stated: Input, kind: Any, prefix: str = "") -> dict[str, Any]:
     They are numbers that have a unit and flags. Seconds become ms and metres mm; what is null keeps
     the default.
     """
-    conversions = _conversions(kind)
-    return {prefix + name: conversions[prefix + name](value) for name, value in stated
-            if isinstance(value, int | float) and prefix + name in conversions}
+    values = stated.__dict__
+    return {field: convert(value) for name, field, convert in _shared(type(stated), kind, prefix)
+            if isinstance(value := values[name], NUMBER)}
+
+
+NUMBER = int, float
 
 
 @cache
-def _conversions(kind: Any) -> dict[str, Callable[[Any], Any]]:
-    """Return what makes fields of a data class from the wire's."""
-    flags = {each.name: bool for each in fields(kind) if each.type is bool}
-    return flags | {name: thousandths if unit.time + unit.length == 1 else _as_it_is
-                    for name, unit in units_of(kind).items()}
+def _shared(stated: type[Input], kind: Any,
+            prefix: str) -> tuple[tuple[str, str, Callable[[Any], Any]], ...]:
+    """Return the names on the wire, those of fields behind the prefix, and what converts them."""
+    conversions: dict[str, Callable[[Any], Any]] = {
+        each.name: bool for each in fields(kind) if each.type is bool}
+    for name, unit in units_of(kind).items():
+        conversions[name] = thousandths if unit.time + unit.length == 1 else _as_it_is
+    return tuple([(name, prefix + name, conversions[prefix + name])
+                  for name in stated.model_fields if prefix + name in conversions])
 
 
 def _as_it_is(value: Any) -> Any:
