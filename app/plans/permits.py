@@ -1,15 +1,13 @@
 """What of a customer's `vehicles` forbids a type, as remedies name it: all that would change."""
 
-import re
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
-from app.plans.replies import Data
 from app.requests.conversion.groups import Place, Roster
 from app.schemas.customer import VehiclesInput
 from app.schemas.request import PlanRequest
-
-_BARRED = re.compile("^fits if .+? may serve it(?=$| and )", re.DOTALL)
+from model.judge.explain import Reason
+from model.judge.remedy import Change
 
 
 @dataclass(frozen=True)
@@ -33,17 +31,20 @@ class Permits:
                    {kind.id: index for index, kind in enumerate(request.fleet)},
                    {kind.id: kind.count for kind in request.fleet}, choosy)
 
-    def name(self, customer: str, reasons: Iterable[Data]) -> None:
-        """Have remedies name all that a customer would have to allow. In place."""
+    def named(self, customer: str, kind: str, reason: Reason) -> Reason:
+        """Return a reason why a type doesn't serve a customer with all that he would have to allow.
+        """
         vehicles = self.choosy.get(customer)
-        if vehicles is None:
-            return
-        for reason in reasons:
-            if reason["code"] == "VEHICLE" and reason["remedy"] is not None:
-                names = " and ".join(self._barring(vehicles, reason["vehicle_type"]))
-                # What else has to change stands behind.
-                _, behind = _BARRED.split(reason["remedy"], maxsplit=1)
-                reason["remedy"] = f"fits if {names} may serve it{behind}"
+        if vehicles is None or not reason.remedies:
+            return reason
+
+        def barring(change: Change) -> Change:
+            if change.limit != "vehicles":
+                return change
+            return change._replace(names=tuple(self._barring(vehicles, kind)))
+
+        return replace(reason, remedies=tuple(
+            [remedy.with_changes(barring) for remedy in reason.remedies]))
 
     def _barring(self, vehicles: VehiclesInput, kind: str) -> list[str]:
         """Return the fewest names to be allowed, or forbidden no more, for one of a type."""

@@ -142,8 +142,13 @@ class Task:
         """Return why a plan leaves a customer out, as far as is found until an instant."""
         why = partial(explain, self.problem) if self.replanning is None else (
             self.replanning.reasons)
-        return with_another_trip(self.judged_problem, solution, node,
-                                 why(solution, node, until), self.setting.past, until)
+        found = with_another_trip(self.judged_problem, solution, node,
+                                  why(solution, node, until), self.setting.past, until)
+        if not self.permits.choosy:
+            return found
+        name, kinds = self.problem.customer_at(node).id, self.problem.vehicle_types
+        return tuple([self.permits.named(name, kinds[reason.vehicle_type].type_id, reason)
+                      for reason in found])
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""
@@ -170,11 +175,10 @@ class Task:
         return {**self.telling.stated, **reply}
 
     def name_hindrances(self, customers: Sequence[str], reasons: Iterable[Data]) -> None:
-        """Have reasons why somebody is left out name vehicles, winds and zones. In place.
+        """Have reasons why somebody is left out name winds and zones. In place.
 
-        `customers` are all ends of a shipment, which allow the same vehicles; else one customer.
+        `customers` are all ends of a shipment; else one customer.
         """
-        self.permits.name(customers[0], reasons)
         for customer in customers:
             self.storms.name(customer, reasons)
             if self.closures is not None:

@@ -6,6 +6,7 @@ from typing import NamedTuple
 from model.judge.check import check
 from model.judge.diagnoses import DIAGNOSES
 from model.judge.diagnosis import Diagnosis
+from model.judge.remedy import Part, Remedy
 from model.judge.rest_remedies import rest_remedy
 from model.judge.trial import Attempt
 
@@ -14,22 +15,12 @@ MOST_LIMITS = 4
 
 Diagnose = Callable[[Attempt], Diagnosis | None]
 
-AND = " and "
-BEGIN = "fits "
-
-
-class Remedy(NamedTuple):
-    """What suffices, in words, and how many limits that changes; None: nothing is known to."""
-
-    words: str | None
-    num_limits: int = 1
-
 
 class _Step(NamedTuple):
-    """An attempt as limits have been changed so far, and in which words."""
+    """An attempt as limits have been changed so far, and how."""
 
     attempt: Attempt
-    words: tuple[str, ...] = ()
+    parts: tuple[Part, ...] = ()
 
 
 def combined_remedy(attempt: Attempt, diagnose: Diagnose) -> Remedy | None:
@@ -39,26 +30,19 @@ def combined_remedy(attempt: Attempt, diagnose: Diagnose) -> Remedy | None:
     trip by all changes.
     """
     step = _Step(attempt)
-    while len(step.words) < MOST_LIMITS:
+    while len(step.parts) < MOST_LIMITS:
         diagnosis = diagnose(step.attempt)
-        if diagnosis is None or diagnosis.remedy is None or diagnosis.problem is None:
-            return _joined(step.words, rest_remedy(step.attempt))
-        if diagnosis.remedy in step.words:
+        if diagnosis is None or not diagnosis.remedy or diagnosis.problem is None:
+            last = rest_remedy(step.attempt)
+            return Remedy((*step.parts, last)) if last else None
+        if diagnosis.remedy in step.parts:
             return None
         changed, solution = diagnosis.problem, attempt.solution
         step = _Step(Attempt(changed, solution, check(changed, solution)),
-                     (*step.words, diagnosis.remedy))
+                     (*step.parts, diagnosis.remedy))
         if not step.attempt.codes:
-            return _joined(step.words[:-1], step.words[-1])
+            return Remedy(step.parts)
     return None
-
-
-def _joined(words: tuple[str, ...], last: str | None) -> Remedy | None:
-    if last is None:
-        return None
-    first, *others = (*words, last)
-    return Remedy(first + "".join(AND + each.removeprefix(BEGIN) for each in others),
-                  1 + len(others))
 
 
 def customer_broken(attempt: Attempt) -> Diagnosis | None:

@@ -7,7 +7,7 @@ from operator import gt
 
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.diagnosis import (
-    Diagnosis, drones_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_type,
+    Diagnosis, drones_of, name_of, told_apart, up_to_tenth, with_type,
 )
 from model.judge.flight_diagnoses import (
     endurance_broken, energy_broken, hours_broken, max_range_broken, unreachable_broken,
@@ -16,6 +16,7 @@ from model.judge.flight_diagnoses import (
 from model.judge.driving import excesses, travel_duration
 from model.judge.freshness import excess_aboard
 from model.judge.metrics import allowed_overtime
+from model.judge.remedy import LAST_WINDOW, Change, if_stated, in_km, in_minutes, in_units
 from model.judge.rules import amounts
 from model.judge.trial import Attempt, attempts
 from model.problem import MAX_QUANTITY, MM_PER_KM, UNLIMITED, Depot, Overtime, Problem
@@ -24,16 +25,18 @@ from model.solution import Stop, Visit
 
 def _vehicle(attempt: Attempt) -> Diagnosis:
     name = attempt.vehicle_type.id
-    return Diagnosis("VEHICLE", f"{name} may not serve it.", f"fits if {name} may serve it",
+    return Diagnosis("VEHICLE", f"{name} may not serve it.",
+                     (Change("vehicles", name, names=(name,)),),
                      replace(attempt.problem, may_serve=None))
 
 
 def _skills(attempt: Attempt) -> Diagnosis:
     vehicle_type, needed = attempt.vehicle_type, attempt.customer.skills
-    missing = ", ".join(sorted(needed - vehicle_type.skills))
+    missing = tuple(sorted(needed - vehicle_type.skills))
     changed = replace(vehicle_type, skills=vehicle_type.skills | needed)
-    return Diagnosis("SKILLS", f"{vehicle_type.id} lacks {missing}.",
-                     f"fits if {vehicle_type.id} had {missing}", with_type(attempt, changed))
+    return Diagnosis("SKILLS", f"{vehicle_type.id} lacks {', '.join(missing)}.",
+                     (Change("skills", vehicle_type.id, names=missing),),
+                     with_type(attempt, changed))
 
 
 def _goods(attempt: Attempt) -> Diagnosis:
@@ -61,18 +64,18 @@ def _capacity(attempt: Attempt) -> Diagnosis:
     needed = _enough(attempt, vehicle_type.capacity)
     return Diagnosis(
         "CAPACITY", _too_much(attempt, vehicle_type.capacity, "capacity"),
-        f"fits if capacity were at least {amounts(attempt.problem, needed)}",
+        (Change("capacity", amounts=in_units(attempt.problem, needed)),),
         with_type(attempt, replace(vehicle_type, capacity=needed)),
     )
 
 
 def _payload(attempt: Attempt) -> Diagnosis:
     vehicle_type, drones = attempt.vehicle_type, drones_of(attempt)
-    needed, name = _enough(attempt, drones.capacity), f"drone capacity{name_of(drones)}"
+    needed = _enough(attempt, drones.capacity)
     changed = replace(vehicle_type, drones=replace(drones, capacity=needed))
     return Diagnosis(
-        "CAPACITY", _too_much(attempt, drones.capacity, name),
-        f"fits if the {name} were at least {amounts(attempt.problem, needed)}",
+        "CAPACITY", _too_much(attempt, drones.capacity, f"drone capacity{name_of(drones)}"),
+        (Change("drone_capacity", told_apart(drones), amounts=in_units(attempt.problem, needed)),),
         with_type(attempt, changed),
     )
 
@@ -82,7 +85,7 @@ def _pickup_order(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "PICKUP_ORDER",
         f"{vehicle_type.id} picks up only after it has delivered something on the same trip.",
-        f"fits if {vehicle_type.id} may pick up at any time",
+        (Change("pickups", vehicle_type.id),),
         with_type(attempt, replace(vehicle_type, pickups="any")))
 
 
@@ -96,7 +99,7 @@ def _trip_distance(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "RANGE",
         f"A trip there and back is {in_km(excess)} longer than a trip may be.",
-        if_stated(f"fits if trips could be {in_km(excess)} longer", enough),
+        if_stated(Change("trip_distance", quantity=excess), enough),
         with_type(attempt, changed),
     )
 
@@ -109,7 +112,7 @@ def _travel_duration(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "TRAVEL_DURATION",
         f"The way there and back takes {in_minutes(excess)} more than {kind.id} may travel.",
-        if_stated(f"fits if {kind.id} could travel {in_minutes(excess)} longer", limit + excess),
+        if_stated(Change("travel", kind.id, excess), limit + excess),
         with_type(attempt, changed),
     )
 
@@ -123,22 +126,23 @@ def _halt(attempt: Attempt) -> Stop | Visit:
 def _stops(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     return Diagnosis("STOPS", f"{vehicle_type.id} serves nobody itself, by its max_stops.",
-                     f"fits if {vehicle_type.id} could make 1 stop",
+                     (Change("stops", vehicle_type.id, 1),),
                      with_type(attempt, replace(vehicle_type, max_stops=1)))
 
 
 def _sorties(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its max_sorties.",
-                     f"fits if {vehicle_type.id} could launch 1 sortie",
+                     (Change("sorties", vehicle_type.id, 1),),
                      with_type(attempt, replace(vehicle_type, max_sorties=1)))
 
 
 def _batteries(attempt: Attempt) -> Diagnosis:
     vehicle_type = attempt.vehicle_type
     drones = replace(drones_of(attempt), batteries=1)
+    own = tuple(filter(None, [drones.id]))
     return Diagnosis("SORTIES", f"No drone of {vehicle_type.id} takes off, by its batteries.",
-                     f"fits if {vehicle_type.id} carried 1 battery{name_of(drones)}",
+                     (Change("batteries_aboard", vehicle_type.id, 1, names=own),),
                      with_type(attempt, replace(vehicle_type, drones=drones)))
 
 
@@ -146,7 +150,7 @@ def _launch(attempt: Attempt) -> Diagnosis:
     place, *others = attempt.problem.depots
     allowed = replace(attempt.problem, depots=(replace(place, launch=True), *others))
     return Diagnosis("LAUNCH", f"No drone takes off at {place.id}, by its launch.",
-                     f"fits if drones may take off at {place.id}", allowed)
+                     (Change("launch", place.id),), allowed)
 
 
 def _time_window(attempt: Attempt) -> Diagnosis:
@@ -154,11 +158,11 @@ def _time_window(attempt: Attempt) -> Diagnosis:
     late = up_to_tenth(_halt(attempt).service_start - customer.latest, MS_PER_MINUTE)
     enough = customer.latest + late
     changed = replace(customer, latest=min(enough, UNLIMITED))
-    window = "last window" if customer.gaps else "window"
+    name, window = ("last window", LAST_WINDOW) if customer.gaps else ("window", 0)
     return Diagnosis(
         "TIME_WINDOW",
-        f"The earliest arrival is {in_minutes(late)} after its {window} closes.",
-        if_stated(f"fits if its {window} closed {in_minutes(late)} later", enough),
+        f"The earliest arrival is {in_minutes(late)} after its {name} closes.",
+        if_stated(Change("window", quantity=late, window=window), enough),
         replace(attempt.problem, customers=(changed,)),
     )
 
@@ -186,7 +190,7 @@ def missed_window(attempt: Attempt) -> Diagnosis | None:
         "TIME_WINDOW",
         f"The earliest arrival is {in_minutes(late)} after its window {number + 1} closes, and "
         f"window {number + 2} is too late for {attempt.vehicle_type.id}.",
-        f"fits if its window {number + 1} closed {in_minutes(late)} later",
+        (Change("window", quantity=late, window=number + 1),),
     )
 
 
@@ -199,7 +203,7 @@ def _time_aboard(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "TIME_ABOARD",
         f"Its parcel would be aboard {in_minutes(excess)} longer than it may be.",
-        if_stated(f"fits if it could be aboard {in_minutes(excess)} longer", enough),
+        if_stated(Change("time_aboard", quantity=excess), enough),
         replace(attempt.problem, customers=(changed,)),
     )
 
@@ -216,7 +220,7 @@ def _more_overtime(attempt: Attempt, overtime: Overtime, code: str, message: str
     changed = replace(overtime, max_duration=min(enough, UNLIMITED))
     return Diagnosis(
         code, message,
-        if_stated(f"fits if {kind.id} could work {in_minutes(excess)} more overtime",
+        if_stated(Change("overtime", kind.id, excess),
                   max([enough, *(limit + enough for limit, end in ends if end > limit)])),
         with_type(attempt, replace(kind, overtime=changed)))
 
@@ -242,8 +246,8 @@ def _open_longer(attempt: Attempt, depot: Depot, late: int, message: str) -> Dia
         changed = replace(kind, latest=min(enough, kind.last_by_shift))
     return Diagnosis(
         "SHIFT", message,
-        if_stated(f"fits if {depot.id} closed {in_minutes(late)} later", enough)
-        if suffices or kind.overtime is None else None,
+        if_stated(Change("depot_hours", depot.id, late), enough)
+        if suffices or kind.overtime is None else (),
         replace(with_type(attempt, changed), depots=_open_until(problem, depot, enough)))
 
 
@@ -288,7 +292,7 @@ def _shift(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "SHIFT",
         f"{vehicle_type.id} would be {home} {in_minutes(late)} after its shift ends.",
-        if_stated(f"fits if {vehicle_type.id}'s shift ended {in_minutes(late)} later", enough),
+        if_stated(Change("shift", vehicle_type.id, late), enough),
         with_type(attempt, changed),
     )
 
@@ -308,7 +312,7 @@ def _working_hours(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "WORKING_HOURS",
         f"Serving it alone takes {in_minutes(excess)} more than {vehicle_type.id} may work.",
-        if_stated(f"fits if {vehicle_type.id} could work {in_minutes(excess)} longer", enough),
+        if_stated(Change("work", vehicle_type.id, excess), enough),
         with_type(attempt, changed),
     )
 
@@ -323,7 +327,7 @@ def _driving(attempt: Attempt) -> Diagnosis:
     rules, found = kind.driving, list(excesses(kind, trips))
     if rules is None or {each.what for each in found} != {"day"}:
         return Diagnosis("DRIVING", f"Serving it alone takes longer than drivers of {kind.id} may "
-                         "be at the wheel, or at work.", None, None)
+                         "be at the wheel, or at work.")
     excess = up_to_tenth(found[0].excess, MS_PER_MINUTE)
     enough = up_to_tenth(rules.max_driving_per_day + excess, MS_PER_MINUTE)
     changed = replace(rules, max_driving_per_day=min(enough, UNLIMITED))
@@ -331,7 +335,7 @@ def _driving(attempt: Attempt) -> Diagnosis:
         "DRIVING",
         f"Serving it alone takes {in_minutes(excess)} more than drivers of {kind.id} may be at the "
         "wheel in a day.",
-        if_stated(f"fits if {kind.id}'s drivers could drive {in_minutes(enough)} a day", enough),
+        if_stated(Change("driving_day", kind.id, enough), enough),
         with_type(attempt, replace(kind, driving=changed)))
 
 

@@ -3,10 +3,9 @@
 from dataclasses import replace
 from typing import NamedTuple
 
-from model.judge.clock import MS_PER_MINUTE
-from model.judge.rules import decimal
+from model.judge.remedy import Part
 from model.judge.trial import Attempt
-from model.problem import MAX_QUANTITY, MM_PER_KM, DroneType, Problem, VehicleType
+from model.problem import DroneType, Problem, VehicleType
 
 
 class Diagnosis(NamedTuple):
@@ -14,7 +13,7 @@ class Diagnosis(NamedTuple):
 
     code: str
     message: str
-    remedy: str | None = None
+    remedy: Part = ()
     problem: Problem | None = None
 
 
@@ -31,9 +30,14 @@ def flyer_of(attempt: Attempt) -> DroneType | VehicleType:
     return attempt.vehicle_type if attempt.vehicle_type.flies else drones_of(attempt)
 
 
+def told_apart(drones: DroneType | VehicleType) -> str:
+    """Return the id of a type of drones where several are told apart, else nothing."""
+    return "" if drones.id is None or isinstance(drones, VehicleType) else drones.id
+
+
 def name_of(drones: DroneType | VehicleType) -> str:
     """Say of which type drones are, where several are told apart."""
-    return "" if drones.id is None or isinstance(drones, VehicleType) else f" of {drones.id}"
+    return f" of {told_apart(drones)}" if told_apart(drones) else ""
 
 
 def with_flyer(attempt: Attempt, flyer: DroneType | VehicleType) -> Problem:
@@ -50,19 +54,3 @@ def with_type(attempt: Attempt, vehicle_type: VehicleType) -> Problem:
 def up_to_tenth(quantity: int, unit: int) -> int:
     """Round up to a tenth of a unit, so that what is said suffices."""
     return -(-quantity * 10 // unit) * unit // 10
-
-
-def if_stated(words: str, quantity: int) -> str | None:
-    """Return the words of a remedy, if a request can state the quantity that it asks for."""
-    return words if quantity <= MAX_QUANTITY else None
-
-
-def in_minutes(duration: int) -> str:
-    """Return a duration for people."""
-    number = decimal(duration * 1000 // MS_PER_MINUTE)
-    return "1 minute" if number == "1" else f"{number} minutes"
-
-
-def in_km(distance: int) -> str:
-    """Return a distance for people."""
-    return f"{decimal(distance * 1000 // MM_PER_KM)} km"

@@ -5,7 +5,6 @@ offered.
 """
 
 import math
-import re
 import time
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -13,13 +12,14 @@ from itertools import chain
 from math import ceil
 
 from model.judge.check import check
-from model.judge.combined_remedies import Diagnose, Remedy, combined_remedy, customer_broken
+from model.judge.combined_remedies import Diagnose, combined_remedy, customer_broken
 from model.judge.company import kept_off, who_decides, who_waits
 from model.judge.diagnoses import DIAGNOSES, missed_window
 from model.judge.diagnosis import Diagnosis
 from model.judge.hubs import lacks_battery, lacks_charger
 from model.judge.lag_remedies import lag_remedy
 from model.judge.metrics import unassigned_cost
+from model.judge.remedy import Change, Remedy, remedy_of
 from model.judge.rest_remedies import rest_remedy
 from model.judge.shipment_diagnoses import shipment_broken
 from model.judge.through import BY_LEGS, Passage, names_of, passage_to
@@ -37,9 +37,21 @@ class Reason:
     vehicle_type: int
     code: str
     message: str
-    remedy: str | None = None  # a change that suffices, if one is known
-    other_remedy: str | None = None  # another one
-    num_limits: int = 1  # that the remedy changes
+    remedies: tuple[Remedy, ...] = ()  # each suffices: none, one or two
+
+    @property
+    def remedy(self) -> str | None:
+        """What suffices, in words."""
+        return str(self.remedies[0]) if self.remedies else None
+
+    @property
+    def other_remedy(self) -> str | None:
+        """What else does."""
+        return str(self.remedies[1]) if len(self.remedies) > 1 else None
+
+    def or_by(self, remedy: Remedy) -> "Reason":
+        """Return a reason that has one more remedy, in place of a second."""
+        return replace(self, remedies=(*self.remedies[:1], remedy))
 
 
 POSSIBLE = frozenset({"BATTERIES", "CHARGERS", "COST", "FLEET_EXHAUSTED", "SEARCH"})
@@ -79,10 +91,7 @@ def explain_type(problem: Problem, solution: Solution, index: int, node: int,
 
 def _changes(reason: Reason) -> float:
     """Return how many limits a remedy changes; infinity: there is none."""
-    return math.inf if reason.remedy is None else reason.num_limits
-
-
-WINDOW = re.compile(r"\bits ((?:last )?window(?: \d+)?)")
+    return len(reason.remedies[0].parts) if reason.remedies else math.inf
 
 
 def _at_place(problem: Problem, reason: Reason, place: int) -> Reason:
@@ -91,9 +100,12 @@ def _at_place(problem: Problem, reason: Reason, place: int) -> Reason:
     message = reason.message[0].lower() + reason.message[1:]
     if reason.message.startswith(problem.vehicle_types[reason.vehicle_type].id):
         message = reason.message
-    first, second = (words and WINDOW.sub(lambda found: f"{found[0]} at {name}", words, count=1)
-                     for words in (reason.remedy, reason.other_remedy))
-    return replace(reason, message=f"At {name} {message}", remedy=first, other_remedy=second)
+
+    def there(change: Change) -> Change:
+        return change._replace(of=name) if change.limit == "window" else change
+
+    return replace(reason, message=f"At {name} {message}", remedies=tuple(
+        [remedy.with_changes(there) for remedy in reason.remedies]))
 
 
 def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
@@ -107,10 +119,10 @@ def _explain_at(problem: Problem, solution: Solution, index: int, node: int,
     served_by = problem.customer_at(node).served_by
     if vehicle_type.flies and served_by == "truck":
         message = f"Only a truck may serve it and {vehicle_type.id} flies."
-        return Reason(index, "KIND", message, _remedy_by_other(problem, index, node, "drone"))
+        return Reason(index, "KIND", message, _by_other(problem, index, node, "by_drone"))
     if served_by == "drone" and vehicle_type.drones is None and not vehicle_type.flies:
         message = f"Only a drone may serve it and {vehicle_type.id} carries none."
-        return Reason(index, "KIND", message, _remedy_by_other(problem, index, node, "truck"))
+        return Reason(index, "KIND", message, _by_other(problem, index, node, "by_truck"))
     tried = attempts(problem, index, node)
     first = next(tried)
     for attempt in chain((first,), tried):
@@ -223,12 +235,11 @@ def _not_worth(problem: Problem, solution: Solution, index: int, node: int, atte
             return Reason(index, "COST", f"{at_price}, and {why} in use.")
         would_do = not hosts and vehicle_type.part_of in (None, vehicle_type.id)
         return Reason(index, "FLEET_EXHAUSTED", f"{way}, but {why} in use.",
-                      "fits with one more vehicle" if would_do else None)
+                      (remedy_of("count"),) if would_do else ())
     if is_dear:
-        whose = "" if customer.unassigned_cost is None else "its "
-        remedy = (f"served if {whose}unassigned_cost were above {price}" if cost < MAX_MONEY
-                  else None)
-        return Reason(index, "COST", f"{at_price}.", remedy)
+        whose = "" if customer.unassigned_cost is None else "own_"
+        remedy = remedy_of(f"{whose}unassigned_cost", quantity=ceil(cost * 100) / 100)
+        return Reason(index, "COST", f"{at_price}.", (remedy,) if cost < MAX_MONEY else ())
     return Reason(index, "SEARCH", f"{way}, but the search did not find room for it.")
 
 
@@ -243,7 +254,7 @@ def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> 
         why = f"It is to be served together with {names}, which {name} serves"
         room = ", and has no room for it" if vehicle.type == index else ""
         return Reason(index, "RELATION", f"{why}{room}.",
-                      lag_remedy(problem, solution, index, node) if room else None)
+                      _by_lag(problem, solution, index, node) if room else ())
     waiting = _out_of_order(problem, solution, index, node)
     if waiting is not None:
         return waiting
@@ -251,8 +262,8 @@ def _in_company(problem: Problem, solution: Solution, index: int, node: int) -> 
     if not barred or len(barred) < kind.count:
         return None
     return Reason(index, "RELATION", f"It is kept apart from {', '.join(barred.values())}, whom "
-                  f"{kind.id} serves.", f"fits with one more vehicle of {kind.id}"
-                  if kind.part_of in (None, kind.id) else None)
+                  f"{kind.id} serves.", (remedy_of("count", kind.id),)
+                  if kind.part_of in (None, kind.id) else ())
 
 
 def _unrelated(problem: Problem, solution: Solution, reason: Reason) -> Reason:
@@ -262,9 +273,7 @@ def _unrelated(problem: Problem, solution: Solution, reason: Reason) -> Reason:
     is_left = used < problem.vehicle_types[index].count
     if not is_left or _lacking_at_hub(problem, solution, index, used) is not None:
         return reason
-    words = "fits without its relations"
-    return replace(reason, remedy=words) if reason.remedy is None else replace(
-        reason, other_remedy=words)
+    return reason.or_by(remedy_of("relations"))
 
 
 def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -> Reason | None:
@@ -277,7 +286,12 @@ def _out_of_order(problem: Problem, solution: Solution, index: int, node: int) -
         return None
     return Reason(index, "RELATION", f"{problem.vehicle_types[index].id} can't serve it in its "
                   f"order with {names}, as the plan serves these.",
-                  lag_remedy(problem, solution, index, node))
+                  _by_lag(problem, solution, index, node))
+
+
+def _by_lag(problem: Problem, solution: Solution, index: int, node: int) -> tuple[Remedy, ...]:
+    found = lag_remedy(problem, solution, index, node)
+    return () if found is None else (found,)
 
 
 def _num_used(solution: Solution, index: int) -> int:
@@ -291,10 +305,10 @@ def _lacking_at_hub(problem: Problem, solution: Solution, index: int, used: int)
     hub, is_left = problem.depots[kind.depot].id, used < kind.count
     if lacks_battery(problem, kind, solution):
         return Reason(index, "BATTERIES", f"no charged battery of {hub} is left.",
-                      f"fits with one more battery at {hub}" if is_left else None)
+                      (remedy_of("hub_batteries", hub),) if is_left else ())
     if is_left and lacks_charger(problem, kind, 0, solution):
         return Reason(index, "CHARGERS", f"no place to charge at {hub} is left.",
-                      f"fits with one more charger at {hub}")
+                      (remedy_of("hub_chargers", hub),))
     return None
 
 
@@ -303,11 +317,11 @@ def _failed(problem: Problem, index: int, node: int, attempt: Attempt) -> Reason
     code = next(code for code in DIAGNOSES if code in attempt.codes)
     window = missed_window(attempt)
     if window is not None:
-        return Reason(index, window.code, window.message, window.remedy)
+        return Reason(index, window.code, window.message, (Remedy((window.remedy,)),))
     reason = _with_remedy(index, DIAGNOSES[code](attempt), attempt, customer_broken)
-    if (reason.remedy is None and attempt.customer.served_by == "drone"
+    if (not reason.remedies and attempt.customer.served_by == "drone"
             and not attempt.vehicle_type.flies):
-        return replace(reason, remedy=_remedy_by_other(problem, index, node, "truck"))
+        return replace(reason, remedies=_by_other(problem, index, node, "by_truck"))
     return reason
 
 
@@ -318,18 +332,18 @@ def _with_remedy(index: int, diagnosis: Diagnosis, attempt: Attempt,
     Where neither does alone, of several rules together.
     """
     holds = diagnosis.problem and not check(diagnosis.problem, attempt.solution).violations
-    found = [Remedy(words) for words in (diagnosis.remedy if holds else None, rest_remedy(attempt))
-             if words is not None]
-    first, *others = found or [combined_remedy(attempt, diagnose) or Remedy(None)]
-    return Reason(index, diagnosis.code, diagnosis.message, first.words,
-                  others[0].words if others else None, first.num_limits)
+    found = [Remedy((part,)) for part in (diagnosis.remedy if holds else (), rest_remedy(attempt))
+             if part]
+    if not found:
+        found = [*filter(None, [combined_remedy(attempt, diagnose)])]
+    return Reason(index, diagnosis.code, diagnosis.message, tuple(found))
 
 
-def _remedy_by_other(problem: Problem, index: int, node: int, means: str) -> str | None:
+def _by_other(problem: Problem, index: int, node: int, limit: str) -> tuple[Remedy, ...]:
     """Return that a truck, or a drone, should be allowed, if that suffices."""
     if node in problem.lags_across:
-        return None
+        return ()
     small = small_problem(problem, index, [node])
     customer = replace(small.customers[0], served_by="either")
     attempt = next(try_truck(replace(small, customers=(customer,))))
-    return None if attempt.codes else f"fits if a {means} may serve it"
+    return () if attempt.codes else (remedy_of(limit),)

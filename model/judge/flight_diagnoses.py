@@ -6,12 +6,12 @@ from math import ceil
 
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.diagnosis import (
-    Diagnosis, drones_of, flyer_of, if_stated, in_km, in_minutes, name_of, up_to_tenth, with_flyer,
-    with_type,
+    Diagnosis, drones_of, flyer_of, name_of, told_apart, up_to_tenth, with_flyer, with_type,
 )
 from model.judge.energy import sortie_energy
 from model.judge.flown_trips import airborne, trip_energy
-from model.judge.rules import airborne_duration, decimal, farthest, watt_hours
+from model.judge.remedy import Change, if_stated, in_km, in_minutes
+from model.judge.rules import airborne_duration, farthest, watt_hours
 from model.judge.trial import Attempt
 from model.problem import (
     MAX_BATTERY, MAX_POWER, MAX_QUANTITY, MICROJOULES_PER_WH, MM_PER_KM, UNLIMITED, Energy,
@@ -40,7 +40,7 @@ def endurance_broken(attempt: Attempt) -> Diagnosis:
         "RANGE",
         f"A flight from the depot and back lasts {in_minutes(excess)} more than the endurance"
         f"{name_of(drones)}.",
-        if_stated(f"fits if endurance{name_of(drones)} were {in_minutes(excess)} longer", enough),
+        if_stated(Change("endurance", told_apart(drones), excess), enough),
         with_flyer(attempt, changed),
     )
 
@@ -58,22 +58,21 @@ def max_range_broken(attempt: Attempt) -> Diagnosis:
     far = max([farthest(problem, flyer, meetings, node) for node in served])
     excess = up_to_tenth(far - (flyer.max_range or 0), MM_PER_KM)
     enough = (flyer.max_range or 0) + excess
-    limit = "max_range" if isinstance(flyer, VehicleType) else f"max_range{name_of(flyer)}"
     farther = replace(flyer, max_range=min(enough, MAX_QUANTITY))
     changed = (farther if isinstance(farther, VehicleType)
                else replace(kind, drones=farther))
-    return Diagnosis("RANGE", f"It lies {in_km(excess)} farther away than the {limit}.",
-                     if_stated(f"fits if {limit} were {in_km(excess)} longer", enough),
+    return Diagnosis("RANGE", f"It lies {in_km(excess)} farther away than the max_range"
+                     f"{name_of(flyer)}.",
+                     if_stated(Change("range", told_apart(flyer), excess), enough),
                      with_type(attempt, changed))
 
 
 def wind_broken(attempt: Attempt) -> Diagnosis:
     """Say that it is too windy."""
     flyer = flyer_of(attempt)
-    calm, limit = replace(flyer, storms=()), f"max_wind_kmh{name_of(flyer)}"
-    return Diagnosis("WIND", f"The wind is too strong for a flight there and back, by {limit}.",
-                     f"fits without {limit}",
-                     with_flyer(attempt, calm))
+    return Diagnosis("WIND", "The wind is too strong for a flight there and back, by max_wind_kmh"
+                     f"{name_of(flyer)}.", (Change("wind", told_apart(flyer)),),
+                     with_flyer(attempt, replace(flyer, storms=())))
 
 
 def hours_broken(attempt: Attempt) -> Diagnosis:
@@ -102,8 +101,8 @@ def energy_broken(attempt: Attempt) -> Diagnosis:
         "RANGE",
         f"A flight from the depot and back takes {watt_hours(taken)}, and "
         f"{watt_hours(energy.available)} may be taken.",
-        f"fits with a battery{name_of(drones)} of {decimal(tenths, 1)} Wh more"
-        if tenths is not None and larger is not None and larger.available <= largest else None,
+        (Change("battery", told_apart(drones), tenths),)
+        if tenths is not None and larger is not None and larger.available <= largest else (),
         with_flyer(attempt, changed),
     )
 

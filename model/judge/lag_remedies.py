@@ -6,8 +6,9 @@ from dataclasses import replace
 from model.judge.check import check
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.company import who_waits
-from model.judge.diagnosis import if_stated, in_minutes, up_to_tenth
+from model.judge.diagnosis import up_to_tenth
 from model.judge.lags import halts_of, starts_across, starts_of
+from model.judge.remedy import Remedy, remedy_of
 from model.judge.timing import RouteDecision, TripDecision, read_decision, schedule
 from model.judge.trial import attempts
 from model.problem import MAX_QUANTITY, Problem, Relation
@@ -17,7 +18,7 @@ MOST_STOPS = 40
 """Of a route, among which a customer is tried."""
 
 
-def lag_remedy(problem: Problem, solution: Solution, index: int, node: int) -> str | None:
+def lag_remedy(problem: Problem, solution: Solution, index: int, node: int) -> Remedy | None:
     """Return for which `max_lag` a vehicle of a type would serve a customer; None: for none known.
 
     As the plan serves the others; what is said is tried.
@@ -32,7 +33,7 @@ def lag_remedy(problem: Problem, solution: Solution, index: int, node: int) -> s
     if needed > MAX_QUANTITY or _least_lag(
             _with_lag(problem, node, needed), solution, index, node) is None:
         return None
-    return if_stated(f"fits if max_lag of its orders were at least {in_minutes(needed)}", needed)
+    return remedy_of("lag", quantity=needed)
 
 
 def _limits(relation: Relation, node: int) -> bool:

@@ -13,6 +13,7 @@ from model.judge.explain import Reason
 from model.judge.hubs import lacks_charger
 from model.judge.past import Past, Vehicle
 from model.judge.places import Place, route_with
+from model.judge.remedy import remedy_of
 from model.judge.retiming import TimedRoute, read_route, time_route
 from model.judge.screening import first_drones
 from model.problem import Problem, VehicleType
@@ -54,14 +55,12 @@ def _with_remedy(problem: Problem, solution: Solution, node: int, reason: Reason
     used_up = [found for found in routes
                if len(found[1].trips) == kind.max_trips < MOST_TRIPS and found not in grounded]
     may_go_on = [found for found in grounded if len(found[1].trips) < kind.max_trips]
-    for words, changed, tried in (
-            (f"fits if {kind.type_id} could make another trip", more, used_up),
-            (f"fits with one more charger at {hub}", problem, may_go_on)):
+    for remedy, changed, tried in (
+            (remedy_of("trips", kind.type_id), more, used_up),
+            (remedy_of("hub_chargers", hub), problem, may_go_on)):
         if any(_would_do(changed, index, route, node, past)
                for index, route in tried[:MAX_TRIED]):
-            if reason.remedy is None:
-                return replace(reason, remedy=words)
-            return replace(reason, other_remedy=words)
+            return reason.or_by(remedy)
     return reason
 
 

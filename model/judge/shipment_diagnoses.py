@@ -5,17 +5,14 @@ from dataclasses import replace
 
 from model.judge.clock import MS_PER_MINUTE
 from model.judge.diagnoses import DIAGNOSES
-from model.judge.diagnosis import (
-    Diagnosis, if_stated, in_minutes, up_to_tenth, with_type,
-)
+from model.judge.diagnosis import Diagnosis, up_to_tenth, with_type
 from model.judge.lags import halts_of, starts_of
 from model.judge.pairs import times_between
-from model.judge.rules import amounts, decimal
+from model.judge.remedy import LAST_WINDOW, Change, in_minutes, in_units
+from model.judge.rules import amounts
 from model.judge.trial import Attempt
 from model.problem import MAX_QUANTITY, UNLIMITED
 from model.problem.shipment import MOST_DETOUR
-
-THOUSANDTHS = 3
 
 
 def shipment_broken(attempt: Attempt) -> Diagnosis:
@@ -39,25 +36,26 @@ def _capacity(attempt: Attempt) -> Diagnosis:
     return Diagnosis(
         "CAPACITY", f"Its amount of {amounts(attempt.problem, shipment.total)} exceeds the "
         f"capacity of {amounts(attempt.problem, kind.capacity)}.",
-        f"fits if capacity were at least {amounts(attempt.problem, needed)}",
+        (Change("capacity", amounts=in_units(attempt.problem, needed)),),
         with_type(attempt, replace(kind, capacity=needed)))
 
 
 def _windows(attempt: Attempt) -> Diagnosis:
     """Say at which end, or both, it would be too late."""
-    customers, told, remedies = list(attempt.problem.customers), [], []
+    customers, told = list(attempt.problem.customers), list[str]()
+    changes: list[Change] = []
     most = 0
     for index, late in _late_ends(attempt):
         end, customer = _end_name(attempt, index), customers[index]
         later = up_to_tenth(late, MS_PER_MINUTE)
         most = max(most, customer.latest + later)
         customers[index] = replace(customer, latest=min(customer.latest + later, UNLIMITED))
-        window = "last window" if customer.gaps else "window"
-        told.append(f"{in_minutes(later)} after the {window} of its {end} closes")
-        remedies.append(f"the {window} of its {end} closed {in_minutes(later)} later")
+        name, window = ("last window", LAST_WINDOW) if customer.gaps else ("window", 0)
+        told.append(f"{in_minutes(later)} after the {name} of its {end} closes")
+        changes.append(Change("end_window", end, later, window=window))
     return Diagnosis(
         "TIME_WINDOW", f"The earliest arrival is {' and '.join(told)}.",
-        if_stated(f"fits if {' and '.join(remedies)}", most),
+        tuple(changes) if most <= MAX_QUANTITY else (),
         replace(attempt.problem, customers=tuple(customers)))
 
 
@@ -88,26 +86,26 @@ def _time_between(attempt: Attempt) -> Diagnosis:
     (shipment,) = problem.shipments
     direct = problem.travel[kind.travel].duration.item(shipment.pickup, shipment.delivery)
     needed = (shipment.longest_between(direct) or 0) + up_to_tenth(excess, MS_PER_MINUTE)
-    remedies = []
+    changes = []
     if shipment.max_time_between is not None and shipment.max_time_between < needed:
         needed = up_to_tenth(needed, MS_PER_MINUTE)
         shipment = replace(shipment, max_time_between=min(needed, MAX_QUANTITY))
-        remedies.append(f"max_time_between were at least {in_minutes(needed)}")
+        changes.append(Change("time_between", quantity=needed))
     if shipment.max_detour is not None and direct * shipment.max_detour // 1000 < needed and direct:
         detour = min(-(-needed * 1000 // direct), MOST_DETOUR)
         shipment = replace(shipment, max_detour=detour)
-        remedies.append(f"max_detour were at least {decimal(detour, THOUSANDTHS)}")
+        changes.append(Change("detour", quantity=detour))
     return Diagnosis(
         "TIME_BETWEEN", f"It would be under way {in_minutes(up_to_tenth(excess, MS_PER_MINUTE))} "
         "longer than it may be.",
-        if_stated(f"fits if {' and '.join(remedies)}", needed) if remedies else None,
+        tuple(changes) if needed <= MAX_QUANTITY else (),
         replace(problem, shipments=(shipment,)))
 
 
 def _stops(attempt: Attempt) -> Diagnosis:
     kind, ends = attempt.vehicle_type, len(attempt.problem.shipments[0].nodes)
     return Diagnosis("STOPS", f"{kind.id} makes fewer stops than its {ends}, by its max_stops.",
-                     f"fits if {kind.id} could make {ends} stops",
+                     (Change("stops", kind.id, ends),),
                      with_type(attempt, replace(kind, max_stops=ends)))
 
 

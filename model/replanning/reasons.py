@@ -7,6 +7,7 @@ import numpy as np
 from model.judge.company import kept_off, who_decides
 from model.judge.explain import POSSIBLE, Reason, explain_type
 from model.judge.past import Past, Vehicle
+from model.judge.remedy import remedy_of
 from model.problem import Problem
 from model.replanning.remainder import Remainder
 from model.replanning.workers import vehicle_name
@@ -89,4 +90,5 @@ def barred_reason(problem: Problem, past: Past, left: Remainder, solution: Solut
     free[np.ix_(types, columns)] = True
     freed = explain_type(replace(left.problem, may_serve=free, relations=()), plan, types[0],
                          here[node], until)
-    return replace(told, remedy="fits without its relations") if freed.code in POSSIBLE else told
+    return (replace(told, remedies=(remedy_of("relations"),)) if freed.code in POSSIBLE
+            else told)

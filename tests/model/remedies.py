@@ -1,54 +1,54 @@
 """Problems as the remedies say that they would have to be."""
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Any
 
 from model.judge.explain import Reason
-from model.problem import MICROJOULES_PER_WH, Customer, DroneType, Overtime, Problem, VehicleType
+from model.judge.remedy import Change
+from model.problem import MICROJOULES_PER_WH, Customer, DroneType, Problem, VehicleType
 
-MINUTE = 60_000
-KM = 1_000_000
+
+def told(reason: Reason) -> tuple[object, ...]:
+    """Return a reason with its remedies in words."""
+    return (reason.vehicle_type, reason.code, reason.message,
+            *filter(None, [reason.remedy, reason.other_remedy]))
 
 
 def applied(problem: Problem, reason: Reason, node: int) -> Problem:
-    """Return a problem changed as a remedy for a customer says, of several limits by each."""
-    remedy, kind = reason.remedy or "", problem.vehicle_types[reason.vehicle_type]
-    first, *others = re.split(" and (?=if |without )", remedy)
-    if others:
-        for each in (first, *(f"fits {other}" for other in others)):
-            problem = applied(problem, replace(reason, remedy=each), node)
-        return problem
-    for pattern, change in ON_TYPE.items():
-        if found := re.fullmatch(pattern, remedy):
-            kinds = list(problem.vehicle_types)
-            kinds[reason.vehicle_type] = change(kind, found[1])
-            return replace(problem, vehicle_types=tuple(kinds))
-    for pattern, alter in ON_CUSTOMER.items():
-        if found := re.fullmatch(pattern, remedy):
-            customers = list(problem.customers)
-            index = node - problem.num_depots
-            customers[index] = alter(customers[index], found[1])
-            return replace(problem, customers=tuple(customers))
-    if re.fullmatch("fits if .+ may serve it", remedy) and problem.may_serve is not None:
+    """Return a problem changed as the first remedy for a customer says."""
+    for change in reason.remedies[0].changes:
+        problem = _changed(problem, reason.vehicle_type, node - problem.num_depots, change)
+    return problem
+
+
+def _changed(problem: Problem, index: int, customer: int, change: Change) -> Problem:
+    if change.limit in ON_TYPE:
+        kinds = list(problem.vehicle_types)
+        kinds[index] = ON_TYPE[change.limit](kinds[index], change)
+        return replace(problem, vehicle_types=tuple(kinds))
+    if change.limit in ON_CUSTOMER:
+        customers = list(problem.customers)
+        customers[customer] = ON_CUSTOMER[change.limit](customers[customer], change)
+        return replace(problem, customers=tuple(customers))
+    if change.limit == "vehicles" and problem.may_serve is not None:
         table = problem.may_serve.copy()
-        table[reason.vehicle_type, node - problem.num_depots] = True
+        table[index, customer] = True
         return replace(problem, may_serve=table)
-    if found := re.fullmatch("fits if drones may take off at (.+)", remedy):
+    if change.limit == "launch":
         return replace(problem, depots=tuple(
-            replace(depot, launch=depot.launch or depot.id == found[1])
+            replace(depot, launch=depot.launch or depot.id == change.of)
             for depot in problem.depots))
-    found = re.fullmatch("served if unassigned_cost were above (.+)", remedy)
-    assert found, remedy
-    return replace(problem, unassigned_cost=float(found[1]) + 0.01)
+    assert change.limit == "unassigned_cost", change
+    return replace(problem, unassigned_cost=change.quantity + 0.01)
 
 
-def _amounts(text: str) -> tuple[int, ...]:
-    return tuple(round(float(amount) * 1000) for amount in text.split(", "))
+def _raise(owner: Any, field: str, change: Change) -> Any:
+    return replace(owner, **{field: (getattr(owner, field) or 0) + int(change.quantity)})
 
 
-def _units(text: str, unit: int) -> int:
-    return round(float(text) * unit)
+def _amounts(change: Change) -> tuple[int, ...]:
+    return tuple(round(amount * 1000) for amount in change.amounts)
 
 
 def _drones(kind: VehicleType) -> DroneType:
@@ -56,86 +56,66 @@ def _drones(kind: VehicleType) -> DroneType:
     return kind.drones
 
 
-def _longer_endurance(kind: VehicleType, text: str) -> VehicleType:
-    drones = _drones(kind)
-    return replace(kind, drones=replace(drones, endurance=drones.endurance + _units(text, MINUTE)))
-
-
-def _longer_range(kind: VehicleType, text: str) -> VehicleType:
-    if kind.flies:
-        return replace(kind, max_range=(kind.max_range or 0) + _units(text, KM))
-    drones = _drones(kind)
-    return replace(kind, drones=replace(
-        drones, max_range=(drones.max_range or 0) + _units(text, KM)))
-
-
-def _wider_window(customer: Customer, text: str) -> Customer:
-    number, minutes = text.split(" closed ")
+def _wider_window(customer: Customer, change: Change) -> Customer:
+    if change.window <= 0:
+        return replace(customer, latest=customer.latest + int(change.quantity))
     gaps = list(customer.gaps)
-    closes, opens = gaps[int(number) - 1]
-    gaps[int(number) - 1] = (min(closes + _units(minutes, MINUTE), opens - 1), opens)
+    closes, opens = gaps[change.window - 1]
+    gaps[change.window - 1] = (min(closes + int(change.quantity), opens - 1), opens)
     return replace(customer, gaps=tuple(gaps))
 
 
-def _larger_battery(kind: VehicleType, text: str) -> VehicleType:
+def _larger_battery(kind: VehicleType, change: Change) -> VehicleType:
     energy = _drones(kind).energy
     assert energy is not None
     # As from a request, whose battery has no more decimals.
-    stated = energy.available / energy.usable_share / MICROJOULES_PER_WH + float(text)
+    stated = energy.available / energy.usable_share / MICROJOULES_PER_WH + change.quantity / 10
     available = round(stated * energy.usable_share * MICROJOULES_PER_WH)
     return replace(kind, drones=replace(_drones(kind), energy=replace(energy, available=available)))
 
 
-def _longer(overtime: Overtime | None, text: str) -> Overtime:
-    assert overtime is not None
-    return replace(overtime, max_duration=overtime.max_duration + _units(text, MINUTE))
+def _overtime(kind: VehicleType, change: Change) -> VehicleType:
+    assert kind.overtime is not None
+    return replace(kind, overtime=replace(
+        kind.overtime, max_duration=kind.overtime.max_duration + int(change.quantity)))
 
 
-def _drive_longer(kind: VehicleType, text: str) -> VehicleType:
+def _drive_longer(kind: VehicleType, change: Change) -> VehicleType:
     assert kind.driving is not None
-    return replace(kind, driving=replace(kind.driving, max_driving_per_day=_units(text, MINUTE)))
+    return replace(kind, driving=replace(kind.driving, max_driving_per_day=int(change.quantity)))
 
 
-ON_TYPE: dict[str, Callable[[VehicleType, str], VehicleType]] = {
-    "fits if endurance were (.+) minutes? longer": _longer_endurance,
-    "fits if max_range were (.+) km longer": _longer_range,
-    "fits without max_wind_km(h)": lambda kind, _: replace(
+ON_TYPE: dict[str, Callable[[VehicleType, Change], VehicleType]] = {
+    "endurance": lambda kind, change: replace(
+        kind, drones=_raise(_drones(kind), "endurance", change)),
+    "range": lambda kind, change: _raise(kind, "max_range", change) if kind.flies else replace(
+        kind, drones=_raise(_drones(kind), "max_range", change)),
+    "wind": lambda kind, _: replace(
         kind, storms=(), drones=kind.drones and replace(kind.drones, storms=())),
-    "fits with a battery of (.+) Wh more": _larger_battery,
-    "fits if the drone capacity were at least (.+)": lambda kind, text: replace(
-        kind, drones=replace(_drones(kind), capacity=_amounts(text))),
-    "fits if capacity were at least (.+)": lambda kind, text: replace(
-        kind, capacity=_amounts(text)),
-    "fits if .+ had (.+)": lambda kind, text: replace(
-        kind, skills=kind.skills | set(text.split(", "))),
-    "fits if .+'s shift ended (.+) minutes? later": lambda kind, text: replace(
-        kind, latest=kind.latest + _units(text, MINUTE)),
-    "fits if .+ could work (.+) minutes? more overtime": lambda kind, text: replace(
-        kind, overtime=_longer(kind.overtime, text)),
-    "fits if .+ could make (.+) stop": lambda kind, text: replace(kind, max_stops=int(text)),
-    "fits if .+ could launch (.+) sortie": lambda kind, text: replace(kind, max_sorties=int(text)),
-    "fits if .+ carried (.+) battery": lambda kind, text: replace(
-        kind, drones=replace(_drones(kind), batteries=int(text))),
-    "fits if .+ could work (.+) minutes? longer": lambda kind, text: replace(
-        kind, max_working_duration=(kind.max_working_duration or 0) + _units(text, MINUTE)),
-    "fits if .+ could travel (.+) minutes? longer": lambda kind, text: replace(
-        kind, max_travel_duration=(kind.max_travel_duration or 0) + _units(text, MINUTE)),
-    "fits if .+'s drivers could drive (.+) minutes? a day": _drive_longer,
-    "fits if trips could be (.+) km longer": lambda kind, text: replace(
-        kind, max_trip_distance=(kind.max_trip_distance or 0) + _units(text, KM)),
-    "fits if .+ may pick up at any tim(e)": lambda kind, _: replace(kind, pickups="any"),
-    "fits if .+ could make another tri(p)": lambda kind, _: replace(
-        kind, max_trips=kind.max_trips + 1),
-    "fits with one more vehicl(e)": lambda kind, _: replace(kind, count=kind.count + 1),
+    "battery": _larger_battery,
+    "drone_capacity": lambda kind, change: replace(
+        kind, drones=replace(_drones(kind), capacity=_amounts(change))),
+    "capacity": lambda kind, change: replace(kind, capacity=_amounts(change)),
+    "skills": lambda kind, change: replace(kind, skills=kind.skills | set(change.names)),
+    "shift": lambda kind, change: _raise(kind, "latest", change),
+    "overtime": _overtime,
+    "stops": lambda kind, change: replace(kind, max_stops=int(change.quantity)),
+    "sorties": lambda kind, change: replace(kind, max_sorties=int(change.quantity)),
+    "batteries_aboard": lambda kind, change: replace(
+        kind, drones=replace(_drones(kind), batteries=int(change.quantity))),
+    "work": lambda kind, change: _raise(kind, "max_working_duration", change),
+    "travel": lambda kind, change: _raise(kind, "max_travel_duration", change),
+    "driving_day": _drive_longer,
+    "trip_distance": lambda kind, change: _raise(kind, "max_trip_distance", change),
+    "pickups": lambda kind, _: replace(kind, pickups="any"),
+    "trips": lambda kind, _: replace(kind, max_trips=kind.max_trips + 1),
+    "count": lambda kind, _: replace(kind, count=kind.count + 1),
 }
-ON_CUSTOMER: dict[str, Callable[[Customer, str], Customer]] = {
-    "fits if its (?:last )?window closed (.+) minutes? later": lambda customer, text: replace(
-        customer, latest=customer.latest + _units(text, MINUTE)),
-    r"fits if its window (\d+ closed .+) minutes? later": _wider_window,
-    "fits if it could be aboard (.+) minutes? longer": lambda customer, text: replace(
-        customer, max_time_aboard=(customer.max_time_aboard or 0) + _units(text, MINUTE)),
-    "served if its unassigned_cost were above (.+)": lambda customer, text: replace(
-        customer, unassigned_cost=float(text) + 0.01),
-    "fits if a (?:truck|drone) may serve (it)": lambda customer, _: replace(
-        customer, served_by="either"),
+ON_CUSTOMER: dict[str, Callable[[Customer, Change], Customer]] = {
+    "window": _wider_window,
+    "time_aboard": lambda customer, change: _raise(customer, "max_time_aboard", change),
+    "own_unassigned_cost": lambda customer, change: replace(
+        customer, unassigned_cost=change.quantity + 0.01),
+    "by_truck": lambda customer, _: replace(customer, served_by="either"),
+    "by_drone": lambda customer, _: replace(customer, served_by="either"),
 }

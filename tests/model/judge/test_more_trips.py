@@ -63,7 +63,7 @@ def test_following_it_serves_the_customer(tiny_problem, customers, truck):
     problem = tiny_problem(*customers, truck=truck)
     solution = serve(problem, 1, 2)
     reason = reason_for_d(problem, solution)
-    changed = applied(problem, Reason(0, reason.code, "", reason.other_remedy), D)
+    changed = applied(problem, replace(reason, remedies=reason.remedies[1:]), D)
     decision = read_route(changed, solution.routes[0])
     longer = replace(decision, trips=(*decision.trips, TripDecision((0, D, 0))))
     assert time_route(changed, longer, "routes[0]", EVERYTHING_OPEN).judged.violations == []

@@ -9,6 +9,7 @@ from model.judge.explain import Reason, explain
 from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Customer, Depot, Problem, Travel, VehicleType
 from model.solution import Solution
+from tests.model.remedies import told
 
 SECOND = 1000
 RING = {(0, 1): 5, (1, 2): 5, (2, 3): 5, (3, 0): 5}
@@ -35,7 +36,7 @@ def reason_for(problem: Problem, node: int, solution: Solution | None = None) ->
 
 def test_a_ring_that_takes_too_long_says_by_how_much() -> None:
     reason = reason_for(problem_of(RING, latest=14 * SECOND), 2)
-    assert reason == Reason(0, "SHIFT", "By way of c1 and c3, the shortest, van would be back "
+    assert told(reason) == (0, "SHIFT", "By way of c1 and c3, the shortest, van would be back "
                             "0.1 minutes after its shift ends.")
 
 
@@ -54,7 +55,7 @@ def test_who_is_left_out_beside_a_used_vehicle_could_be_served_together() -> Non
     problem = problem_of({**RING, (0, 4): 5, (4, 0): 5}, number=4, latest=20 * SECOND)
     route = schedule(problem, RouteDecision(0, 0, (TripDecision((0, 4, 0)),)))
     reason = reason_for(problem, 2, Solution((route,), (1, 2, 3)))
-    assert reason == Reason(0, "FLEET_EXHAUSTED", "van could serve it together with c1 and c3, "
+    assert told(reason) == (0, "FLEET_EXHAUSTED", "van could serve it together with c1 and c3, "
                             "but it is in use.")
 
 
