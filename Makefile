@@ -10,10 +10,11 @@ RULE_SETS ?= mdvrptw,sdvrptw,pcvrptw,vrpmtw,ovrp,vrpb,vrpspd
 BIN := .venv/bin
 INSTALL := $(BIN)/python .ci/install.py
 # On all cores, by `tests/conftest.py`; who is idle takes over what others have left. Threads of PyTorch's own would wait for
-# each other in vain. Tests of the engine find CMake there. Modules are kept compiled whatever the
-# environment says: dozens of processes load them all.
-PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 PYTHONDONTWRITEBYTECODE= $(BIN)/pytest --numprocesses auto --dist worksteal
+# each other in vain. Tests of the engine find CMake there.
+PYTEST := PATH="$(CURDIR)/$(BIN):$$PATH" OMP_NUM_THREADS=1 $(BIN)/pytest --numprocesses auto --dist worksteal
 URL := http://$(HOST):$(PORT)
+# Modules are kept compiled whatever the environment says: each start loads hundreds of them.
+export PYTHONDONTWRITEBYTECODE =
 
 .DEFAULT_GOAL := help
 .NOTPARALLEL:
