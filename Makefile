@@ -87,7 +87,7 @@ study-quick: .venv/serving engine ## The same with few cases, build/study.md
 screenshots: .venv/testing engine ## Make the pictures of the console in docs/screenshots, with Chromium
 	$(BIN)/python -m tests.console.screenshots
 
-fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10000), and wild problems
+fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10000), wild problems, all seeds of random tests
 	$(BIN)/python -m benchmarks.fuzz.api --cases $(CASES)
 	$(BIN)/python -m benchmarks.fuzz.problems
 	$(BIN)/python -m benchmarks.fuzz.mixed --problems 1000
@@ -97,6 +97,7 @@ fuzz: .venv/testing engine ## Send generated requests to the whole API (CASES=10
 	$(BIN)/python -m benchmarks.fuzz.replans
 	$(BIN)/python -m benchmarks.fuzz.flights
 	$(BIN)/python -m benchmarks.load.leavers
+	EVERY_SEED=1 $(PYTEST) $$(grep -rl 'tests.seeds import' tests)
 
 settings: .venv/serving engine ## Write docs/operate/settings.md
 	$(BIN)/tandem settings > docs/operate/settings.md

@@ -9,6 +9,7 @@ import pytest
 
 from app.schemas.fit import FitReply
 from tests.app.plans.asking import documented, judged, planned, refused
+from tests.seeds import seeds
 
 Request = dict[str, Any]
 
@@ -70,7 +71,7 @@ def charging(seed: int) -> Request:
                 "turnaround": {"charge_w": 50, "swap_duration": 0}}}]}
 
 
-@pytest.mark.parametrize("seed", range(15))
+@pytest.mark.parametrize("seed", seeds(15))
 def test_route_beside_those_of_charged_drones_is_a_plan(client: httpx.Client, seed: int) -> None:
     whole = charging(seed)
     *others, new = whole["customers"]

@@ -8,6 +8,7 @@ from model.engine.leg import COMPUTED, GLOBE, AllLegs, ComputedLegs
 from model.problem import UNREACHABLE, IntArray, Points, StraightLegs, Travel
 from model.problem.quantities import LONGEST_NARROW, NO_LEG
 from tests.engine.rules.asking import legs_of, write
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -58,7 +59,7 @@ def drawn(seed: int) -> StraightLegs:
 
 
 def test_computed_legs_are_those_of_the_judge() -> None:
-    for seed in range(60):
+    for seed in seeds(60):
         legs = drawn(seed)
         travel = Travel.along(legs)
         kernel = computed(legs)

@@ -14,6 +14,7 @@ from model.problem import IntArray, Problem
 from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_dimensions, with_pickups
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -86,7 +87,7 @@ def is_legal(problem: Problem, nodes: list[int]) -> bool:
 
 def test_there_is_room_where_the_checker_says_so() -> None:
     seen = set()
-    for seed in range(300):
+    for seed in seeds(300):
         rng = np.random.default_rng(seed)
         problem = with_pickups(rng, draw_tiny(rng, drone_share=0.0))
         if seed % 3 == 0:

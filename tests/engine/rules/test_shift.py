@@ -12,6 +12,7 @@ from model.engine.records import Record
 from model.solution import Solution
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings, with_duty
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -24,7 +25,7 @@ def sorties_allowed(kind: Record, count: int) -> bool:
     return asked("sorties_allowed", 1, kind, count) == (True,)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", seeds(60))
 def test_a_vehicle_works_overtime_as_the_judge_says(seed: int) -> None:
     rng = np.random.default_rng(seed)
     problem = with_duty(rng, draw_tiny(rng, drone_share=0.0))

@@ -11,6 +11,7 @@ from model.engine.instance import pack
 from model.engine.records import Record
 from tests.engine.rules.asking import asked
 from tests.model.tiny import draw_tiny, with_beginnings
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -19,7 +20,7 @@ def begun(kind: Record, time: int) -> tuple[int, ...]:
     return asked("begun_at", 3, kind, time)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", seeds(40))
 def test_a_vehicle_leaves_and_works_when_the_judge_says(seed: int) -> None:
     rng = np.random.default_rng(seed)
     problem = with_beginnings(rng, draw_tiny(rng))

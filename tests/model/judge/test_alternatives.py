@@ -13,6 +13,7 @@ from model.solution import Solution
 from tests.model.tiny import (
     draw_tiny, with_gaps, with_limits_aboard, with_own_costs, with_setups, with_table,
 )
+from tests.seeds import seeds
 
 MINUTE = 60_000
 
@@ -138,7 +139,7 @@ def greedy(problem):
     return solution
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", seeds(40))
 def test_what_is_said_is_what_the_judge_says(seed):
     rng = np.random.default_rng(seed)
     problem = with_own_costs(rng, draw_tiny(rng))
@@ -159,7 +160,7 @@ def test_what_is_said_is_what_the_judge_says(seed):
                     "TIME_MISMATCH"}
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_whoever_is_put_back_costs_what_he_did(seed):
     rng = np.random.default_rng(100 + seed)
     problem = draw_tiny(rng)
@@ -174,7 +175,7 @@ def test_whoever_is_put_back_costs_what_he_did(seed):
         assert back.evaluation.cost.total <= bench.plan.evaluation.cost.total + 1e-9
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", seeds(12))
 def test_small_plan_has_the_cheapest_place_of_each_vehicle_found(seed):
     rng = np.random.default_rng(200 + seed)
     problem = with_gaps(rng, draw_tiny(rng), 0.3)

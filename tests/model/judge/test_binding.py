@@ -16,6 +16,7 @@ from model.problem import (
 from model.solution import Solution, Trip
 from tests.model.judge.test_alternatives import A, B, C, D, MINUTE, greedy, plan, route
 from tests.model.tiny import draw_tiny, with_duty
+from tests.seeds import seeds
 
 
 def binding(problem, solution, node):
@@ -135,7 +136,7 @@ def test_customer_left_out_is_told_what_would_let_him_in(tiny_problem, customers
     assert found["count"] == found["max_trips"] == (0.0, pytest.approx(1000.0))
 
 
-@pytest.mark.parametrize("seed", range(15))
+@pytest.mark.parametrize("seed", seeds(15))
 def test_what_is_saved_is_saved_by_a_plan_that_the_judge_accepts(seed):
     rng = np.random.default_rng(seed)
     problem = with_duty(rng, draw_tiny(rng))

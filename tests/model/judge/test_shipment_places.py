@@ -25,6 +25,7 @@ from model.solution import Solution
 from tests.model.search.mixed_days import with_missing_legs
 from tests.model.tiny import draw_tiny, with_gaps, with_table
 from tests.model.tiny_shipments import with_flown_parts, with_flown_shipments, with_shipments
+from tests.seeds import seeds
 
 
 def bench_of(problem: Problem, solution: Solution, node: int) -> Bench:
@@ -114,7 +115,7 @@ def cheapest(problem: Problem, solution: Solution, shipment: Shipment) -> float:
     return best
 
 
-@pytest.mark.parametrize("seed", range(24))
+@pytest.mark.parametrize("seed", seeds(24))
 def test_the_best_offer_is_the_best_of_all(seed: int) -> None:
     rng = np.random.default_rng(seed)
     problem = (with_flown_shipments if seed % 3 == 2 else with_shipments)(rng, draw_tiny(rng))
@@ -166,7 +167,7 @@ def test_what_breaks_only_because_a_shipment_is_missed_excuses_no_place(seed: in
             assert bool(broken) != place.trial.evaluation.is_feasible
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", seeds(12))
 def test_what_else_could_be_done_is_what_the_judge_says(seed: int) -> None:
     rng = np.random.default_rng(100 + seed)
     problem = (with_shipments, with_flown_shipments, with_shipments,

@@ -32,6 +32,7 @@ from tests.model.tiny_launches import (
     draw_for_drones, with_few_launch_places, with_launch_sites, with_some_revisits,
 )
 from tests.model.tiny_prices import with_vehicle_costs
+from tests.seeds import seeds
 from training.instances import VARIANTS, generate
 
 pytestmark = pytest.mark.slow
@@ -217,52 +218,52 @@ def replan_later(planner: Planner, problem: Problem, plan: Solution, now: int,
     assert_unchanged(problem, plan, result.solution, now, broken)
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", seeds(60))
 def test_tiny_plans_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 5))
     replan_and_check(planner, draw_tiny(rng), rng)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", seeds(30))
 def test_tiny_plans_whose_launches_are_held_back_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 8))
     replan_and_check(planner, draw_late(rng), rng)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", seeds(30))
 def test_tiny_plans_go_on_in_overtime(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     replan_and_check(planner, with_duty(rng, draw_tiny(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_tiny_plans_that_pick_up_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 12))
     replan_and_check(planner, with_pickups(rng, with_duty(rng, draw_tiny(rng))), rng)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_tiny_plans_go_on_by_who_may_serve_whom_at_what_cost(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 9))
     change = with_table if seed % 2 else with_vehicle_costs
     replan_and_check(planner, change(rng, draw_tiny(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_tiny_plans_on_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 10))
     draw = draw_late if seed % 2 else draw_tiny
     replan_and_check(planner, with_energy(rng, draw(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_tiny_plans_with_few_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 13))
     problem = with_turnaround(rng, draw_tiny(rng, drone_share=1.0))
     replan_and_check(planner, with_energy(rng, problem) if seed % 2 else problem, rng)
 
 
-@pytest.mark.parametrize("seed", range(30))
+@pytest.mark.parametrize("seed", seeds(30))
 def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((seed, 14))
     problem = with_charging(rng, draw_tiny(rng, drone_share=1.0), begun_share=0.0)
@@ -270,13 +271,13 @@ def test_tiny_plans_on_charged_batteries_go_on(planner: Planner, seed: int) -> N
     replan_and_check(planner, replace(problem, customers=anyone), rng)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", seeds(40))
 def test_tiny_plans_of_vehicles_that_fly_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((13, seed))
     replan_and_check(planner, with_fliers(rng, draw_tiny(rng)), rng)
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", seeds(40))
 def test_tiny_plans_from_hubs_that_have_little_go_on(planner: Planner, seed: int) -> None:
     rng = np.random.default_rng((15, seed))
     replan_and_check(planner, from_few_hubs(rng, draw_tiny(rng)), rng)
@@ -284,7 +285,7 @@ def test_tiny_plans_from_hubs_that_have_little_go_on(planner: Planner, seed: int
 
 @pytest.mark.parametrize("change", [
     with_open_ends, with_reloads, with_open_reloads, with_hours_apart])
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", seeds(10))
 def test_tiny_plans_go_on_from_place_to_place(
         planner: Planner, seed: int,
         change: Callable[[np.random.Generator, Problem], Problem]) -> None:
@@ -312,7 +313,7 @@ def with_fairness(rng: np.random.Generator, problem: Problem) -> Problem:
     with_all_at_once, with_ranges, with_few_airborne, with_few_launch_places, with_storms,
     with_closings,
     with_relations, with_order, with_order_across, with_choices, with_breaks, with_driving])
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", seeds(12))
 def test_tiny_plans_go_on_by_what_else_is_stated(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],
         seed: int) -> None:
@@ -323,7 +324,7 @@ def test_tiny_plans_go_on_by_what_else_is_stated(
 @pytest.mark.parametrize("change", [with_breaks, with_driving])
 def test_breaks_are_taken_in_plans_that_are_changed_before_the_day(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem]) -> None:
-    for seed in range(25):
+    for seed in seeds(25):
         rng = np.random.default_rng((seed, 12))
         problem = change(rng, draw_tiny(rng, 0.0 if change is with_driving else 0.6))
         plan = planner.plan(problem, OPTIONS, start=nobody(problem))
@@ -337,7 +338,7 @@ def test_breaks_are_taken_in_plans_that_are_changed_before_the_day(
 
 
 @pytest.mark.parametrize("change", [with_launch_sites, with_some_revisits])
-@pytest.mark.parametrize("seed", range(15))
+@pytest.mark.parametrize("seed", seeds(15))
 def test_tiny_plans_go_on_from_launch_sites(
         planner: Planner, change: Callable[[np.random.Generator, Problem], Problem],
         seed: int) -> None:

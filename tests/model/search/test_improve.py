@@ -21,6 +21,7 @@ from model.solution import Solution
 from tests.model.rollouts import random_problems, roll
 from tests.model.tiny import draw_tiny
 from training.instances import VARIANTS, generate
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -50,7 +51,7 @@ def search(problem: Problem, start: Solution, turns: int, **options: int) -> Imp
 def varied() -> Iterator[tuple[int, Problem]]:
     """Yield numbered problems of all variants, and tiny ones that mix all rules."""
     problems = random_problems(seed=5, count=120)
-    problems += [draw_tiny(np.random.default_rng(seed), 0.6) for seed in range(80)]
+    problems += [draw_tiny(np.random.default_rng(seed), 0.6) for seed in seeds(80)]
     yield from enumerate(problems)
 
 
@@ -117,7 +118,7 @@ def test_plans_that_once_broke_rules_are_legal(num_customers: int, seed: int,
 
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_plans_of_larger_problems_are_legal(variant: str) -> None:
-    for seed in range(12):
+    for seed in seeds(12):
         problem = generate(np.random.default_rng(seed), 40 + 8 * seed, variant)
         judged(problem, search(problem, nobody(problem), turns=100, seed=seed))
 

@@ -12,12 +12,13 @@ from model.simulation.extract import extract
 from tests.model.rollouts import roll
 from tests.model.search.many_days import Day, day_of, told
 from tests.model.search.mixed_days import mixed_day
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
 
 def test_rollouts_keep_rules_that_mix() -> None:
-    for seed in range(100):
+    for seed in seeds(100):
         problem = mixed_day(np.random.default_rng(seed))
         plan = extract(problem, pack([problem]), roll([problem], seed).rollouts[0].actions)
         assert check(problem, plan).violations == (), seed

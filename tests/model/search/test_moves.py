@@ -16,6 +16,7 @@ from model.search.neighbourhood.neighbourhood import Neighbourhood, make_neighbo
 from model.search.improve import Improved, Progress, SearchConfig, improve
 from model.search.strategy import Moves
 from model.solution import Solution
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -195,7 +196,7 @@ def test_trips_joined_by_their_ends_leave_no_empty_trip() -> None:
     others = [TripDecision((0, *range(first + 13, first - 1, -1), 0)) for first in (29, 43)]
     start = Solution((schedule(problem, RouteDecision(0, 0, tuple(trips))),
                       schedule(problem, RouteDecision(0, 1, tuple(others)))))
-    for seed in range(40):
+    for seed in seeds(40):
         for turns in (5, 40):
             improved_cost(problem, start, turns, seed)
 

@@ -22,6 +22,7 @@ from tests.model.tiny_company import with_order, with_order_across
 from tests.model.tiny_driving import with_driving
 from tests.model.tiny_launches import with_launch_sites, with_some_revisits
 from tests.model.tiny_streets import draw_streets, draw_town
+from tests.seeds import often, seeds
 
 pytestmark = pytest.mark.slow
 
@@ -75,7 +76,7 @@ def cost_of(problem: Problem, routes: Sequence[Sequence[int]]) -> float:
 
 def test_the_search_finds_the_cheapest_plan_of_orders_across_vehicles() -> None:
     across = bound = 0
-    for seed in range(40):
+    for seed in seeds(40):
         rng = np.random.default_rng((seed, 4))
         problem = with_order_across(rng, draw_streets(rng))
         nodes = tuple(range(1, problem.num_nodes))
@@ -95,8 +96,8 @@ def test_the_search_finds_the_cheapest_plan_of_orders_across_vehicles() -> None:
         bound += least > priced[0][0]
         across += any(len({number for number, own in enumerate(best) if set(own) & set(each.nodes)})
                       > 1 for each in problem.relations)
-    assert across > 10
-    assert bound > 10
+    assert across > often(10)
+    assert bound > often(10)
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -133,7 +134,7 @@ def test_a_driver_rests_while_it_waits_for_an_order() -> None:
 @pytest.mark.parametrize("change", [with_order, with_order_across])
 def test_rollouts_and_search_keep_orders_beside_rests(resting: Change, change: Change) -> None:
     rests = 0
-    for seed in range(24):
+    for seed in seeds(24):
         rng = np.random.default_rng((seed, 61))
         problem = change(rng, resting(rng, draw_tiny(rng)))
         instance = pack([problem])
@@ -146,4 +147,4 @@ def test_rollouts_and_search_keep_orders_beside_rests(resting: Change, change: C
             assert evaluation.violations == (), f"seed {seed}"
             assert cost == pytest.approx(evaluation.cost.total), f"seed {seed}"
             rests += sum(len(trip.breaks) for route in plan.routes for trip in route.trips)
-    assert rests > 10
+    assert rests > often(10)

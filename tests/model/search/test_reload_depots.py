@@ -11,6 +11,7 @@ from model.judge.timing import RouteDecision, TripDecision, schedule
 from model.problem import Customer, Depot, Problem, Travel, VehicleType
 from model.search.improve import SearchConfig, improve
 from model.solution import Solution
+from tests.seeds import seeds
 
 METRE = 1000
 
@@ -61,7 +62,7 @@ def cheapest(problem: Problem) -> float:
 
 def test_trips_nearly_always_begin_and_end_at_the_best_depots() -> None:
     dearer = 0
-    for seed in range(60):
+    for seed in seeds(60):
         problem = drawn(np.random.default_rng(seed))
         found = improve(problem, pack([problem], False), Solution((), (2, 3, 4)),
                         SearchConfig(turns=200)).solution
@@ -73,7 +74,7 @@ def test_trips_nearly_always_begin_and_end_at_the_best_depots() -> None:
 
 def test_policies_leave_out_who_is_too_far_from_any_depot() -> None:
     """Rollouts end trips anywhere; a search serves whoever lies near some of the depots."""
-    for seed in range(20):
+    for seed in seeds(20):
         problem = drawn(np.random.default_rng(seed))
         kind, = problem.vehicle_types
         anywhere, somewhere = (pack([problem], legs).can_drive[0, 0, 2:] for legs in (True, False))

@@ -19,6 +19,7 @@ from tests.model.search.mixed_days import mixed_day
 from tests.model.tiny_launches import with_launch_sites, with_some_revisits
 from tests.model.tiny_shipments import with_shipments
 from training.instances import generate
+from tests.seeds import seeds
 
 CROWD = 210
 """Customers, of whom two trucks take three each: so many are missing each turn that a stop at a
@@ -70,7 +71,7 @@ def test_searches_go_on_where_routes_have_no_room(
 
 def test_all_kinds_of_moves_ask_for_room(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(translate, "room_for", tight)
-    for seed in range(12):
+    for seed in seeds(12):
         rng = np.random.default_rng(seed)
         drawn = mixed_day(rng) if seed % 2 else generate(rng, 12, "drone")
         if seed % 4 == 0:

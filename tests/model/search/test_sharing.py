@@ -15,6 +15,7 @@ from model.search.problem_data import make_data
 from model.solution import Solution
 from tests.model.fliers import from_hubs
 from training.instances import generate
+from tests.seeds import seeds
 
 
 @pytest.mark.parametrize(("variant", "threads"), [
@@ -57,7 +58,7 @@ def test_regions_have_about_as_many_customers(threads: int) -> None:
     slot = slots_of(whole)[1:]
     slot = slot[slot >= 0]
     longest = np.bincount(slot).max()
-    for seed in range(20):
+    for seed in seeds(20):
         owner = regions(problem.coordinates, whole, threads, np.random.default_rng(seed))
         shares = np.bincount(owner[slot], minlength=threads)
         assert abs(shares - len(slot) / threads).max() <= longest

@@ -20,6 +20,7 @@ from model.search.problem_data import make_data
 from model.solution import Solution
 from training.instances import VARIANTS, generate
 from tests.model.search.found import read_plan
+from tests.seeds import seeds
 
 pytestmark = pytest.mark.slow
 
@@ -53,7 +54,7 @@ def test_nobody_is_left_out_where_there_are_trucks_enough() -> None:
     problem = generate(np.random.default_rng(1), 100, "vrptw")
     assert problem.vehicle_types[0].count == 100
     data = make_data(problem, pack([problem]))
-    for seed in range(60):
+    for seed in seeds(60):
         whole = make_searcher(problem, data, Solution((), ()), np.random.SeedSequence(seed))
         insert_missing(data, whole, BY_FAR)
         assert whole.count.missing == 0

@@ -21,6 +21,7 @@ from tests.model.remedies import applied
 from tests.model.rollouts import legal, roll
 from tests.model.simulation.test_simulator import walk
 from tests.model.tiny import draw_late, with_energy, with_gaps
+from tests.seeds import often, seeds
 
 pytestmark = pytest.mark.slow
 
@@ -185,7 +186,7 @@ def held(problem: Problem, solution: Solution) -> Iterator[int]:
 
 def test_random_rollouts_and_searches_hold_launches_and_pass_the_checker() -> None:
     by_policy = by_search = 0
-    for seed in range(110):
+    for seed in seeds(110):
         problem = draw_late(np.random.default_rng(seed))
         rollout = roll([problem], seed).rollouts[0]
         solution = extract(problem, pack([problem]), rollout.actions)
@@ -194,12 +195,12 @@ def test_random_rollouts_and_searches_hold_launches_and_pass_the_checker() -> No
         assert rollout.cost.sum() == pytest.approx(evaluation.cost.total, rel=1e-9)
         by_policy += len(list(held(problem, solution)))
         by_search += len(list(held(problem, searched(problem))))
-    assert by_policy > 5
-    assert by_search > 5
+    assert by_policy > often(5)
+    assert by_search > often(5)
 
 
 def test_plans_state_their_order_where_launches_and_recoveries_take_no_time() -> None:
-    for seed in range(100):
+    for seed in seeds(100):
         problem = draw_late(np.random.default_rng(seed))
         kinds = tuple(replace(kind, drones=replace(
             kind.drones, count=3, launch_duration=0, recovery_duration=0))
@@ -260,14 +261,14 @@ def is_served(problem: Problem) -> bool:
 
 def test_a_remedy_for_a_lone_customer_is_never_false_and_none_is_needed_where_one_fits() -> None:
     remedies = 0
-    for seed in range(110):
+    for seed in seeds(110):
         for problem, reason in lone_reasons(seed):
             if reason.code == "SEARCH":
                 assert is_served(problem), f"seed {seed}"
             elif reason.remedy is not None:
                 remedies += 1
                 assert is_served(applied(problem, reason, 1)), f"seed {seed}: {reason.remedy}"
-    assert remedies > 100
+    assert remedies > often(100)
 
 
 def test_a_customer_whose_window_opens_after_that_of_the_stop_to_fly_from(late):

@@ -20,6 +20,7 @@ from model.dialects.vroom.timing import COST_SCALE, Driver
 from model.dialects.vroom.work import LegLimit
 from model.judge.check import check
 from tests.app.formats.vroom.sampling import sample_request
+from tests.seeds import seeds
 
 Data = dict[str, Any]
 
@@ -60,7 +61,7 @@ def draw_routes(draw: random.Random, case: Case) -> Routes:
     return routes
 
 
-@pytest.mark.parametrize("seed", range(300))
+@pytest.mark.parametrize("seed", seeds(300))
 def test_plans_that_pass_the_planners_check_keep_vrooms_rules_at_vrooms_cost(seed: int) -> None:
     draw = random.Random(seed)
     case = Case(sample_request(draw))
@@ -77,7 +78,7 @@ def test_plans_that_pass_the_planners_check_keep_vrooms_rules_at_vrooms_cost(see
             assert cost == pytest.approx(case.cost(routes), abs=0.01)
 
 
-@pytest.mark.parametrize("seed", range(300))
+@pytest.mark.parametrize("seed", seeds(300))
 def test_plans_that_keep_vrooms_rules_pass_the_planners_check(seed: int) -> None:
     draw = random.Random(seed)
     request = sample_request(draw)

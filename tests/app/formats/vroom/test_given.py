@@ -17,6 +17,7 @@ from app.serving.load.received import ReceivedBody
 from tests.app.formats.vroom.judge import tasks_of
 from tests.app.formats.vroom.reference import check
 from tests.app.formats.vroom.sampling import sample_request
+from tests.seeds import seeds
 
 Data = dict[str, Any]
 
@@ -62,7 +63,7 @@ def span(route: Data) -> int:
     return int(route["steps"][-1]["arrival"] - route["steps"][0]["arrival"])
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", seeds(60))
 def test_times_violate_no_more_than_vrooms(seed: int) -> None:
     draw = random.Random(seed)
     request = with_steps(draw, sample_request(draw))

@@ -25,6 +25,7 @@ from tests.app.formats.vroom.reference import solve
 from tests.app.formats.vroom.sampling import sample_request
 from tests.conftest import SOON
 from tests.model.dialects.vroom.drawn import best_value, drawn_request
+from tests.seeds import seeds
 
 Data = dict[str, Any]
 Solve = Callable[..., Data]
@@ -55,7 +56,7 @@ def value(reply: Data) -> tuple[int, int]:
     return reply["summary"]["priority"], -reply["summary"]["unassigned"]
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", seeds(60))
 def test_random_requests_get_sound_replies(ours: Solve, seed: int) -> None:
     request = sample_request(random.Random(1000 + seed))
     judge(request, ours(request, 100))
@@ -63,7 +64,7 @@ def test_random_requests_get_sound_replies(ours: Solve, seed: int) -> None:
 
 def test_small_requests_are_solved_about_as_well_as_by_vroom(ours: Solve) -> None:
     ratios, worse = [], 0
-    for seed in range(40):
+    for seed in seeds(40):
         request = sample_request(random.Random(seed), most_jobs=7)
         theirs, reply = solve(request, exploration=5), ours(request, 1000)
         judge(request, reply)
@@ -108,7 +109,7 @@ def test_limits_are_kept_to_the_unit(ours: Solve, street: Data, limit: Data, ext
     assert sorted(served(reply)) == [1, 2, 3]
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_few_jobs_with_windows_and_a_limit_are_planned_at_least_cost(ours: Solve,
                                                                      seed: int) -> None:
     request = drawn_request(random.Random(seed), 4, binds=seed % 2 == 1)

@@ -20,6 +20,7 @@ from tests.app.formats.vroom.judge import tasks_of as judged_tasks
 from tests.app.formats.vroom.reference import solve
 from tests.app.formats.vroom.sampling import sample_request
 from tests.growth import growth_of
+from tests.seeds import seeds
 
 Data = dict[str, Any]
 
@@ -56,7 +57,7 @@ def test_long_routes_are_written_in_time_that_grows_as_they_do() -> None:
     assert growth_of(writing, 100) < 5
 
 
-@pytest.mark.parametrize("seed", range(150))
+@pytest.mark.parametrize("seed", seeds(150))
 def test_reply_is_vrooms_byte_for_byte(seed: int) -> None:
     draw = random.Random(seed)
     request = sample_request(draw)
@@ -84,7 +85,7 @@ def order_of(reply: Data) -> list[list[str]]:
     return [[step["type"] for step in route["steps"]] for route in reply["routes"]]
 
 
-@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("seed", seeds(20))
 def test_judge_agrees_with_vroom(seed: int) -> None:
     request = sample_request(random.Random(seed))
     judge(request, solve(request))

@@ -8,6 +8,7 @@ from model.dialects.vroom.exact import best_routes, is_few
 from model.dialects.vroom.kinds import find_kinds
 from model.dialects.vroom.timing import Driver
 from tests.model.dialects.vroom.drawn import Data, best_value, drawn_request, read
+from tests.seeds import seeds
 
 
 def value_of_best(stated: Data) -> tuple[int, int, int]:
@@ -26,7 +27,7 @@ def value_of_best(stated: Data) -> tuple[int, int, int]:
             -sum(route.cost for route in timed if route is not None))
 
 
-@pytest.mark.parametrize("seed", range(40))
+@pytest.mark.parametrize("seed", seeds(40))
 def test_routes_are_as_good_as_those_found_by_trying_all(seed: int) -> None:
     draw = random.Random(seed)
     stated = drawn_request(draw, 4, binds=seed % 2 == 1)
