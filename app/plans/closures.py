@@ -167,7 +167,10 @@ def _add_remedy(reason: Data, metres: float) -> None:
     enough = floor(metres - WIDER_M)
     if enough >= 0:
         remedy = f"lies far enough away with airspace.buffer {enough}"
-        reason["remedy" if reason["remedy"] is None else "other_remedy"] = remedy
+        words, changes = (("remedy", "changes") if reason["remedy"] is None
+                          else ("other_remedy", "other_changes"))
+        reason[words] = remedy
+        reason[changes] = [{"path": "$.airspace.buffer", "to": enough}]
 
 
 def hours_of(found: Hindrance) -> str:

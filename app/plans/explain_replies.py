@@ -3,7 +3,7 @@
 from collections.abc import Collection, Iterable, Sequence
 
 from app.plans.replies import (
-    Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
+    Changes, Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
 )
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
@@ -23,7 +23,7 @@ from model.solution import Cost, Solution, Stop, Visit
 
 
 def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: Iterable[Binding],
-                   reasons: Iterable[Reason]) -> Data:
+                   reasons: Iterable[Reason], changes: Changes) -> Data:
     """Return what is said of one customer or shipment."""
     problem = bench.problem
     return {
@@ -32,7 +32,8 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
         "here": here_reply(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],
         "binding": [_binding(bench, each) for each in binding],
-        "reasons": [reason_reply(problem, reason) for reason in one_per_type(problem, reasons)],
+        "reasons": [reason_reply(problem, bench.node, reason, changes)
+                    for reason in one_per_type(problem, reasons)],
     }
 
 

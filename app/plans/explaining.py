@@ -88,7 +88,11 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Planner,
     solution = read_plan(request.plan, task.problem, (PLAN,))
     question = _question(Subject(request.customer, request.shipment), request.drones,
                          request.options, body.received_at, request.idle_drones)
-    return to_json(_Explainer(task, solution, planner, should_stop).answer(question))
+    reply = _Explainer(task, solution, planner, should_stop).answer(question)
+    for reason in reply["reasons"]:
+        for change in (*reason["changes"], *reason.get("other_changes", ())):
+            change["path"] = change["path"].replace("$", f"$.{PROBLEM}", 1)
+    return to_json(reply)
 
 
 def explain_job(request: PlanRequest, plan: bytes, subject: Subject, drones: bool,
@@ -250,7 +254,8 @@ class _Explainer:
                                         question.after(0.3 if question.drones else 1.0))
         reasons = (() if bench.found is not None else self._task.reasons(
             self._solution, bench.node, time.perf_counter() + REASONS_SECONDS))
-        return (customer_reply(bench, found.alternatives, binding, reasons),
+        return (customer_reply(bench, found.alternatives, binding, reasons,
+                               self._task.changes),
                 found.is_complete and in_time)
 
     def _of_drones(self, question: Question) -> tuple[Data, bool]:

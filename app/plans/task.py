@@ -10,6 +10,7 @@ from functools import partial
 from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
+from app.plans.changes import Changing
 from app.plans.carried import Info, carry, info_of, names_left_out
 from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
@@ -43,6 +44,7 @@ from model.judge.check import Evaluation, JudgedRoute, check
 from model.judge.explain import Reason, explain
 from model.judge.more_trips import with_another_trip
 from model.judge.past import Vehicle
+from model.judge.remedy import Remedy
 from model.judge.rules import Violation
 from model.planner import ALONE, Elapsed, Listener, Planner, PlanOptions, PlanResult
 from model.problem import Problem
@@ -150,11 +152,22 @@ class Task:
         return tuple([self.permits.named(name, kinds[reason.vehicle_type].type_id, reason)
                       for reason in found])
 
+    def changes(self, node: int, reason: Reason, remedy: Remedy) -> list[Data]:
+        """Return what a remedy changes of the request, for who is left out at a node."""
+        if self.places is None:
+            return []
+        shipment = self.problem.shipment_at.get(node)
+        name = (self.problem.customer_at(self.problem.first_place(node)).id if shipment is None
+                else shipment.id)
+        kind = self.problem.vehicle_types[reason.vehicle_type].type_id
+        changing = Changing.of(self.places.placed.request, kind, name, shipment is not None)
+        return changing.changes(remedy)
+
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""
         allowed = EXPLAINING + EXPLAINING_SHARE * options.time_limit
         until = time.perf_counter() + allowed
-        reply = plan_reply(self.problem, options, result, self.reasons, until)
+        reply = plan_reply(self.problem, options, result, self.reasons, until, self.changes)
         for left in reply["unassigned"]:
             self.name_hindrances(names_left_out(left), left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]

@@ -13,7 +13,7 @@ from app.schemas.drones import Flyer, TurnaroundInput
 from app.schemas.energy import EnergyInput
 from app.schemas.launch_site import HoursInput
 from app.schemas.vehicle import BreakInput, SpeedChangeInput, VehicleTypeInput
-from app.schemas.written import Written
+from app.schemas.times import Written
 from model.problem import MAX_QUANTITY
 
 

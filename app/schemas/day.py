@@ -54,6 +54,11 @@ def is_instant(text: str) -> bool:
     return bool(_WALL.fullmatch(text) or _DATE_TIME.fullmatch(text))
 
 
+def is_dated(text: str) -> bool:
+    """Tell whether a text has the form of a date and time."""
+    return bool(_DATE_TIME.fullmatch(text))
+
+
 def is_clock(text: str) -> bool:
     """Tell whether a text is a time of day, of no stated day."""
     wall = _WALL.fullmatch(text)

@@ -4,7 +4,7 @@ Replies are written by `app.plans.replies` as plain data for speed; these classe
 a test holds the two together.
 """
 
-from typing import Literal
+from typing import Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -177,6 +177,16 @@ class RouteReply(_Reply):
     trips: list[TripReply] = Field(description="Trips in order.")
 
 
+class ChangeReply(_Reply):
+    """A change of the request, in its own notation: `by` so much, or `to` a value."""
+
+    path: str = Field(description="Where it is in the request, such as `$.fleet[0].count`.")
+    by: float | None = Field(
+        None, description="What is added to the number that stands there; left out beside `to`.")
+    to: Any = Field(
+        None, description="What is to stand there instead; left out beside `by`.")
+
+
 class ReasonReply(_Reply):
     """Why vehicles of one type don't serve a customer."""
 
@@ -185,8 +195,12 @@ class ReasonReply(_Reply):
     message: WordsReply = Field(description="The reason in words.")
     remedy: WordsReply | None = Field(
         description="A change that would suffice. Null: none is known.")
+    changes: list[ChangeReply] = Field(
+        description="The same as changes of the request, which together suffice.")
     other_remedy: str | None = Field(
         None, description="Another change that would suffice; left out where none is known.")
+    other_changes: list[ChangeReply] | None = Field(
+        None, description="The same as changes; left out where none is known.")
     zone: ZoneReply | None = Field(
         None, description="Of `AIRSPACE`: the zone; left out for other reasons.")
     wind: list[StormReply] | None = Field(

@@ -8,12 +8,12 @@ from typing import Annotated, Any, TypeVar
 
 from pydantic import (
     AfterValidator, BaseModel, Field, GetCoreSchemaHandler, GetJsonSchemaHandler, TypeAdapter,
-    ValidationInfo,
+    ValidationInfo, ValidatorFunctionWrapHandler,
 )
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
 from app.schemas.day import (
-    EPOCH_FROM, LONGEST_TEXT, Day, DayOfBody, is_instant, read_date_time, zone_of,
+    EPOCH_FROM, LONGEST_TEXT, Day, DayOfBody, is_dated, is_instant, read_date_time, zone_of,
 )
 from app.schemas.errors import AS_EPOCH, AS_NUMBER, AS_TEXT, InputError, InvalidRequestError
 
@@ -155,6 +155,27 @@ def _no_duration(info: ValidationInfo) -> PydanticCustomError:
                        "PT10M.")
 
 
+class Written(float):
+    """Seconds that were written as a text."""
+
+    __slots__ = ("is_dated", "is_length", "is_moved", "later", "text")
+
+    text: str
+    is_dated: bool  # with a date
+    is_length: bool  # after ISO 8601
+    later: float | None  # the same clock on the day after, where nobody works as early
+    is_moved: bool  # to then
+
+    @classmethod
+    def of(cls, seconds: float, text: str, later: float | None = None,
+           is_moved: bool = False) -> "Written":
+        """Return seconds and how they were written."""
+        made = cls(seconds)
+        made.text, made.is_length, made.is_dated = text, text.startswith("P"), is_dated(text)
+        made.later, made.is_moved = later, is_moved
+        return made
+
+
 @dataclass(frozen=True)
 class Readable:
     """Lets a number of seconds be stated as a text, too."""
@@ -183,7 +204,12 @@ class Readable:
 
     def from_text(self, number: CoreSchema) -> list[CoreSchema]:
         """Return what reads a text, and then looks at it as at a number."""
-        return [core_schema.with_info_plain_validator_function(self.read), number]
+        return [core_schema.with_info_wrap_validator_function(self.read_written, number)]
+
+    def read_written(self, text: str, number: ValidatorFunctionWrapHandler,
+                     info: ValidationInfo) -> Written:
+        """Return the seconds that a text tells, and the text."""
+        return Written.of(number(self.read(text, info)), text)
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema,
                                      handler: GetJsonSchemaHandler) -> dict[str, Any]:

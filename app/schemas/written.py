@@ -5,47 +5,24 @@ from dataclasses import dataclass
 from typing import Any, TypeVar
 
 from pydantic import ValidationInfo, ValidatorFunctionWrapHandler
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic_core import PydanticCustomError
 
 from app.schemas.day import DayOfBody, is_clock
-from app.schemas.times import READ_DURATION, READ_INSTANT, READ_OPENING, Readable
+from app.schemas.times import READ_DURATION, READ_INSTANT, READ_OPENING, Readable, Written
 
 Window = TypeVar("Window")
-
-
-class Written(float):
-    """Seconds that were written as a text."""
-
-    __slots__ = ("is_length", "is_moved", "later", "text")
-
-    text: str
-    is_length: bool  # else an instant
-    later: float | None  # the same clock on the day after, where nobody works as early
-    is_moved: bool  # to then
-
-    @classmethod
-    def of(cls, seconds: float, text: str, later: float | None = None,
-           is_moved: bool = False) -> "Written":
-        """Return seconds and how they were written."""
-        made = cls(seconds)
-        made.text, made.is_length = text, text.startswith("P")
-        made.later, made.is_moved = later, is_moved
-        return made
 
 
 @dataclass(frozen=True)
 class EndOfWindow(Readable):
     """Reads a time of day that may be of the night that follows."""
 
-    def from_text(self, number: CoreSchema) -> list[CoreSchema]:
-        """Return what reads a text, and then looks at it as at a number."""
-        return [core_schema.with_info_wrap_validator_function(self._read, number)]
-
-    def _read(self, text: str, number: ValidatorFunctionWrapHandler,
-              info: ValidationInfo) -> float:
+    def read_written(self, text: str, number: ValidatorFunctionWrapHandler,
+                     info: ValidationInfo) -> Written:
+        """Return seconds, and which they may be instead."""
         clocks = _in_the_night(text, info)
         if clocks is None:
-            return float(number(self.read(text, info)))
+            return super().read_written(text, number, info)
         seconds, later = clocks
         return Written.of(seconds, text, number(later))
 
@@ -53,20 +30,19 @@ class EndOfWindow(Readable):
 class StartOfBreak(EndOfWindow):
     """Reads a length of time after ISO 8601, too."""
 
-    def _read(self, text: str, number: ValidatorFunctionWrapHandler,
-              info: ValidationInfo) -> float:
+    def read_written(self, text: str, number: ValidatorFunctionWrapHandler,
+                     info: ValidationInfo) -> Written:
+        """Return seconds of either."""
         if text.startswith("P"):
             return Written.of(number(READ_DURATION.read(text, info)), text)
         try:
-            found = super()._read(text, number, info)
+            return super().read_written(text, number, info)
         except PydanticCustomError as error:
             if error.type != "MISSING_PLAN_START":
                 raise
             raise PydanticCustomError(
                 "MISSING_PLAN_START", f"{error.message()} With after_departure state a length of "
                 "time, such as PT5H30M.") from None
-        return found if isinstance(found, Written) else Written.of(found, text)
-
 
 def _in_the_night(text: str, info: ValidationInfo) -> tuple[float, float] | None:
     """Return a time of day before any shift begins, and the same on the day after, in a shift.
@@ -109,6 +85,15 @@ def moved_end(window: Any) -> Written | None:
     """Return the end of a window that was moved to the day after; None if it wasn't."""
     end = window.latest
     return end if isinstance(end, Written) and end.is_moved else None
+
+
+def length_like(text: str, seconds: float) -> str:
+    """Return a length of time as another is written: after ISO 8601, or as `H:MM`."""
+    minutes, rest = divmod(round(seconds, 3), 60)
+    if text.startswith("P"):
+        return f"PT{int(minutes)}M" + (f"{rest:g}S" if rest else "")
+    hours, minutes = divmod(int(minutes), 60)
+    return f"{hours}:{minutes:02d}" + (f":{rest:06.3f}" if rest else "")
 
 
 _NIGHT = "Before all shifts, in one that lasts until then on the next day: then."

@@ -1,26 +1,24 @@
 """Does what every remedy says, and plans again: `python -m benchmarks.fuzz.remedies`.
 
 Wild problems and days with late windows for drones are planned. Each remedy of a customer left out
-is applied to the request as the console applies it (by Node.js), with that customer and that
-vehicle type alone; then a plan must serve the customer. Fails if one doesn't.
+is applied to the request by its `changes`; of that customer and that vehicle type alone a plan must
+then serve the customer. Fails if one doesn't.
 """
 
-import json
 import random
 import re
-import subprocess
 import tempfile
 from collections import Counter
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable, Iterator
+from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import IO, Annotated, Any
+from typing import Annotated, Any
 
 import httpx
 import typer
 
-from benchmarks.fuzz.api import ROOT, service
+from benchmarks.fuzz.api import service
 from benchmarks.fuzz.problems import Fault, Study, client_of
 from benchmarks.fuzz.wild_problems import wild_request
 
@@ -35,43 +33,18 @@ SECONDS = 0.1
 TURNS, PATIENCE = 100, 60.0
 """Turns of the plan that must serve one, and seconds that it may take at most."""
 
-APPLY = """
-import { createInterface } from 'node:readline';
-const { applyRemedy } = await import(process.argv[1]);
-for await (const line of createInterface({ input: process.stdin })) {
-  console.log(JSON.stringify(applyRemedy(...JSON.parse(line))));
-}"""
 
-
-@dataclass(frozen=True)
-class Console:
-    """The part of the console that applies remedies."""
-
-    to: IO[str]
-    out: IO[str]
-
-    def applied(self, request: Data, left_out: str, reason: Data,
-                kind: str = "customer") -> Data | None:
-        """Return a request as a remedy changes it; None if the console doesn't understand it."""
-        self.to.write(json.dumps([request, left_out, reason, kind]) + "\n")
-        self.to.flush()
-        changed: Data | None = json.loads(self.out.readline())
-        return changed
-
-
-@contextmanager
-def console() -> Iterator[Console]:
-    """Run that part until the block ends."""
-    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedy-changes.js"
-    command = ["node", "--input-type=module", "-e", APPLY, module.as_uri()]
-    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                          text=True) as process:
-        if process.stdin is None or process.stdout is None:
-            raise RuntimeError("node has no pipes")
-        try:
-            yield Console(process.stdin, process.stdout)
-        finally:
-            process.stdin.close()
+def applied(request: Data, changes: Iterable[Data]) -> Data:
+    """Return a request as a remedy changes it."""
+    changed: Data = deepcopy(request)
+    for change in changes:
+        *holder, last = [int(index) if index else name
+                         for name, index in re.findall(r"\.(\w+)|\[(\d+)]", change["path"])]
+        part: Any = changed
+        for key in holder:
+            part = part[key]
+        part[last] = part[last] + change["by"] if "by" in change else change["to"]
+    return changed
 
 
 def late_drones(rng: random.Random) -> Data:
@@ -152,9 +125,9 @@ def _of_one_type(customer: Data, kind: Data) -> Data:
 
 def _remedies(reason: Data) -> Iterator[Data]:
     """Yield a reason with each of its remedies."""
-    for name in ("remedy", "other_remedy"):
+    for name, changes in (("remedy", "changes"), ("other_remedy", "other_changes")):
         if reason.get(name) is not None:
-            yield reason | {"remedy": reason[name]}
+            yield reason | {"remedy": reason[name], "changes": reason[changes]}
 
 
 @dataclass
@@ -162,7 +135,6 @@ class Remedies:
     """What came of all remedies."""
 
     study: Study
-    console: Console
     applied: Counter[str] = field(default_factory=Counter)  # by code
 
     def try_plan(self, request: Data) -> list[str]:
@@ -183,9 +155,7 @@ class Remedies:
         """Return what is wrong with a remedy. In place."""
         if reason["remedy"] == "fits without its relations":
             return None  # who is alone has none
-        changed = self.console.applied(alone(request, left_out, reason, of), left_out, reason, of)
-        if changed is None:
-            return "the console doesn't understand it"
+        changed = alone(applied(request, reason["changes"]), left_out, reason, of)
         reply = self.study.ask("/plan", changed)
         if reply is None:
             return "the request that it makes is refused"
@@ -203,8 +173,8 @@ def main(
     """Apply remedies."""
     faults = 0
     with (tempfile.TemporaryDirectory() as name, service(Path(name)) as target,
-          client_of(target) as client, console() as understood):
-        found = Remedies(Study(client), understood)
+          client_of(target) as client):
+        found = Remedies(Study(client))
         number = seed
         while found.applied.total() < remedies:
             rng = random.Random(number)

@@ -164,7 +164,8 @@ def test_who_may_not_join_whom_vehicles_serve_is_told_by_which_relation(
     plan = replanned(searching, street, tour, 150, unavailable=["van-1"])
     assert plan["unassigned"] == [{"id": "c", "reasons": [{
         "vehicle_type": "van", "code": "RELATION", "message": why,
-        "remedy": "fits without its relations"}]}]
+        "remedy": "fits without its relations",
+        "changes": [{"path": "$.relations", "to": []}]}]}]
     street["relations"] = []
     assert replanned(searching, street, tour, 150, unavailable=["van-1"])["unassigned"] == []
 
@@ -179,7 +180,7 @@ def test_who_may_not_join_what_vehicles_have_carried_is_told_so(searching: httpx
                    ("depot", "hub", 360, 360))
     plan = replanned(searching, street, tour, 150)
     assert plan["unassigned"] == [{"id": "c", "reasons": [{
-        "vehicle_type": "van", "code": "GOODS", "remedy": None,
+        "vehicle_type": "van", "code": "GOODS", "remedy": None, "changes": [],
         "message": "Its goods may not join what van has carried today."}]}]
 
 

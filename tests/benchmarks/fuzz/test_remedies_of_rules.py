@@ -1,12 +1,18 @@
-"""Remedies of breaks, rests, shipments, orders and other places, done as the console does them."""
+"""Remedies of breaks, rests, shipments, orders and other places, done by their changes, and as the
+console does them."""
 
+import json
+import subprocess
 from collections.abc import Iterator
-from typing import Any
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import IO, Any
 
 import httpx
 import pytest
 
-from benchmarks.fuzz.remedies import Console, console
+from benchmarks.fuzz.api import ROOT
+from benchmarks.fuzz.remedies import applied
 from tests.app.plans.asking import planned
 
 pytestmark = pytest.mark.slow
@@ -15,6 +21,44 @@ Request = dict[str, Any]
 
 NOON = {"id": "lunch", "duration": 1800, "start": {"earliest": 0, "latest": 60}}
 PICKUP = {"location": [6, 0]}
+
+
+APPLY = """
+import { createInterface } from 'node:readline';
+const { applyRemedy } = await import(process.argv[1]);
+for await (const line of createInterface({ input: process.stdin })) {
+  console.log(JSON.stringify(applyRemedy(...JSON.parse(line))));
+}"""
+
+
+@dataclass(frozen=True)
+class Console:
+    """The part of the console that applies remedies."""
+
+    to: IO[str]
+    out: IO[str]
+
+    def applied(self, request: Request, left_out: str, reason: Request, kind: str) -> Request:
+        """Return a request as a remedy changes it."""
+        self.to.write(json.dumps([request, left_out, reason, kind]) + "\n")
+        self.to.flush()
+        changed: Request = json.loads(self.out.readline())
+        return changed
+
+
+@contextmanager
+def console() -> Iterator[Console]:
+    """Run that part until the block ends."""
+    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedy-changes.js"
+    command = ["node", "--input-type=module", "-e", APPLY, module.as_uri()]
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                          text=True) as process:
+        assert process.stdin is not None
+        assert process.stdout is not None
+        try:
+            yield Console(process.stdin, process.stdout)
+        finally:
+            process.stdin.close()
 
 
 @pytest.fixture(scope="module")
@@ -90,10 +134,12 @@ def test_what_is_offered_has_it_served(
     request = request_of(van, **parts)
     left, = planned(client, request)["unassigned"]
     reason, = left["reasons"]
-    offered = [reason[name] for name in ("remedy", "other_remedy") if reason.get(name)]
+    offered = {reason[name]: reason[changes]
+               for name, changes in (("remedy", "changes"), ("other_remedy", "other_changes"))
+               if reason.get(name)}
     assert (reason["code"], remedy) == (code, remedy if remedy in offered else offered)
-    for words in offered:
+    for words, changes in offered.items():
+        assert planned(client, applied(request, changes))["unassigned"] == [], changes
         changed = understood.applied(request, left["id"], reason | {"remedy": words},
                                      left.get("kind", "customer"))
-        assert changed is not None, words
         assert planned(client, changed)["unassigned"] == [], words

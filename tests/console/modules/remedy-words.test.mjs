@@ -25,28 +25,22 @@ const BROWSER = {
 const VALUES = [
   [/in_minutes/, '5 minutes'],
   [/in_km/, '3.0 km'],
-  [/name_of/, ' of small'],
-  [/amounts|decimal|price|ends/, '7'],
-  [/number/, '2'],
-  [/whose/, 'its '],
-  [/means/, 'truck'],
-  [/window\b/, 'last window'],
-  [/limit/, 'max_range of small'],
+  [/_flyers|_drones/, ' of small'],
+  [/_number/, '2 stops'],
+  [/_amounts|decimal|quantity/, '7'],
+  [/where/, ''],
+  [/_window\b/, 'last window'],
 ];
 
 function sample(text) {
-  if (text.includes('the {name} were')) return sample(text.replace('{name}', 'drone capacity of small'));
-  if (text === 'fits without {limit}') return 'fits without max_wind_kmh of small';
-  return text.replaceAll(/\{([^{}]*)\}/g, (_, value) =>
+  const said = text.replaceAll(/\{([^{}]*)\}/g, (_, value) =>
     VALUES.find(([pattern]) => pattern.test(value))?.[1] ?? 'van');
+  return `${/unassigned_cost/.test(text) ? 'served' : 'fits'} ${said}`;
 }
 
-/** Every remedy that a source of the judge words by itself. */
-const REMEDIES = [...new Set(SOURCES.flatMap((source) =>
-  [...source.matchAll(/"((?:fits (?:if|with|without)|served if) [^"\n]+)"/g)]
-    .map(([, text]) => text)
-    .filter((text) => !text.includes('.join('))
-    .map(sample)))];
+/** Every remedy that the judge words, but for windows of ends. */
+const REMEDIES = [...readFileSync(new URL('remedy.py', JUDGE), 'utf8')
+  .matchAll(/"((?:if|with|without) [^"\n]+[^"\n ])"/g)].map(([, text]) => sample(text));
 
 const OF_ENDS = [
   'fits if the window of its pickup closed 1 minute later',

@@ -1,0 +1,270 @@
+"""Remedies as changes of the request: where, as errors tell it, and by or to what."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from pydantic import BaseModel
+
+from app.plans.replies import Data
+from app.schemas.errors import json_path
+from app.schemas.relation import RelationInput
+from app.schemas.request import PlanRequest
+from app.schemas.shipment import ShipmentInput
+from app.schemas.times import Written
+from app.schemas.written import length_like
+from model.judge.remedy import LAST_WINDOW, Change, Remedy
+
+Keys = tuple[str | int, ...]
+Found = list[tuple[Keys, Data]]
+"""Places of a request, and `by` or `to` what each changes."""
+
+CENT = 0.01
+
+
+@dataclass(frozen=True)
+class Changing:
+    """The request, the vehicle type whose remedy it is, and who is left out."""
+
+    request: PlanRequest
+    type: Keys
+    subject: Keys
+
+    @classmethod
+    def of(cls, request: PlanRequest, kind: str, left_out: str, is_shipment: bool) -> "Changing":
+        """Return it by ids of the vehicle type, and of the customer or shipment."""
+        all_of, stated = (("shipments", request.shipments) if is_shipment
+                          else ("customers", request.customers))
+        return cls(request, ("fleet", _index(request.fleet, kind)),
+                   (all_of, _index(stated, left_out)))
+
+    def changes(self, remedy: Remedy) -> list[Data]:
+        """Return all changes of a remedy."""
+        return [{"path": json_path(keys), **value} for change in remedy.changes
+                for keys, value in CHANGES[change.limit](self, change)]
+
+    def at(self, keys: Keys) -> Any:
+        """Return what the request states at a place."""
+        value: Any = self.request
+        for key in keys:
+            value = getattr(value, key) if isinstance(key, str) else value[key]
+        return value
+
+    def written(self, keys: Keys, seconds: float, is_instant: bool = False) -> str | float:
+        """Return seconds as the request writes the time that stands at a place."""
+        value, seconds, day = self.at(keys), round(seconds, 3), self.request.day
+        if not isinstance(value, Written):
+            return seconds
+        if not is_instant or value.is_length or day is None:
+            return length_like(value.text, seconds)
+        return day.iso(seconds) if value.is_dated else day.clock(seconds)
+
+    def more(self, keys: Keys, more: float, is_instant: bool = False) -> Found:
+        """Return that a number grows: `to` what, where it isn't stated as a number."""
+        *holder, name = keys
+        value, stated = self.at(keys), self.at(tuple(holder)).model_fields_set
+        if name in stated and value is not None and not isinstance(value, Written):
+            return [(keys, {"by": more})]
+        return [(keys, {"to": self.written(keys, (value or 0) + more, is_instant)})]
+
+    def flyer(self, of: str) -> Keys:
+        """Return where drones are stated, of several types those of an id."""
+        kind = self.at(self.type)
+        if kind.flies:
+            return self.type
+        path = next(path for path, drones in kind.drones_by_path if (drones.id or "") == of)
+        return *self.type, *path
+
+    def named(self, all_of: str, name: str, *keys: str) -> Keys:
+        """Return the place of a depot, or a break of the vehicle type, and what of it is meant."""
+        holder = self.type if all_of == "breaks" else ()
+        return *holder, all_of, _index(self.at((*holder, all_of)), name), *keys
+
+
+def _index(stated: list[Any], name: str) -> int:
+    return next(index for index, each in enumerate(stated) if each.id == name)
+
+
+def as_written(value: Any) -> Any:
+    """Return a part of a request as JSON, as it was sent."""
+    if isinstance(value, BaseModel):
+        return {name: as_written(getattr(value, name)) for name in type(value).model_fields
+                if name in value.model_fields_set}
+    if isinstance(value, list):
+        return list(map(as_written, value))
+    return value.text if isinstance(value, Written) else value
+
+
+def _vehicles(of: Changing, change: Change) -> Found:
+    keys = (*of.subject, "vehicles")
+    vehicles = of.at(keys)
+    if vehicles.allowed is not None:
+        return [((*keys, "allowed"), {"to": [*vehicles.allowed, *change.names]})]
+    left = [name for name in vehicles.forbidden if name not in change.names]
+    return [((*keys, "forbidden"), {"to": left})] if left else [(keys, {"to": None})]
+
+
+def _window(of: Changing, change: Change) -> Found:
+    keys = of.subject
+    if change.of:
+        customer = of.at(keys)
+        keys = (*keys, "alternatives",
+                _index(customer.alternatives, change.of.removeprefix(f"{customer.id}/")))
+    return _closing(of, keys, change)
+
+
+def _end_window(of: Changing, change: Change) -> Found:
+    end, _, part = change.of.partition(" ")
+    if part:
+        return _closing(of, (*of.subject, "pickups",
+                             _index(of.at((*of.subject, "pickups")), part)), change)
+    return _closing(of, (*of.subject, end), change)
+
+
+def _closing(of: Changing, keys: Keys, change: Change) -> Found:
+    """Return that a window closes later, though before the next opens."""
+    windows, more = of.at((*keys, "time_windows")), change.quantity / 1000
+    if windows is None:
+        return _later(of, (*keys, "time_window"), more)
+    number = len(windows) - 1 if change.window == LAST_WINDOW else change.window - 1
+    if number + 1 < len(windows):
+        # Windows don't touch: a millisecond lies between.
+        more = min(more, windows[number + 1].earliest - 0.001 - windows[number].latest)
+    return _later(of, (*keys, "time_windows", number), round(more, 3))
+
+
+def _later(of: Changing, window: Keys, more: float) -> Found:
+    found = of.more((*window, "latest"), more, is_instant=True)
+    earliest = of.at((*window, "earliest"))
+    if isinstance(earliest, Written) and earliest.is_moved:
+        # Of a night that follows it stays, though its end is written otherwise.
+        found.append(((*window, "earliest"),
+                      {"to": of.written((*window, "earliest"), earliest, is_instant=True)}))
+    return found
+
+
+def _lags(of: Changing, change: Change) -> Found:
+    names, least = _names(of), change.quantity / 1000
+    return [(keys, {"to": of.written(keys, least)})
+            for number, each in enumerate(of.request.relations)
+            for keys in [("relations", number, "max_lag")]
+            if each.max_lag is not None and each.max_lag < least and names & {*each.customers}]
+
+
+def _names(of: Changing) -> set[str]:
+    """Return how relations name who is left out."""
+    left_out = of.at(of.subject)
+    if isinstance(left_out, ShipmentInput):
+        return {name for name, _ in left_out.named_ends()}
+    return {left_out.id}
+
+
+def _unrelated(of: Changing, _: Change) -> Found:
+    """Return that relations bind somebody no longer; of one alone nothing is left."""
+    names, unit = _names(of), {name: each.id for each in of.request.shipments
+                               for name, _ in each.named_ends()}
+
+    def is_left(each: RelationInput, others: list[str]) -> bool:
+        # Ends of one shipment go together anyhow.
+        units = {unit.get(name, f"customer {name}") for name in others}
+        return len(others) > 1 and (each.kind == "before" or len(units) > 1)
+
+    left = []
+    for each in of.request.relations:
+        others = [name for name in each.customers if name not in names]
+        if is_left(each, others):
+            left.append({**as_written(each), "customers": others})
+    return [(("relations",), {"to": left})]
+
+
+def _to(value: object, *keys: str) -> Callable[[Changing, Change], Found]:
+    """Return what sets a field of the vehicle type."""
+    return lambda of, _: [((*of.type, *keys), {"to": value})]
+
+
+def _number(*keys: str) -> Callable[[Changing, Change], Found]:
+    """Return what sets a number of the vehicle type."""
+    return lambda of, change: [((*of.type, *keys), {"to": change.quantity})]
+
+
+def _thousandths(*keys: str) -> Callable[[Changing, Change], Found]:
+    """Return what adds to a duration or distance of the vehicle type."""
+    return lambda of, change: of.more((*of.type, *keys), change.quantity / 1000)
+
+
+def _one_more(all_of: str, name: str) -> Callable[[Changing, Change], Found]:
+    """Return what adds one at a depot."""
+    return lambda of, change: of.more(of.named(all_of, change.of, name), 1)
+
+
+def _at_least(keys: Keys, of: Changing, change: Change) -> Found:
+    return [(keys, {"to": of.written(keys, change.quantity / 1000)})]
+
+
+def _driving(name: str) -> Callable[[Changing, Change], Found]:
+    return lambda of, change: _at_least((*of.type, "driving_rules", name), of, change)
+
+
+def _amounts(change: Change) -> Data:
+    return {"to": list(map(float, change.amounts))}
+
+
+CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
+    "vehicles": _vehicles,
+    "by_truck": lambda of, _: [((*of.subject, "served_by"), {"to": "either"})],
+    "by_drone": lambda of, _: [((*of.subject, "served_by"), {"to": "either"})],
+    "skills": lambda of, change: [((*of.type, "skills"), {
+        "to": [*of.at((*of.type, "skills")), *change.names]})],
+    "capacity": lambda of, change: [((*of.type, "capacity"), _amounts(change))],
+    "drone_capacity": lambda of, change: [
+        ((*of.flyer(change.of), "capacity"), _amounts(change))],
+    "pickups": _to("any", "pickups"),
+    "window": _window,
+    "end_window": _end_window,
+    "time_aboard": lambda of, change: of.more((*of.subject, "max_time_aboard"),
+                                              change.quantity / 1000),
+    "time_between": lambda of, change: _at_least((*of.subject, "max_time_between"), of, change),
+    "detour": lambda of, change: [((*of.subject, "max_detour"), {"to": change.quantity / 1000})],
+    "lag": _lags,
+    "relations": _unrelated,
+    "endurance": lambda of, change: of.more((*of.flyer(change.of), "endurance"),
+                                            change.quantity / 1000),
+    "range": lambda of, change: of.more((*of.flyer(change.of), "max_range"),
+                                        change.quantity / 1000),
+    "wind": lambda of, change: [((*of.flyer(change.of), "max_wind_kmh"), {"to": None})],
+    "battery": lambda of, change: of.more((*of.flyer(change.of), "energy", "battery_wh"),
+                                          change.quantity / 10),
+    "batteries_aboard": lambda of, change: [
+        ((*of.flyer("".join(change.names)), "turnaround", "batteries"), {"to": change.quantity})],
+    "launch": lambda of, change: [(of.named("depots", change.of, "launch"), {"to": True})],
+    "trip_distance": _thousandths("max_trip_distance"),
+    "travel": _thousandths("max_travel_duration"),
+    "stops": _number("max_stops"),
+    "sorties": _number("max_sorties"),
+    "shift": lambda of, change: of.more((*of.type, "shift", "latest"), change.quantity / 1000,
+                                        is_instant=True),
+    "work": _thousandths("max_working_duration"),
+    "overtime": _thousandths("overtime", "max_duration"),
+    "depot_hours": lambda of, change: of.more(
+        of.named("depots", change.of, "time_window", "latest"), change.quantity / 1000,
+        is_instant=True),
+    "driving_day": _driving("max_driving_per_day"),
+    "driving": _driving("max_driving"),
+    "work_spell": _driving("max_work_before_break"),
+    "rests_in_flight": _to(True, "driving_rules", "while_drones_fly"),
+    "break_load": lambda of, change: [(of.named("breaks", change.of, "max_load"),
+                                       _amounts(change))],
+    "break_start": lambda of, change: of.more(of.named("breaks", change.of, "start", "latest"),
+                                              change.quantity / 1000, is_instant=True),
+    "break": lambda of, change: [((*of.type, "breaks"), {"to": [
+        as_written(each) for each in of.at((*of.type, "breaks")) if each.id != change.of]})],
+    "trips": lambda of, _: of.more((*of.type, "max_trips"), 1),
+    "count": lambda of, _: of.more((*of.type, "count"), 1),
+    "hub_batteries": _one_more("depots", "batteries"),
+    "hub_chargers": _one_more("depots", "chargers"),
+    "unassigned_cost": lambda _, change: [
+        (("unassigned_cost",), {"to": round(change.quantity + CENT, 2)})],
+    "own_unassigned_cost": lambda of, change: [
+        ((*of.subject, "unassigned_cost"), {"to": round(change.quantity + CENT, 2)})],
+}
+"""Where the request states what a limit is of, and what it would have to say there."""

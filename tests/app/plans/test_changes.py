@@ -1,0 +1,98 @@
+"""Remedies as changes of the request: where, and in its own notation."""
+
+from typing import Any
+
+import httpx
+import pytest
+
+from tests.app.plans.asking import applied, planned
+
+Request = dict[str, Any]
+
+START = "2026-03-02T06:00:00+01:00"
+
+
+def request_of(customer: Request, van: Request, **parts: Any) -> Request:
+    """Return a day of one van that drives a kilometre a minute to one customer six away."""
+    return {"planar_unit": 1000, "depots": [{"id": "hub", "location": [0, 0]}],
+            "customers": [{"id": "A", "location": [6, 0], "demand": [1], **customer}],
+            "fleet": [{"id": "van", "count": 1, "capacity": [5], "speed_kmh": 60, **van}],
+            "options": {"time_limit": 60, "search_iterations": 200}, **parts}
+
+
+def changes_of(client: httpx.Client, request: Request) -> list[Request]:
+    """Return the changes of the first remedy, once they have the customer served."""
+    left, = planned(client, request)["unassigned"]
+    changes: list[Request] = left["reasons"][0]["changes"]
+    assert planned(client, applied(request, changes))["unassigned"] == []
+    return changes
+
+
+@pytest.mark.parametrize(("customer", "van", "changes"), [
+    ({"time_window": {"latest": 300}}, {},
+     [{"path": "$.customers[0].time_window.latest", "by": 60}]),
+    ({"time_windows": [{"latest": 60}, {"earliest": 100, "latest": 330}]}, {},
+     [{"path": "$.customers[0].time_windows[1].latest", "by": 30}]),
+    ({"time_windows": [{"latest": 355}, {"earliest": 357, "latest": 9000}]},
+     {"shift": {"latest": 716}},
+     [{"path": "$.fleet[0].shift.latest", "by": 6}]),
+    ({"demand": [9.5]}, {}, [{"path": "$.fleet[0].capacity", "to": [9.5]}]),
+    ({"skills": ["lift", "cool"]}, {"skills": ["cool"]},
+     [{"path": "$.fleet[0].skills", "to": ["cool", "lift"]}]),
+    ({}, {"max_working_duration": 600}, [{"path": "$.fleet[0].max_working_duration", "by": 120}]),
+    ({}, {"max_trip_distance": 10_000}, [{"path": "$.fleet[0].max_trip_distance", "by": 2000}]),
+    ({}, {"shift": {"latest": 600}, "max_trip_distance": 10_000},
+     [{"path": "$.fleet[0].max_trip_distance", "by": 2000},
+      {"path": "$.fleet[0].shift.latest", "by": 120}]),
+    ({"vehicles": {"forbidden": ["van"]}}, {}, [{"path": "$.customers[0].vehicles", "to": None}]),
+    ({"served_by": "drone"}, {}, [{"path": "$.customers[0].served_by", "to": "either"}]),
+    ({"location": [0, 6], "served_by": "drone"}, {"drones": {
+        "count": 1, "capacity": [5], "endurance": 3600, "preset": "eu-pdra-g01"}},
+     [{"path": "$.fleet[0].drones.max_range", "to": 6000}]),
+])
+def test_changes_are_by_so_much_where_a_number_stands(
+        client: httpx.Client, customer: Request, van: Request, changes: list[Request]) -> None:
+    assert changes_of(client, request_of(customer, van)) == changes
+
+
+@pytest.mark.parametrize(("customer", "van", "changes"), [
+    ({"time_window": {"latest": "06:05"}}, {},
+     [{"path": "$.customers[0].time_window.latest", "to": "06:06:00"}]),
+    ({}, {"shift": {"earliest": "07:00", "latest": "2026-03-02T07:10:00+01:00"}},
+     [{"path": "$.fleet[0].shift.latest", "to": "2026-03-02T07:12:00+01:00"}]),
+    ({}, {"max_working_duration": "0:10"},
+     [{"path": "$.fleet[0].max_working_duration", "to": "0:12"}]),
+    ({}, {"max_travel_duration": "PT10M30S"},
+     [{"path": "$.fleet[0].max_travel_duration", "to": "PT12M"}]),
+    ({}, {"shift": {"latest": 1772427900}},
+     [{"path": "$.fleet[0].shift.latest", "by": 420}]),
+    ({"time_window": {"earliest": "01:00", "latest": "02:00"}},
+     {"shift": {"earliest": "22:00", "latest": "+1 09:00"}, "speed_kmh": 1.25},
+     [{"path": "$.customers[0].time_window.latest", "to": "+1 02:48:00"},
+      {"path": "$.customers[0].time_window.earliest", "to": "+1 01:00:00"}]),
+])
+def test_changes_are_to_times_where_the_request_writes_them(
+        client: httpx.Client, customer: Request, van: Request, changes: list[Request]) -> None:
+    request = request_of(customer, van, plan_start=START, time_zone="Europe/Berlin")
+    assert changes_of(client, request) == changes
+
+
+def test_changes_of_a_problem_beside_a_plan_are_of_that_problem(client: httpx.Client) -> None:
+    problem = request_of({"time_window": {"latest": 300}}, {})
+    plan = planned(client, problem)
+    reply = client.post("/explain", json={"problem": problem, "plan": plan, "customer": "A"})
+    (reason,) = reply.json()["reasons"]
+    assert reason["changes"] == [{"path": "$.problem.customers[0].time_window.latest", "by": 60}]
+
+
+def test_a_buffer_is_told_as_a_change(client: httpx.Client) -> None:
+    area = {"type": "Polygon", "coordinates": [[[5, 1], [7, 1], [7, 2], [5, 2], [5, 1]]]}
+    request = request_of(
+        {"served_by": "drone"},
+        {"drones": {"count": 1, "capacity": [5], "endurance": 3600}},
+        airspace={"no_fly": [area["coordinates"][0]], "buffer": 1500})
+    left, = planned(client, request)["unassigned"]
+    (reason,) = left["reasons"]
+    (change,) = reason["other_changes"] if "other_changes" in reason else reason["changes"]
+    assert change["path"] == "$.airspace.buffer"
+    assert 990 <= change["to"] < 1000
