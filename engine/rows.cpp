@@ -40,7 +40,7 @@ void* zeros(std::size_t bytes) {
 
 }  // namespace
 
-void Memory::Release::operator()(void* memory) const {
+void OwnMemory::Release::operator()(void* memory) const {
     if (mapped > 0) {
         munmap(memory, mapped);
     } else {
@@ -48,7 +48,7 @@ void Memory::Release::operator()(void* memory) const {
     }
 }
 
-Memory::Memory(std::size_t bytes, Filling filling)
+OwnMemory::OwnMemory(std::size_t bytes, Filling filling)
     : room_(bytes < large ? zeros(bytes) : mapped(bytes, filling),
             Release{bytes < large ? 0 : bytes}),
       begin_(room_.get()) {

@@ -13,10 +13,10 @@ namespace tandem {
 // something is written there, and there may be more than there is memory.
 enum class Filling { dense, sparse };
 
-// Memory of zeros, which begins where a line of the processor's cache does.
-class Memory {
+// OwnMemory of zeros, which begins where a line of the processor's cache does.
+class OwnMemory {
 public:
-    Memory(std::size_t bytes, Filling filling);
+    OwnMemory(std::size_t bytes, Filling filling);
 
     void* begin() const { return begin_; }
 
@@ -36,7 +36,7 @@ template <class T, int N>
 class OwnRows : public View<T, N> {
 public:
     explicit OwnRows(const std::array<std::int64_t, N>& shape, Filling filling = Filling::dense)
-        : OwnRows(shape, Memory(bytes_of(shape), filling)) {}
+        : OwnRows(shape, OwnMemory(bytes_of(shape), filling)) {}
 
 private:
     static_assert(std::is_trivially_copyable_v<T>);
@@ -47,10 +47,10 @@ private:
         return bytes;
     }
 
-    OwnRows(const std::array<std::int64_t, N>& shape, Memory memory)
+    OwnRows(const std::array<std::int64_t, N>& shape, OwnMemory memory)
         : View<T, N>(static_cast<T*>(memory.begin()), shape), memory_(std::move(memory)) {}
 
-    Memory memory_;
+    OwnMemory memory_;
 };
 
 }  // namespace tandem

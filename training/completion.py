@@ -104,11 +104,11 @@ def what_is_left(setting: Setting, actions: IntArray) -> Rest | None:
     """Return what is left after actions; None if nobody is, or no vehicle."""
     whole, state = setting.problem, state_after(setting, actions)
     first = whole.num_depots
-    vehicle, used = state.vehicle[0], state.used[0]
+    vehicle, used = state.under_way(0), state.used[0]
     left = np.flatnonzero(~state.served[0, first:whole.num_nodes]) + first
     plain = {index: replace(kind, count=kind.count - int(used[index]))
              for index, kind in enumerate(whole.vehicle_types) if kind.count > used[index]}
-    is_open = vehicle.type != NO_VEHICLE and not vehicle.idle
+    is_open = vehicle.type != NO_VEHICLE
     if not len(left) or not (plain or is_open):
         return None
     types, kinds, places = list(plain.values()), list(plain), list[int]()

@@ -255,100 +255,6 @@ typedef struct tandem_point {
     double z;
 } tandem_point;
 
-typedef struct tandem_logged_stop {
-    int64_t node;
-    int64_t arrival;
-    int64_t start;
-    int64_t leave;
-    int64_t rests; /* breaks before the next, as rules/breaks.h packs them */
-} tandem_logged_stop;
-
-typedef struct tandem_logged_trip {
-    int64_t first_stop;
-    int64_t first_op;
-    int64_t release;
-    int64_t start;
-} tandem_logged_trip;
-
-typedef struct tandem_operation {
-    int64_t stop;
-    int64_t sortie;
-    int64_t is_recovery;
-} tandem_operation;
-
-typedef struct tandem_logged_sortie {
-    int64_t drone;
-    int64_t row; /* of its drone's type */
-    int64_t node;
-    int64_t launch_stop;
-    int64_t recovery_stop; /* -1 until it is recovered */
-    int64_t takeoff;
-    int64_t arrival;
-    int64_t start;
-    int64_t ready;
-    int64_t recovery_start;
-    int64_t recovery_end;
-    int64_t left;          /* of the battery, of drones that are charged aboard */
-    int64_t trial_takeoff; /* as it would be if a trip began later */
-    int64_t trial_ready;   /* likewise */
-    int64_t trial_end;     /* likewise, of the recovery */
-    int64_t trial_left;    /* likewise, as it is launched and then recovered */
-} tandem_logged_sortie;
-
-/* How many of each there are in a log. */
-typedef struct tandem_log_lengths {
-    int64_t trips;
-    int64_t stops;
-    int64_t ops;
-    int64_t sorties;
-} tandem_log_lengths;
-
-/* The open vehicle of a rollout. */
-typedef struct tandem_vehicle {
-    int64_t type;  /* -1 before the first opens */
-    int64_t index; /* within the type */
-    int64_t node;
-    int64_t idle;              /* at the depot, no trip begun */
-    int64_t service_end;       /* here */
-    int64_t crew;              /* end of the recoveries here */
-    int64_t free;              /* end of the launches after them as if none was held back */
-    int64_t distance;          /* of the trip */
-    int64_t travel;            /* on legs, of all trips */
-    int64_t start_best;        /* latest known start of the first trip that costs nothing */
-    int64_t departure_best;    /* the departure that follows from it */
-    int64_t next_start;        /* earliest start of the next trip */
-    int64_t rested;            /* number of the driver's next break */
-    int64_t launched;          /* on the trip before this stop */
-    int64_t flying;            /* drones */
-    int64_t given;             /* on the trip, over all dimensions */
-    int64_t picked;            /* likewise, before the stop here; and shipments if lifo */
-    int64_t taken;             /* likewise, by now */
-    int64_t stacked;           /* shipments aboard, if lifo */
-    int64_t barred_on_trip;    /* goods that may not be added */
-    int64_t barred_on_vehicle; /* likewise */
-    int64_t kept_on_trip;      /* relations of who is on this trip */
-    int64_t kept_by_vehicle;   /* likewise on any trip of this vehicle */
-    int64_t parted;            /* relations of who is on trips, or vehicles, that are over */
-    int64_t load[9];           /* left, by dimension */
-    int64_t aboard[9];         /* of pickups, by dimension */
-} tandem_vehicle;
-
-/* A drone of the open vehicle. Those in flight were launched at the truck's stop. */
-typedef struct tandem_drone {
-    int64_t row;    /* of its type */
-    int64_t sortie; /* -1 where it is aboard */
-    int64_t place;  /* to be recovered at: aboard already, the next stop, this stop */
-    int64_t node;   /* customer */
-    int64_t takeoff;
-    int64_t ready;    /* end of service */
-    int64_t back;     /* arrival at the recovery stop */
-    int64_t recovery; /* its beginning */
-    int64_t kept;     /* of the battery as it last came aboard on the trip, if charged there */
-    int64_t since;    /* when that was */
-    int64_t lacking;  /* of a full battery as it is launched */
-    int64_t left;     /* on recovery */
-} tandem_drone;
-
 typedef struct tandem_cost {
     double fixed;
     double distance;
@@ -432,7 +338,6 @@ TANDEM_ROWS(tandem_bool_1d, bool, 1);
 TANDEM_ROWS(tandem_bool_2d, bool, 2);
 TANDEM_ROWS(tandem_bool_3d, bool, 3);
 TANDEM_ROWS(tandem_cost_1d, tandem_cost, 1);
-TANDEM_ROWS(tandem_drone_2d, tandem_drone, 2);
 TANDEM_ROWS(tandem_evaluation_1d, const tandem_evaluation, 1);
 TANDEM_ROWS(tandem_f32_1d, float, 1);
 TANDEM_ROWS(tandem_f32_2d, float, 2);
@@ -457,14 +362,9 @@ TANDEM_ROWS(tandem_i64_5d, const int64_t, 5);
 TANDEM_ROWS(tandem_lag_2d, const tandem_lag, 2);
 TANDEM_ROWS(tandem_lag_3d, const tandem_lag, 3);
 TANDEM_ROWS(tandem_leg_law_1d, const tandem_leg_law, 1);
-TANDEM_ROWS(tandem_log_lengths_1d, tandem_log_lengths, 1);
-TANDEM_ROWS(tandem_logged_sortie_2d, tandem_logged_sortie, 2);
-TANDEM_ROWS(tandem_logged_stop_2d, tandem_logged_stop, 2);
-TANDEM_ROWS(tandem_logged_trip_2d, tandem_logged_trip, 2);
 TANDEM_ROWS(tandem_node_2d, const tandem_node, 2);
 TANDEM_ROWS(tandem_node_3d, const tandem_node, 3);
 TANDEM_ROWS(tandem_node_4d, const tandem_node, 4);
-TANDEM_ROWS(tandem_operation_2d, tandem_operation, 2);
 TANDEM_ROWS(tandem_outlook_1d, tandem_outlook, 1);
 TANDEM_ROWS(tandem_outlook_2d, tandem_outlook, 2);
 TANDEM_ROWS(tandem_pair_1d, const tandem_pair, 1);
@@ -480,7 +380,6 @@ TANDEM_ROWS(tandem_size_1d, const tandem_size, 1);
 TANDEM_ROWS(tandem_plugging_1d, tandem_plugging, 1);
 TANDEM_ROWS(tandem_span_1d, tandem_span, 1);
 TANDEM_ROWS(tandem_u64_1d, uint64_t, 1);
-TANDEM_ROWS(tandem_vehicle_1d, tandem_vehicle, 1);
 TANDEM_ROWS(tandem_vehicle_type_1d, const tandem_vehicle_type, 1);
 TANDEM_ROWS(tandem_vehicle_type_2d, const tandem_vehicle_type, 2);
 
@@ -557,29 +456,26 @@ typedef struct tandem_instance {
     tandem_i64_3d neighbour; /* (problem, node, rank) nearest customers first, -1 behind the last */
 } tandem_instance;
 
-typedef struct tandem_vehicle_logs {
-    tandem_log_lengths_1d count;    /* (rollout,) */
-    tandem_logged_trip_2d trip;     /* (rollout, trip) */
-    tandem_logged_stop_2d stop;     /* (rollout, stop) */
-    tandem_operation_2d op;         /* (rollout, op) */
-    tandem_logged_sortie_2d sortie; /* (rollout, sortie) */
-} tandem_vehicle_logs;
+/* Running plans, a row per rollout, then scratch rows. They belong to the engine. */
+typedef struct tandem_state tandem_state;
 
-typedef struct tandem_state {
-    tandem_i64_1d problem;      /* (rollout,) row in the Instance */
+/* What Python sees of running plans. */
+typedef struct tandem_state_seen {
     tandem_bool_2d served;      /* (rollout, node) */
     tandem_i64_1d num_unserved; /* (rollout,) */
     tandem_i64_2d used;         /* (rollout, type) vehicles opened */
-    tandem_hub_2d taken;       /* (rollout, depot) by the vehicles closed so far, or (rollout, 0) */
-    tandem_i64_2d starts;      /* (rollout, node) when vehicles closed so far begin to serve those
-                                  of orders across vehicles, far before all else nobody */
-    tandem_bool_1d done;       /* (rollout,) */
-    tandem_vehicle_1d vehicle; /* (rollout,) the open one */
-    tandem_drone_2d drone;     /* (rollout, drone) its drones */
-    tandem_vehicle_logs log;
-    tandem_cost_1d cost;  /* (rollout,) of the vehicles closed so far */
-    tandem_bool_3d fresh; /* (problem, type, node) servable alone by a fresh vehicle */
-} tandem_state;
+    tandem_bool_1d done;        /* (rollout,) */
+    tandem_cost_1d cost;        /* (rollout,) of the vehicles closed so far */
+} tandem_state_seen;
+
+/* The open vehicle of a rollout, on a trip. */
+typedef struct tandem_under_way {
+    int64_t type; /* -1 if there is none */
+    int64_t node;
+    int64_t service_end; /* there */
+    int64_t distance;    /* of the trip */
+    int64_t load[9];     /* left, by dimension */
+} tandem_under_way;
 
 typedef struct tandem_scales {
     tandem_f64_1d time;    /* (problem,) ms from a depot to a customer, mean */
@@ -781,28 +677,33 @@ int tandem_fly_around(const tandem_sights* outward, const tandem_sights* between
 
 /* Simulation. */
 
-/* Mark who could be served alone by a fresh vehicle of each type; rows behind rollouts are scratch.
- */
-int tandem_mark_fresh(const tandem_instance* instance, const tandem_state* state, int64_t scratch);
+/* Begin rollouts of problems, given by their rows, with scratch rows behind them, at least one. */
+int tandem_open_state(const tandem_instance* instance, const tandem_i64_1d* problems,
+                      int64_t scratch, tandem_state** state);
+/* Give them back. */
+int tandem_close_state(tandem_state* state);
+/* Tell where that is which Python sees. */
+int tandem_look_at_state(tandem_state* state, tandem_state_seen* seen);
+/* Tell of the open vehicle of a rollout. */
+int tandem_look_at_vehicle(tandem_state* state, int64_t r, tandem_under_way* vehicle);
 /* Write the codes of the legal actions and what each on a customer leads to; `found` is how many.
  */
-int tandem_legal_actions(const tandem_instance* instance, const tandem_state* state, int64_t r,
+int tandem_legal_actions(const tandem_instance* instance, tandem_state* state, int64_t r,
                          int64_t scratch, const tandem_i64_1d* actions,
                          const tandem_outlook_1d* outlooks, int64_t* found);
 /* Do one legal action. */
-int tandem_apply(const tandem_instance* instance, const tandem_state* state, int64_t r,
-                 int64_t action);
+int tandem_apply(const tandem_instance* instance, tandem_state* state, int64_t r, int64_t action);
 /* Tell the routes that legal actions make, from the first on. */
-int tandem_tell_rollout(const tandem_instance* instance, const tandem_state* state, int64_t r,
+int tandem_tell_rollout(const tandem_instance* instance, tandem_state* state, int64_t r,
                         const tandem_i64_1d* actions, tandem_plan* plan);
 /* Do legal actions from the `first` on up to the one that opens the next vehicle, at `behind`. */
-int tandem_apply_route(const tandem_instance* instance, const tandem_state* state, int64_t r,
+int tandem_apply_route(const tandem_instance* instance, tandem_state* state, int64_t r,
                        const tandem_i64_1d* actions, int64_t first, int64_t* behind);
 /* Write what each vehicle of legal actions costs as if there were no other. */
-int tandem_price_routes(const tandem_instance* instance, const tandem_state* state, int64_t r,
+int tandem_price_routes(const tandem_instance* instance, tandem_state* state, int64_t r,
                         const tandem_i64_1d* actions, const tandem_cost_1d* price);
 /* End a rollout that has no legal action left. */
-int tandem_finish(const tandem_instance* instance, const tandem_state* state, int64_t r);
+int tandem_finish(const tandem_instance* instance, tandem_state* state, int64_t r);
 
 /* Policy. */
 
@@ -823,10 +724,10 @@ typedef struct tandem_course {
 
 /* List and describe the legal actions of the rollouts `first` to `behind`; `most` of any of them.
  */
-int tandem_observe(const tandem_scene* scene, const tandem_state* state, int64_t first,
-                   int64_t behind, int64_t scratch, const tandem_observation* seen, int64_t* most);
+int tandem_observe(const tandem_scene* scene, tandem_state* state, int64_t first, int64_t behind,
+                   int64_t scratch, const tandem_observation* seen, int64_t* most);
 /* Do what was chosen of what was seen, then observe. */
-int tandem_step(const tandem_scene* scene, const tandem_state* state, int64_t first, int64_t behind,
+int tandem_step(const tandem_scene* scene, tandem_state* state, int64_t first, int64_t behind,
                 int64_t scratch, const tandem_i64_1d* choice, const tandem_observation* seen,
                 int64_t* most);
 /* Score the candidates of one rollout, before they are clipped. */
@@ -838,7 +739,7 @@ int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_
 /* Plan row `r` of the state by the policy, where the last row is scratch, until an alarm tells to
    give up; `count` of its actions, -1 if it was given up. */
 int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_2d* memory,
-                    const tandem_scene* scene, const tandem_state* state, int64_t r,
+                    const tandem_scene* scene, tandem_state* state, int64_t r,
                     const tandem_course* course, const tandem_i64_1d* alarm, int64_t* count);
 
 /* Search: neighbourhood. */
@@ -870,8 +771,7 @@ int tandem_close_search(tandem_search* search);
 /* Tell where that is which Python sees. */
 int tandem_look_into(tandem_search* search, tandem_seen* seen);
 /* Tell what the customers left out cost. */
-int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search,
-                        double* cost);
+int tandem_missing_cost(const tandem_problem_data* data, tandem_search* search, double* cost);
 /* Go on from the best routes. */
 int tandem_go_back(tandem_search* search);
 
@@ -883,8 +783,8 @@ int tandem_go_back(tandem_search* search);
 int tandem_price_move(const tandem_problem_data* data, tandem_search* search, int64_t kind,
                       int64_t slot, int64_t first, int64_t last, int64_t node, double* cost);
 /* Tell what the cheapest stop beside neighbours costs a customer, where detours alone cost. */
-int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search,
-                       int64_t node, double* cost);
+int tandem_cost_beside(const tandem_problem_data* data, tandem_search* search, int64_t node,
+                       double* cost);
 
 /* Tell what is kept of a customer's place on a route: how many placements, 0 if none is found that
    costs less, -1 if nothing is kept; and that cost. */
@@ -904,13 +804,12 @@ typedef struct tandem_linked tandem_linked;
 
 /* Make room for the routes of a search, and for so many changes of times in a turn, none where
    nothing limits times; neighbours are as near as in another search of the same problem, if any. */
-int tandem_open_linked(const tandem_problem_data* data, tandem_search* search,
-                       int64_t moments, const tandem_linked* like, tandem_linked** linked);
+int tandem_open_linked(const tandem_problem_data* data, tandem_search* search, int64_t moments,
+                       const tandem_linked* like, tandem_linked** linked);
 /* Give it back. */
 int tandem_close_linked(tandem_linked* linked);
 /* Link the routes of a search as they are, and of its best plan. */
-int tandem_tie(const tandem_problem_data* data, tandem_search* search,
-               tandem_linked* linked);
+int tandem_tie(const tandem_problem_data* data, tandem_search* search, tandem_linked* linked);
 /* Ruin and recreate so many times among linked stops. */
 int tandem_anneal_linked(const tandem_problem_data* data, tandem_search* search,
                          tandem_linked* linked, int64_t turns);
@@ -934,8 +833,8 @@ int tandem_eject(const tandem_problem_data* data, tandem_search* search, int64_t
                  bool gently, int64_t* made, int64_t* done);
 /* Move or exchange so many shipments at random, where all are served and rules are kept; by one
    vehicle more, too, if there is one. */
-int tandem_move_shipments(const tandem_problem_data* data, tandem_search* search,
-                          int64_t moves, bool by_one_more);
+int tandem_move_shipments(const tandem_problem_data* data, tandem_search* search, int64_t moves,
+                          bool by_one_more);
 /* Let the routes be those of one plan, some of them exchanged for as many of another that serve
    nearly the same shipments; whoever fits nowhere then is left out. Plans are the ends that each
    route serves, in order, ended by -1. Not `done`: the routes are the best ones, or as before. */
@@ -964,8 +863,7 @@ int tandem_begin(const tandem_problem_data* data, tandem_search* search,
 int tandem_leg_cost(const tandem_problem_data* data, tandem_search* search, double* cost);
 /* Tell the routes of the best plan, whose trips begin as late as costs nothing; fails if nobody can
    drive one. */
-int tandem_tell_best(const tandem_problem_data* data, tandem_search* search,
-                     tandem_plan* plan);
+int tandem_tell_best(const tandem_problem_data* data, tandem_search* search, tandem_plan* plan);
 
 /* Tell the sum of digests of all that insertions were found to cost since the last call, in builds
    with TANDEM_TRACED; nought in others. */

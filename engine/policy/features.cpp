@@ -442,27 +442,23 @@ Int observe_all(const tandem_scene& from, State& state, Int first, Int behind, I
 
 }  // namespace
 
-int tandem_observe(const tandem_scene* scene, const tandem_state* state, int64_t first,
-                   int64_t behind, int64_t scratch, const tandem_observation* seen, int64_t* most) {
-    return guarded([&] {
-        State running = *state;
-        *most = observe_all(*scene, running, first, behind, scratch, *seen);
-    });
+int tandem_observe(const tandem_scene* scene, tandem_state* state, int64_t first, int64_t behind,
+                   int64_t scratch, const tandem_observation* seen, int64_t* most) {
+    return guarded([&] { *most = observe_all(*scene, *state, first, behind, scratch, *seen); });
 }
 
-int tandem_step(const tandem_scene* scene, const tandem_state* state, int64_t first, int64_t behind,
+int tandem_step(const tandem_scene* scene, tandem_state* state, int64_t first, int64_t behind,
                 int64_t scratch, const tandem_i64_1d* choice, const tandem_observation* seen,
                 int64_t* most) {
     return guarded([&] {
         const Instance& instance = scene->instance;
-        State running = *state;
         const Observation& observation = *seen;
         const View<Int, 1> chosen(*choice);
         for (Int r = first; r < behind; ++r) {
             // Rollouts without a candidate stay as they are.
             if (observation.count[r] == 0) continue;
-            apply(instance, running, r, observation.action(r, chosen[r]));
+            apply(instance, *state, r, observation.action(r, chosen[r]));
         }
-        *most = observe_all(*scene, running, first, behind, scratch, observation);
+        *most = observe_all(*scene, *state, first, behind, scratch, observation);
     });
 }

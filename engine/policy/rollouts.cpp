@@ -165,14 +165,13 @@ int tandem_choose(const tandem_f32_1d* scores, double temperature, const tandem_
 }
 
 int tandem_roll_out(const tandem_step_weights* weights, const tandem_f32_2d* memory,
-                    const tandem_scene* scene, const tandem_state* state, int64_t r,
+                    const tandem_scene* scene, tandem_state* state, int64_t r,
                     const tandem_course* course, const tandem_i64_1d* alarm, int64_t* count) {
     return guarded([&] {
         const Instance& instance = scene->instance;
         const Scales& scale = scene->scale;
-        State running = *state;
         *count = roll_out(
-            *weights, {instance, scale, scene->type_token}, running, r,
+            *weights, {instance, scale, scene->type_token}, *state, r,
             {*memory, course->temperature, course->random, course->kept, course->actions}, *alarm);
     });
 }

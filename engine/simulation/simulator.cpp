@@ -429,52 +429,30 @@ using namespace tandem;
 
 extern "C" {
 
-int tandem_mark_fresh(const tandem_instance* instance, const tandem_state* state,
-                      std::int64_t scratch) {
-    return guarded([&] {
-        State rows = *state;
-        mark_fresh(*instance, rows, scratch);
-    });
-}
-
-int tandem_legal_actions(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+int tandem_legal_actions(const tandem_instance* instance, tandem_state* state, std::int64_t r,
                          std::int64_t scratch, const tandem_i64_1d* actions,
                          const tandem_outlook_1d* outlooks, std::int64_t* found) {
-    return guarded([&] {
-        State rows = *state;
-        *found = legal_actions(*instance, rows, r, scratch, *actions, *outlooks);
-    });
+    return guarded(
+        [&] { *found = legal_actions(*instance, *state, r, scratch, *actions, *outlooks); });
 }
 
-int tandem_apply(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+int tandem_apply(const tandem_instance* instance, tandem_state* state, std::int64_t r,
                  std::int64_t action) {
-    return guarded([&] {
-        State rows = *state;
-        apply(*instance, rows, r, action);
-    });
+    return guarded([&] { apply(*instance, *state, r, action); });
 }
 
-int tandem_apply_route(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+int tandem_apply_route(const tandem_instance* instance, tandem_state* state, std::int64_t r,
                        const tandem_i64_1d* actions, std::int64_t first, std::int64_t* behind) {
-    return guarded([&] {
-        State rows = *state;
-        *behind = apply_route(*instance, rows, r, *actions, first);
-    });
+    return guarded([&] { *behind = apply_route(*instance, *state, r, *actions, first); });
 }
 
-int tandem_price_routes(const tandem_instance* instance, const tandem_state* state, std::int64_t r,
+int tandem_price_routes(const tandem_instance* instance, tandem_state* state, std::int64_t r,
                         const tandem_i64_1d* actions, const tandem_cost_1d* price) {
-    return guarded([&] {
-        State rows = *state;
-        price_routes(*instance, rows, r, *actions, *price);
-    });
+    return guarded([&] { price_routes(*instance, *state, r, *actions, *price); });
 }
 
-int tandem_finish(const tandem_instance* instance, const tandem_state* state, std::int64_t r) {
-    return guarded([&] {
-        State rows = *state;
-        finish(*instance, rows, r);
-    });
+int tandem_finish(const tandem_instance* instance, tandem_state* state, std::int64_t r) {
+    return guarded([&] { finish(*instance, *state, r); });
 }
 
 }  // extern "C"

@@ -1,19 +1,122 @@
 // Running plans, a row per rollout.
 #pragma once
 
+#include "rows.h"
 #include "rules/flight.h"
 
 namespace tandem {
 
-using LoggedStop = tandem_logged_stop;
-using LoggedTrip = tandem_logged_trip;
-using Operation = tandem_operation;
-using LoggedSortie = tandem_logged_sortie;
-using LogLengths = tandem_log_lengths;
-using Vehicle = tandem_vehicle;
-using Drone = tandem_drone;
 using Outlook = tandem_outlook;
-using VehicleLogs = tandem_vehicle_logs;
+
+struct LoggedStop {
+    Int node;
+    Int arrival;
+    Int start;
+    Int leave;
+    Int rests;  // breaks before the next, as rules/breaks.h packs them
+};
+
+struct LoggedTrip {
+    Int first_stop;
+    Int first_op;
+    Int release;
+    Int start;
+};
+
+struct Operation {
+    Int stop;
+    Int sortie;
+    Int is_recovery;
+};
+
+struct LoggedSortie {
+    Int drone;
+    Int row;  // of its drone's type
+    Int node;
+    Int launch_stop;
+    Int recovery_stop;  // -1 until it is recovered
+    Int takeoff;
+    Int arrival;
+    Int start;
+    Int ready;
+    Int recovery_start;
+    Int recovery_end;
+    Int left;           // of the battery, of drones that are charged aboard
+    Int trial_takeoff;  // as it would be if a trip began later
+    Int trial_ready;    // likewise
+    Int trial_end;      // likewise, of the recovery
+    Int trial_left;     // likewise, as it is launched and then recovered
+};
+
+// How many of each there are in a log.
+struct LogLengths {
+    Int trips;
+    Int stops;
+    Int ops;
+    Int sorties;
+};
+
+// The open vehicle of a rollout.
+struct Vehicle {
+    Int type;   // -1 before the first opens
+    Int index;  // within the type
+    Int node;
+    Int idle;               // at the depot, no trip begun
+    Int service_end;        // here
+    Int crew;               // end of the recoveries here
+    Int free;               // end of the launches after them as if none was held back
+    Int distance;           // of the trip
+    Int travel;             // on legs, of all trips
+    Int start_best;         // latest known start of the first trip that costs nothing
+    Int departure_best;     // the departure that follows from it
+    Int next_start;         // earliest start of the next trip
+    Int rested;             // number of the driver's next break
+    Int launched;           // on the trip before this stop
+    Int flying;             // drones
+    Int given;              // on the trip, over all dimensions
+    Int picked;             // likewise, before the stop here; and shipments if lifo
+    Int taken;              // likewise, by now
+    Int stacked;            // shipments aboard, if lifo
+    Int barred_on_trip;     // goods that may not be added
+    Int barred_on_vehicle;  // likewise
+    Int kept_on_trip;       // relations of who is on this trip
+    Int kept_by_vehicle;    // likewise on any trip of this vehicle
+    Int parted;             // relations of who is on trips, or vehicles, that are over
+    Int load[9];            // left, by dimension
+    Int aboard[9];          // of pickups, by dimension
+};
+
+// A drone of the open vehicle. Those in flight were launched at the truck's stop.
+struct Drone {
+    Int row;     // of its type
+    Int sortie;  // -1 where it is aboard
+    Int place;   // to be recovered at: aboard already, the next stop, this stop
+    Int node;    // customer
+    Int takeoff;
+    Int ready;     // end of service
+    Int back;      // arrival at the recovery stop
+    Int recovery;  // its beginning
+    Int kept;      // of the battery as it last came aboard on the trip, if charged there
+    Int since;     // when that was
+    Int lacking;   // of a full battery as it is launched
+    Int left;      // on recovery
+};
+
+// What the open vehicles do, in order, a row per rollout.
+struct VehicleLogs {
+    VehicleLogs(Int rows, Int customers)
+        : count({rows}),
+          trip({rows, customers + 1}),
+          stop({rows, 3 * customers + 2}),
+          op({rows, 2 * customers}),
+          sortie({rows, customers}) {}
+
+    OwnRows<LogLengths, 1> count;
+    OwnRows<LoggedTrip, 2> trip;
+    OwnRows<LoggedStop, 2> stop;
+    OwnRows<Operation, 2> op;
+    OwnRows<LoggedSortie, 2> sortie;
+};
 
 // What one vehicle does, in order.
 struct VehicleLog {
@@ -87,6 +190,31 @@ struct DroneKind {
 
 // Running plans, a row per rollout, then scratch rows. Times in ms since plan start; those of
 // sorties in flight are as if they were launched at once, in the log and in `drone`.
-using State = tandem_state;
+struct State {
+    // Rollouts of problems, and so many scratch rows, before any vehicle opens.
+    State(const Instance& instance, View<const Int, 1> problems, Int scratch);
+
+    OwnRows<Int, 1> problem;       // (rollout,) row in the Instance
+    OwnRows<bool, 2> served;       // (rollout, node)
+    OwnRows<Int, 1> num_unserved;  // (rollout,)
+    OwnRows<Int, 2> used;          // (rollout, type) vehicles opened
+    OwnRows<Hub, 2> taken;        // (rollout, depot) by the vehicles closed so far, or (rollout, 0)
+    OwnRows<Int, 2> starts;       // (rollout, node) when vehicles closed so far begin to serve
+                                  // those of orders across vehicles, far before all else nobody
+    OwnRows<bool, 1> done;        // (rollout,)
+    OwnRows<Vehicle, 1> vehicle;  // (rollout,) the open one
+    OwnRows<Drone, 2> drone;      // (rollout, drone) its drones
+    VehicleLogs log;
+    OwnRows<Cost, 1> cost;   // (rollout,) of the vehicles closed so far
+    OwnRows<bool, 3> fresh;  // (problem, type, node) servable alone by a fresh vehicle
+
+private:
+    State(const Instance& instance, Int rows);
+};
 
 }  // namespace tandem
+
+// As C knows it.
+struct tandem_state final : tandem::State {
+    using State::State;
+};

@@ -68,10 +68,7 @@ void tell_rollout(const Instance& instance, State& state, Int r, View<const Int,
 
 using namespace tandem;
 
-extern "C" int tandem_tell_rollout(const tandem_instance* instance, const tandem_state* state,
-                                   int64_t r, const tandem_i64_1d* actions, tandem_plan* plan) {
-    return guarded([&] {
-        State rows = *state;
-        tell_rollout(*instance, rows, r, *actions, *plan);
-    });
+extern "C" int tandem_tell_rollout(const tandem_instance* instance, tandem_state* state, int64_t r,
+                                   const tandem_i64_1d* actions, tandem_plan* plan) {
+    return guarded([&] { tell_rollout(*instance, *state, r, *actions, *plan); });
 }

@@ -6,6 +6,7 @@ import numpy as np
 
 from model.engine.handle import Handle
 from model.engine.header import dtype_of_type, interface
+from model.engine.library import call, function
 from model.engine.records import Record
 
 
@@ -17,6 +18,17 @@ class _Lender:
         self.__array_interface__ = {
             "version": 3, "data": (int(interface().cast("uintptr_t", data)), False),
             "shape": shape, "typestr": f"|V{interface().sizeof(interface().typeof(data).item)}"}
+
+
+def lent_fields(name: str, owner: Handle) -> dict[str, Any]:
+    """Return what a function of the engine shows of an owner, by the names of its struct's fields.
+
+    Views are lent as arrays, and what pointers show as rows.
+    """
+    seen = interface().new(interface().typeof(function(name)).args[1])
+    call(name, owner, seen)
+    return {field: (lent_row if kind.type.kind == "pointer" else lent_rows)(
+        getattr(seen, field), owner) for field, kind in interface().typeof(seen).item.fields}
 
 
 def lent_rows(view: Any, owner: Handle) -> Any:

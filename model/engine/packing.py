@@ -20,9 +20,6 @@ Encode = Callable[[Any, list[Any]], None]
 LEGS = "tandem_legs"
 """Stated as one array, or computed from a table, points and laws."""
 
-OTHER_NAMES = {"tandem_vehicle_log": "tandem_vehicle_logs"}
-"""Structs whose class stands for a row of theirs as well."""
-
 _FORMATS = {"double": "d", "float": "f", "_Bool": "?", "int64_t": "q", "uint64_t": "Q",
             "int32_t": "i", "uint32_t": "I", "int": "i", "int8_t": "b", "uint8_t": "B"}
 _CONVERSIONS: dict[str, Callable[[Any], Any]] = {"d": float, "f": float, "?": bool}
@@ -61,8 +58,7 @@ def packed(value: Any, name: str = "") -> Packed:
 
 def struct_name(kind: type) -> str:
     """Return the C struct that belongs to a class: `tandem_step_weights` to `StepWeights`."""
-    name = "tandem_" + re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__).lower()
-    return OTHER_NAMES.get(name, name)
+    return "tandem_" + re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__).lower()
 
 
 def is_view(kind: Any) -> bool:

@@ -114,7 +114,6 @@ class Rollouts:
         self.seen = empty_observation(len(problems), instance.node.shape[2],
                                       instance.type.shape[1])
         self._scene = packed(scene)
-        self._state = packed(self.state)
         self._seen = packed(self.seen)
 
     def observe(self, first: int = 0, behind: int | None = None, thread: int = 0) -> int:
@@ -123,7 +122,7 @@ class Rollouts:
         In place; a rollout without a legal action is finished. Returns the largest count.
         """
         rows = len(self.seen.count)
-        return int(call("tandem_observe", self._scene, self._state, first,
+        return int(call("tandem_observe", self._scene, self.state, first,
                         rows if behind is None else behind, rows + thread, self._seen))
 
     def step(self, choice: IntArray, first: int = 0, behind: int | None = None,
@@ -134,5 +133,5 @@ class Rollouts:
         as they are. Returns the largest count.
         """
         rows = len(self.seen.count)
-        return int(call("tandem_step", self._scene, self._state, first,
+        return int(call("tandem_step", self._scene, self.state, first,
                         rows if behind is None else behind, rows + thread, choice, self._seen))

@@ -137,7 +137,7 @@ def roll_out(weights: StepWeights, memory: Float32Array, scene: Scene,
     """
     instance, most = scene.instance, max_steps(scene.instance)
     state = reset(instance, np.zeros(len(temperatures), np.int64))
-    given = packed(weights), memory, packed(scene), packed(state)
+    given = packed(weights), memory, packed(scene), state
     alarm = Alarm().setting if alarm is None else alarm
     hotter = HOTTER_WITH_DRONES if (instance.type["drones"] > 0).any() else HOTTER
     random = rng.spawn(1)[0].integers(1 << 64, size=1, dtype=np.uint64)

@@ -55,7 +55,7 @@ class RoutePool:
     def __init__(self, instance: Instance) -> None:
         self._instance = instance
         # Packed once, since plans come by the hundred.
-        self._alone = packed(instance), packed(reset(instance, np.zeros(1, np.int64)))
+        self._alone = packed(instance), reset(instance, np.zeros(1, np.int64))
         self._routes: dict[tuple[int, bytes], Route] = {}
         self._by_actions: dict[bytes, tuple[int, bytes]] = {}
         goods = instance.goods

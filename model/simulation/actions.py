@@ -9,7 +9,7 @@ from model.engine.library import call
 from model.engine.packing import Packed
 from model.engine.records import Records
 from model.problem import IntArray
-from model.simulation.state import State, empty_state
+from model.simulation.state import State
 
 DRIVE, LAUNCH, RETURN, OPEN = range(4)
 NUM_KINDS = 4
@@ -34,7 +34,7 @@ def apply(instance: Instance, state: State, r: int, action: int) -> None:
     call("tandem_apply", instance, state, r, action)
 
 
-def apply_route(instance: Instance | Packed, state: State | Packed, r: int, actions: IntArray,
+def apply_route(instance: Instance | Packed, state: State, r: int, actions: IntArray,
                 first: int) -> int:
     """Do legal actions of one rollout, the `first` and all before the next vehicle opens.
 
@@ -43,7 +43,7 @@ def apply_route(instance: Instance | Packed, state: State | Packed, r: int, acti
     return int(call("tandem_apply_route", instance, state, r, actions, first))
 
 
-def price_routes(instance: Instance | Packed, state: State | Packed, r: int, actions: IntArray,
+def price_routes(instance: Instance | Packed, state: State, r: int, actions: IntArray,
                  price: Records) -> None:
     """Write what each vehicle costs, (vehicle,), as if there were no other. In place.
 
@@ -81,9 +81,4 @@ def reset(instance: Instance, rollouts: IntArray, num_scratch: int = 1) -> State
     num_scratch
         Scratch rows behind the rollouts, one for each thread that will run some of them.
     """
-    count = len(rollouts)
-    state = empty_state(instance, count + num_scratch)
-    call("tandem_mark_fresh", instance, state, count)
-    state.problem[:count] = rollouts
-    state.num_unserved[:count] = instance.size["customers"][rollouts]
-    return state
+    return State(instance, rollouts, num_scratch)

@@ -1,64 +1,41 @@
-"""Running plans as arrays, which the engine reads and writes; `tandem.h` says what rows hold."""
+"""Running plans, which belong to the engine, and what Python sees of them."""
+
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from model.engine.instance import FAR, Instance
-from model.engine.library import dtype_of
-from model.engine.records import Records
-from model.engine.structs import Struct
-from model.problem import FloatArray
+from model.engine.handle import Handle
+from model.engine.instance import Instance
+from model.engine.lent import lent_fields
+from model.engine.library import call, dtype_of
+from model.engine.records import Record, Records
+from model.problem import FloatArray, IntArray
 
 NO_VEHICLE = -1
-"""Type of the open vehicle before the first opens."""
-
-IN_FLIGHT = -1
-"""Recovery stop of a sortie until it is recovered, sortie of a drone that is aboard."""
+"""Type of the vehicle under way where there is none."""
 
 
-class VehicleLogs(Struct):
-    """What each rollout's open vehicle does, in order."""
-
-
-class State(Struct):
-    """Running plans, a row per rollout, then scratch rows. Times in ms since plan start.
-
-    Times of sorties in flight are as if they were launched at once, in the log and in `drone`.
+class State:
+    """Running plans, a row per rollout, then scratch rows: what `tandem_state_seen` has, by name.
     """
 
+    def __init__(self, instance: Instance, rollouts: IntArray, num_scratch: int) -> None:
+        """Begin rollouts, as `reset` says."""
+        self._own = Handle("state", instance, rollouts, num_scratch)
+        vars(self).update(lent_fields("tandem_look_at_state", self._own))
 
-def empty_logs(rows: int, num_customers: int) -> VehicleLogs:
-    """Allocate logs, one a rollout, for vehicles that may serve every customer."""
-    return VehicleLogs(
-        count=np.zeros(rows, dtype_of("tandem_log_lengths")),
-        trip=np.zeros((rows, num_customers + 1), dtype_of("tandem_logged_trip")),
-        stop=np.zeros((rows, 3 * num_customers + 2), dtype_of("tandem_logged_stop")),
-        op=np.zeros((rows, 2 * num_customers), dtype_of("tandem_operation")),
-        sortie=np.zeros((rows, num_customers), dtype_of("tandem_logged_sortie")),
-    )
+    if TYPE_CHECKING:
+        def __getattr__(self, name: str) -> Any:
+            """Return what is seen."""
 
+    @property
+    def pointer(self) -> Any:
+        """Return what functions of the engine take."""
+        return self._own.pointer
 
-def empty_state(instance: Instance, rows: int) -> State:
-    """Allocate the state of `rows` rollouts, scratch included, before any vehicle opens."""
-    num_problems, num_nodes = instance.node.shape[:3:2]
-    num_types = instance.type.shape[1]
-    max_drones = max(1, int(instance.type["drones"].max()))
-    state = State(
-        problem=np.zeros(rows, np.int64),
-        served=np.zeros((rows, num_nodes), np.bool_),
-        num_unserved=np.zeros(rows, np.int64),
-        used=np.zeros((rows, num_types), np.int64),
-        taken=np.zeros((rows, instance.hub.shape[1]), dtype_of("tandem_hub")),
-        starts=np.full((rows, num_nodes if instance.across.shape[1] else 0), -FAR, np.int64),
-        done=np.zeros(rows, np.bool_),
-        vehicle=np.zeros(rows, dtype_of("tandem_vehicle")),
-        drone=np.zeros((rows, max_drones), dtype_of("tandem_drone")),
-        log=empty_logs(rows, int(instance.size["customers"].max())),
-        cost=empty_costs(rows),
-        fresh=np.zeros((num_problems, num_types, num_nodes), np.bool_),
-    )
-    state.vehicle["type"] = NO_VEHICLE
-    state.drone["sortie"] = IN_FLIGHT
-    return state
+    def under_way(self, r: int) -> Record:
+        """Return the open vehicle of a rollout, of type `NO_VEHICLE` if none is on a trip."""
+        return call("tandem_look_at_vehicle", self, r)
 
 
 def empty_costs(rows: int) -> Records:

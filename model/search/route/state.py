@@ -5,9 +5,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from model.engine.handle import Handle
-from model.engine.header import interface
-from model.engine.lent import lent_row, lent_rows
-from model.engine.library import call
+from model.engine.lent import lent_fields
 from model.search.route.room import Room
 from model.search.route.layout import ProblemData
 
@@ -19,11 +17,7 @@ class Searcher:
         """Make room for a search."""
         self.room = room
         self._own = Handle("search", data, *room)
-        seen = interface().new("tandem_seen *")
-        call("tandem_look_into", self._own, seen)
-        for name, field in interface().typeof(seen).item.fields:
-            lent = lent_row if field.type.kind == "pointer" else lent_rows
-            setattr(self, name, lent(getattr(seen, name), self._own))
+        vars(self).update(lent_fields("tandem_look_into", self._own))
         self.rng[:] = seed.generate_state(1, np.uint64)
 
     if TYPE_CHECKING:

@@ -33,15 +33,11 @@ def test_arrays_are_where_they_were() -> None:
         assert list(view.shape) == list(array.shape)
 
 
-def test_classes_are_named_as_structs() -> None:
+def test_a_class_is_named_as_its_struct() -> None:
     class StepWeights(NamedTuple):
         """Any."""
 
-    class VehicleLog(NamedTuple):
-        """Any."""
-
     assert struct_name(StepWeights) == "tandem_step_weights"
-    assert struct_name(VehicleLog) == "tandem_vehicle_logs"
 
 
 def test_what_is_packed_keeps_its_arrays() -> None:

@@ -255,8 +255,9 @@ def lone_reasons(seed: int) -> Iterator[tuple[Problem, Reason]]:
 
 def is_served(problem: Problem) -> bool:
     """Tell whether policy and search both can serve the only customer."""
-    fresh = reset(pack([problem]), np.zeros(1, np.int64)).fresh
-    return bool(fresh[0].any()) and not searched(problem, 20).unassigned
+    instance = pack([problem])
+    opens = legal(problem, instance, reset(instance, np.zeros(1, np.int64)))
+    return bool(opens) and not searched(problem, 20).unassigned
 
 
 def test_a_remedy_for_a_lone_customer_is_never_false_and_none_is_needed_where_one_fits() -> None:

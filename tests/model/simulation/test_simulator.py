@@ -395,6 +395,6 @@ def test_drones_that_queue_to_be_recovered_count_against_the_working_duration() 
 def test_before_a_vehicle_opens_every_row_looks_the_same() -> None:
     problem = draw_tiny(np.random.default_rng(5))
     state = reset(pack([problem]), np.zeros(3, np.int64))
-    for name in ("problem", "served", "num_unserved", "used", "done", "vehicle", "cost"):
+    for name in ("served", "num_unserved", "used", "done", "cost"):
         rows = getattr(state, name)[:3]
         assert (rows == rows[0]).all(), name

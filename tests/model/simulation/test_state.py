@@ -4,7 +4,7 @@ import numpy as np
 
 from model.engine.instance import pack
 from model.simulation.actions import reset
-from model.simulation.state import IN_FLIGHT, NO_VEHICLE, by_term, empty_costs
+from model.simulation.state import NO_VEHICLE, by_term, empty_costs
 from model.solution import COST_TERMS
 from tests.model.rollouts import random_problems
 
@@ -20,8 +20,6 @@ def test_rollouts_of_several_problems_begin_with_nobody_served_and_no_vehicle() 
     problems = random_problems(seed=3, count=4)
     rows = np.array([2, 0, 0, 3, 1])
     state = reset(pack(problems), rows, num_scratch=2)
-    assert state.problem[:5].tolist() == rows.tolist()
     assert state.num_unserved[:5].tolist() == [problems[row].num_customers for row in rows]
-    assert state.vehicle["type"].tolist() == [NO_VEHICLE] * 7
-    assert (state.drone["sortie"] == IN_FLIGHT).all()
+    assert [int(state.under_way(r).type) for r in range(7)] == [NO_VEHICLE] * 7
     assert not any(rows.any() for rows in (state.served, state.used, state.done))
