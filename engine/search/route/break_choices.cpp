@@ -1,20 +1,24 @@
 #include "search/route/break_choices.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
 
-#include "rules/driving.h"
-#include "rules/hub.h"
-#include "rules/lag.h"
 #include "rules/load.h"
-#include "rules/pair.h"
 #include "rules/shift.h"
 #include "rules/start.h"
+#include "search/route/best_begin.h"
 #include "search/route/block.h"
+#include "search/route/break_ways.h"
 #include "search/route/breaks.h"
-#include "search/route/lags.h"
+#include "search/route/look_backs.h"
+#include "search/route/pricing.h"
 #include "search/route/rarer.h"
+#include "search/route/routes.h"
 
 namespace tandem {
 namespace {
@@ -22,120 +26,60 @@ namespace {
 // Ways to a stop that are followed at most.
 constexpr std::size_t most_ways = 48;
 
-// A break that is taken.
-struct Taken {
-    PlacedBreaks::One one;
-    std::int32_t before;
-};
+// So many are mostly enough.
+constexpr std::size_t few = 8;
 
-// A break that may be taken, or is over before the route begins.
-struct Chosen {
-    Int number;
-    bool is_over;
-};
+// Instants at which a route may begin that are tried at most where speeds change.
+constexpr Int most_begins = 16;
 
-// When service began at a stop to which others look back.
-struct Noted {
-    TimeSegment start;
-    Int stop;
-    std::int32_t before;
-};
-
-// Who looks back to a stop.
-struct Asked {
-    Int until = -1;           // the last stop that does
-    bool is_awaited = false;  // any does that is served some time later at the soonest
-    bool is_ahead = false;    // any does to this one, or one farther on
-};
-
-// A way to have come somewhere.
-struct Way {
-    TimeSegment now;            // when the truck is there, by when the route begins
-    Interval begins;            // for which that holds
-    std::int32_t next = 0;      // the first break, of those due, that may still be taken
-    std::int32_t left_out = 0;  // bits of those before that aren't
-    std::int32_t last = -1;     // break taken
-    std::int32_t noted = -1;    // the last one, likewise
-};
-
-// A way on a leg: when the truck stands where it last had a break, and when it is at its end.
-struct OnLeg {
-    Way way;
-    TimeSegment here, there;
-    RestPlace place;
-};
-
+// Lean where all lasts as long at any time, and customers cost the same.
+template <bool is_lean>
 class Choosing {
+    using Way = tandem::Way<is_lean>;
+    using OnLeg = tandem::OnLeg<is_lean>;
+
 public:
-    Choosing(const ProblemData& data, const Route& route, View<const Stop, 1> stops)
+    Choosing(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+             double most_late, bool is_priced)
         : truck_(data, route.type),
           data_(data),
           type_(truck_.type),
           stops_(stops.first(route.length)),
-          begins_count_(data.evaluation[route.type].timed || any_follows_departure(type_)),
-          soonest_(static_cast<std::size_t>(stops_.size()), far) {
-        if (lags_count(data) || !data.max_between.empty() || time_aboard_counts(data)) {
-            note_what_is_asked();
+          most_late_(most_late),
+          is_priced_(is_priced),
+          begins_count_(is_priced &&
+                        (any_follows_departure(type_) || data.evaluation[route.type].timed)),
+          begins_differ_(begins_count_),
+          soonest_(static_cast<std::size_t>(stops_.size()), far),
+          waiting_(is_joined() ? std::max(Int{0}, route.end - route.cum - begin_of(type_, stops))
+                               : 0) {
+        for (Int p = 0; !is_lean && is_priced_ && p < stops_.size(); ++p) {
+            if (stops_[p].kind != customer_stop) continue;
+            const Price& price = data.price[stops_[p].node];
+            times_cost_ = times_cost_ || times_cost(price);
+            begins_differ_ = begins_differ_ || price.waiting > 0.0;
         }
+        for (std::vector<Way>* ways : {&here_, &there_}) ways->reserve(few);
     }
 
     // When each stop may be left at the soonest.
     const std::vector<Int>& soonest() const { return soonest_; }
 
     const std::vector<BreakChoice>& run() {
-        const Int soonest = begin_of(type_, stops_);
-        for (Int begin = soonest; may_end(type_, begin);) {
-            const Int next = later_begin(type_, begin);
-            follow({begin, std::min(next, far) - 1});
+        Int begin = begin_of(type_, stops_);
+        for (Int tried = 0; may_end(type_, begin) && (is_joined() || tried < most_begins);
+             ++tried) {
+            const Int next = next_begin(data_, truck_.k, begin);
+            follow({begin, is_joined() ? next - 1 : begin});
             // Where it doesn't matter when it begins, sooner will do.
-            if (next == far || (!begins_count_ && !choices_.empty())) break;
+            if (next == far || (!begins_differ_ && !choices_.empty())) break;
+            if (!is_joined() && data_.deadline.passed()) break;
             begin = next;
         }
         return choices_;
     }
 
 private:
-    // Write what is asked of stops behind them.
-    void note_what_is_asked() {
-        asked_.resize(static_cast<std::size_t>(stops_.size()));
-        for (Int p = 0; p < stops_.size(); ++p) {
-            Asked& asked = asked_[static_cast<std::size_t>(p)];
-            if (stops_[p].kind == start_stop && time_aboard_counts(data_) && p > 0) {
-                asked.until = p;
-                while (stops_[asked.until].kind != end_stop) ++asked.until;
-            }
-            for_each_before(p, [&](Int q, Interval within, bool) {
-                Asked& before = asked_[static_cast<std::size_t>(q)];
-                before.until = p;
-                before.is_awaited = before.is_awaited || within.first > 0;
-            });
-        }
-        bool is_ahead = false;
-        for (auto asked = asked_.rbegin(); asked != asked_.rend(); ++asked) {
-            is_ahead = is_ahead || asked->until >= 0;
-            asked->is_ahead = is_ahead;
-        }
-    }
-
-    // Call `visit` with each stop that a customer's looks back to, how long after it service is to
-    // begin, and whether its end counts, not its beginning.
-    template <class Visit>
-    void for_each_before(Int p, const Visit& visit) const {
-        if (stops_[p].kind != customer_stop) return;
-        const Int node = stops_[p].node;
-        const bool is_brought = !data_.max_between.empty() && is_delivery(data_.pair, node);
-        const View<const Lag, 1> lags = lags_of(data_.lag, node);
-        for (Int q = 0; q < p; ++q) {
-            if (stops_[q].kind != customer_stop) continue;
-            for (const Lag& lag : lags) {
-                if (lag.node == stops_[q].node) visit(q, Interval{lag.least, lag.most}, false);
-            }
-            if (is_brought && brings(data_.pair, stops_[q].node, node)) {
-                visit(q, Interval{none, data_.max_between(truck_.k, stops_[q].node)}, true);
-            }
-        }
-    }
-
     // Follow all ways to the end that begin in an interval, in which the same breaks are due.
     void follow(Interval begins) {
         // One that is over before may be taken all the same, which saves pay.
@@ -145,10 +89,16 @@ private:
             if (!is_over || !is_paid(type_, number)) breaks_.push_back({number, is_over});
         }
         taken_.clear();
-        noted_.clear();
+        asked_.forget();
+        timed_.clear();
+        Int then = begins.first;
+        for (Int& compared : compared_) {
+            compared = std::min(then, begins.last);
+            then += waiting_ / 2;
+        }
         there_.clear();
         Way first;
-        first.now = {0, none};
+        first.now = is_joined() ? TimeSegment{0, none} : TimeSegment{none, begins.first};
         first.begins = begins;
         there_.push_back(first);
         for (Int p = 0; p < stops_.size() && !there_.empty(); ++p) {
@@ -157,6 +107,9 @@ private:
             for (Way& way : here_) serve(p, way);
         }
     }
+
+    // Tell whether all lasts as long at any time.
+    bool is_joined() const { return is_lean || is_steady(type_); }
 
     const Chosen& break_at(Int index) const { return breaks_[static_cast<std::size_t>(index)]; }
 
@@ -168,12 +121,8 @@ private:
         }
         const Int node = stops_[p].node;
         const Windows place = truck_.places[node], own = truck_.own[node];
-        if (!asked_.empty()) {
-            for_each_before(p, [&](Int q, Interval within, bool) {
-                if (within.first > none)
-                    way.now = later(way.now, behind(noted_at(way, q), within.first));
-            });
-        }
+        const TimeSegment reached = way.now;
+        way.now = asked_.ready(p, way.now, way.noted);
         if (own.too_late(way.now.c)) return;
         for (Int begin = way.begins.first; begin <= way.begins.last;) {
             Way served = way;
@@ -181,11 +130,39 @@ private:
             if (!narrow(served.begins, own.allowed_within(begin, way.now))) return;
             begin = served.begins.last + 1;
             served.now = place.start_within(served.begins.first, way.now);
-            if (!keeps_limits(p, served)) continue;
-            note(p, served);
+            // Where speeds change, trips are held back by more than is known here.
+            if (is_joined() && !asked_.keeps_limits(p, served.now, served.noted, served.begins)) {
+                continue;
+            }
+            if (!is_cheap(p, reached, served)) continue;
+            asked_.note(p, served.now, served.noted);
             served.now = behind(served.now, place.service_duration());
             leave(p, served);
         }
+    }
+
+    // Note what it costs when a customer is served who is reached so. In place; false if too much.
+    bool is_cheap(Int p, TimeSegment reached, Way& way) {
+        if constexpr (is_lean)
+            return true;
+        else
+            return is_cheap_when(p, reached, way);
+    }
+
+    bool is_cheap_when(Int p, TimeSegment reached, Way& way) {
+        const Int node = stops_[p].node, begin = way.begins.first;
+        if (!times_cost_ || stops_[p].kind != customer_stop || !times_cost(data_.price[node])) {
+            return true;
+        }
+        timed_.push_back({reached, way.now, node, way.timed});
+        way.timed = static_cast<std::int32_t>(timed_.size()) - 1;
+        way.late += lateness_cost(data_, node, way.now.at(begin));
+        for (std::size_t index = 0; index < most_compared; ++index) {
+            const Int then = compared_[index];
+            way.missed[index] += lateness_cost(data_, node, way.now.at(then)) +
+                                 waiting_cost(data_, node, reached.at(then));
+        }
+        return way.late < most_late_;
     }
 
     // Have a way begin or end a trip. In place; false if it can't.
@@ -194,7 +171,7 @@ private:
         if (stop.kind == start_stop) {
             const Int ready = leaves_first(type_, p > 0 ? stop.release : none);
             way.now.c = std::max(way.now.c, ready);
-            note(p, way);
+            asked_.note(p, way.now, way.noted);
             return be_by(way, leaves_by(type_, truck_.places, stop.node));
         }
         way.now.c = let_in(type_, truck_.places, stop.node, way.now.c);
@@ -206,44 +183,6 @@ private:
         return way.now.c <= latest && narrow(way.begins, {none, latest - way.now.d});
     }
 
-    // Narrow when a route begins to what lets service begin soon enough behind others, who are of
-    // its first trip: later ones may be held. In place; false if nothing does.
-    bool keeps_limits(Int p, Way& way) const {
-        if (asked_.empty() || stops_[p].kind != customer_stop) return true;
-        bool kept = true;
-        if (time_aboard_counts(data_) && stops_[p].trip == 0) {
-            const TimeSegment departure{0, leaves_first(type_, none)};
-            kept = narrow(way.begins, lasting_within(data_.max_time_aboard[stops_[p].node],
-                                                     departure, way.now));
-        }
-        for_each_before(p, [&](Int q, Interval within, bool is_by_end) {
-            if (!kept || stops_[q].trip > 0) return;
-            TimeSegment since = noted_at(way, q);
-            if (is_by_end) {
-                since = behind(since, truck_.places[stops_[q].node].service_duration());
-            }
-            kept = narrow(way.begins, lasting_within(within.last, since, way.now));
-        });
-        return kept;
-    }
-
-    // Note when service or a trip begins at a stop, if others look back to that. In place.
-    void note(Int p, Way& way) {
-        if (asked_.empty()) return;
-        const Asked& asked = asked_[static_cast<std::size_t>(p)];
-        if (asked.until < 0) return;
-        noted_.push_back({way.now, p, way.noted});
-        way.noted = static_cast<std::int32_t>(noted_.size()) - 1;
-    }
-
-    TimeSegment noted_at(const Way& way, Int stop) const {
-        std::int32_t number = way.noted;
-        while (noted_[static_cast<std::size_t>(number)].stop != stop) {
-            number = noted_[static_cast<std::size_t>(number)].before;
-        }
-        return noted_[static_cast<std::size_t>(number)].start;
-    }
-
     void leave(Int p, const Way& way) {
         Int& soonest = soonest_[static_cast<std::size_t>(p)];
         soonest = std::min(soonest, way.now.at(way.begins.first));
@@ -253,8 +192,14 @@ private:
             next.now = behind(next.now, stops_[p].gap);
             return keep(p + 1, next);
         }
-        const Int duration = truck_.duration_of_leg(stops_[p], stops_[p + 1].node);
-        drive(p, {way, way.now, behind(way.now, duration), RestPlace::departure});
+        drive(p, {way, way.now, travel(p, way.now), RestPlace::departure});
+    }
+
+    // When the leg behind stop `p` ends.
+    TimeSegment travel(Int p, TimeSegment leave) const {
+        const Int to = stops_[p + 1].node;
+        if (is_joined()) return behind(leave, truck_.duration_of_leg(stops_[p], to));
+        return {none, truck_.legs_end(stops_[p], to)(leave.c)};
     }
 
     // Have a way drive the leg behind stop `p`, with no more breaks and with each more.
@@ -262,6 +207,7 @@ private:
         Way come = leg.way;
         come.now = behind(leg.there, setup_after(data_.setup, stops_[p].node, stops_[p + 1].node));
         if (may_wait_for_next(come, leg.there)) keep(p + 1, come);
+        if (leg.way.next == static_cast<Int>(breaks_.size())) return;
         OnLeg rested = leg;
         for (Int index = leg.way.next; index < static_cast<Int>(breaks_.size()); ++index) {
             rested.way.next = static_cast<std::int32_t>(index) + 1;
@@ -316,9 +262,16 @@ private:
         const JoinedBreak pause(type_, number);
         const bool is_there = place == RestPlace::arrival;
         if (!pause.lets(leg.way.begins, is_there ? leg.there : leg.here)) return;
+        const Int begin = leg.way.begins.first;
+        const auto end = [&](TimeSegment time) {
+            const TimeSegment over = pause.end(time);
+            return is_joined() ? over : TimeSegment{none, over.at(begin)};
+        };
         const Int driven = leg.there.d - leg.here.d;
-        leg.here = pause.end(is_there ? leg.there : leg.here);
-        leg.there = place == RestPlace::departure ? behind(leg.here, driven) : pause.end(leg.there);
+        leg.here = end(is_there ? leg.there : leg.here);
+        leg.there = place != RestPlace::departure ? end(leg.there)
+                    : is_joined()                 ? behind(leg.here, driven)
+                                                  : travel(p, leg.here);
         leg.place = place;
         taken_.push_back({{number, p, place}, leg.way.last});
         leg.way.last = static_cast<std::int32_t>(taken_.size()) - 1;
@@ -328,6 +281,11 @@ private:
     // Tell whether one way to a stop is no worse than another, whatever comes.
     bool is_no_worse(Int p, const Way& one, const Way& other) const {
         if (one.next != other.next || one.left_out != other.left_out) return false;
+        if constexpr (!is_lean) {
+            for (std::size_t index = 0; times_cost_ && index < most_compared; ++index) {
+                if (one.missed[index] > other.missed[index]) return false;
+            }
+        }
         if (asked_.empty() && !begins_count_) {
             return one.now.at(one.begins.first) <= other.now.at(other.begins.first);
         }
@@ -335,24 +293,7 @@ private:
             one.begins.last < other.begins.last) {
             return false;
         }
-        if (!asked_.empty() && asked_[static_cast<std::size_t>(p)].is_ahead &&
-            !is_no_later(other.now, one.now)) {
-            return false;
-        }
-        std::int32_t mine = one.noted, others = other.noted;
-        while (mine != others) {
-            const Noted& noted = noted_[static_cast<std::size_t>(mine)];
-            const Noted& instead = noted_[static_cast<std::size_t>(others)];
-            const Asked& asked = asked_[static_cast<std::size_t>(noted.stop)];
-            if (asked.until >= p &&
-                (!is_no_later(instead.start, noted.start) ||
-                 (asked.is_awaited && !is_no_later(noted.start, instead.start)))) {
-                return false;
-            }
-            mine = noted.before;
-            others = instead.before;
-        }
-        return true;
+        return asked_.is_no_worse(p, {one.now, one.noted}, {other.now, other.noted});
     }
 
     // Keep a way to a stop unless another is no worse; where there are too many, that goes which is
@@ -379,64 +320,80 @@ private:
             if (index < way.next && !is_among(way.left_out, index)) continue;
             if (!may_be_left_out(index, way.begins, way.now)) return;
         }
-        BreakChoice choice{PlacedBreaks(), way.now.at(way.begins.first), 0};
+        PlacedBreaks placed;
         Int unpaid = 0;
         for (std::int32_t number = way.last; number >= 0;) {
             const Taken& taken = taken_[static_cast<std::size_t>(number)];
-            choice.placed = choice.placed.with_more(0, taken.one);
+            placed = placed.with_more(0, taken.one);
             if (!is_paid(type_, taken.one.number)) unpaid += length_of(type_, taken.one.number);
             number = taken.before;
         }
-        // It may as well wait at the depot.
-        const Int begin = std::min(way.begins.last, way.now.c - way.now.d);
-        choice.placed = choice.placed.from(std::max(way.begins.first, begin));
-        const Int since = has_begun(type_) ? choice.end - type_.shift_earliest
-                                           : std::max(way.now.d, way.now.c - way.begins.last);
-        choice.working = since - unpaid;
-        if (may_work(type_, choice.working)) choices_.push_back(choice);
+        std::int32_t timed = -1;
+        if constexpr (!is_lean) timed = way.timed;
+        const std::optional<Begun>& timing =
+            best_begin_.of({way.begins, way.now, unpaid, timed}, timed_);
+        if (timing) choices_.push_back({placed.from(timing->begin), *timing});
     }
 
     Truck truck_;
     const ProblemData& data_;
     const VehicleType& type_;
     View<const Stop, 1> stops_;
-    const bool begins_count_;   // whether it matters when the route may begin
+    LookBacks asked_{data_, truck_.k, stops_};
+    const double most_late_;
+    const bool is_priced_;      // it matters what it costs, not only when it is over
+    bool times_cost_ = false;   // customers cost by when they are served
+    const bool begins_count_;   // how a way goes on hangs on when the route begins
+    bool begins_differ_;        // what it costs does
     std::vector<Int> soonest_;  // (stop,)
     std::vector<Chosen> breaks_;
-    std::vector<Asked> asked_;  // (stop,) nothing where nothing is
     std::vector<Way> here_, there_;
     std::vector<Taken> taken_;
-    std::vector<Noted> noted_;
+    std::vector<TimedCustomer> timed_;
+    const Int waiting_;  // how long a route waits without breaks
+    std::array<Int, most_compared> compared_{};
+    BestBegin best_begin_{data_, truck_.k};
     std::vector<BreakChoice> choices_;
 };
 
-}  // namespace
-
-bool has_breaks_alone(const ProblemData& data, Int k) {
-    const VehicleType& type = data.type[k];
-    return has_breaks(type) && !has_driving_rules(type) && !orders_cross(data) &&
-           !shares_chargers(type);
-}
-
-bool joins_breaks(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
-    return has_breaks_alone(data, route.type) && is_steady(data.type[route.type]) &&
-           route.sorties == 0 &&
+// Tell whether ways along a route may be lean.
+bool may_be_lean(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    return is_steady(data.type[route.type]) &&
            std::none_of(&stops[0], &stops[0] + route.length, [&](const Stop& stop) {
                return stop.kind == customer_stop && times_cost(data.price[stop.node]);
            });
 }
 
-std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& route,
-                                       View<const Stop, 1> stops) {
-    return Choosing(data, route, stops).run();
-}
-
-void note_soonest(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
-    Choosing choosing(data, route, stops);
+template <bool is_lean>
+void note_soonest_of(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
+    Choosing<is_lean> choosing(data, route, stops, no_bar, false);
     choosing.run();
     for (Int p = 0; p < route.length; ++p) {
         stops[p].leave = choosing.soonest()[static_cast<std::size_t>(p)];
     }
+}
+
+}  // namespace
+
+std::vector<BreakChoice> break_choices(const ProblemData& data, const Route& route,
+                                       View<const Stop, 1> stops, double most_late) {
+    std::vector<BreakChoice> choices =
+        may_be_lean(data, route, stops)
+            ? Choosing<true>(data, route, stops, most_late, true).run()
+            : Choosing<false>(data, route, stops, most_late, true).run();
+    const auto value = [](const BreakChoice& choice) {
+        return std::pair{choice.timing.cost(), choice.timing.end};
+    };
+    std::sort(choices.begin(), choices.end(),
+              [&](const BreakChoice& one, const BreakChoice& other) {
+                  return value(one) < value(other);
+              });
+    return choices;
+}
+
+void note_soonest(const ProblemData& data, const Route& route, View<Stop, 1> stops) {
+    const bool is_lean = is_steady(data.type[route.type]);
+    return (is_lean ? note_soonest_of<true> : note_soonest_of<false>)(data, route, stops);
 }
 
 }  // namespace tandem

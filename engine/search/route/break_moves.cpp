@@ -27,17 +27,19 @@ namespace {
 // What sums of costs differ by that are one, as a share.
 constexpr double rounding = 1e-9;
 
+constexpr CostBounds unbounded{0.0, no_bar};
+
 // Ways to take breaks that are timed at most, the most promising first.
 constexpr std::size_t most_timed = 8;
 
 // Moves breaks as long as that costs less by `price`, which times a route with breaks where they
-// are placed, and tells what it costs if that is below a bar.
+// are placed, and tells what it costs.
 template <class Price>
 class BreakMoves {
 public:
-    BreakMoves(const VehicleType& type, View<const Stop, 1> stops, bool flies,
-               const PlacedBreaks& placed, double cost, const Price& price)
-        : type_(type), stops_(stops), flies_(flies), price_(price), best_(placed), cost_(cost) {}
+    BreakMoves(const VehicleType& type, View<const Stop, 1> stops, const PlacedBreaks& placed,
+               double cost, const Price& price)
+        : type_(type), stops_(stops), price_(price), best_(placed), cost_(cost) {}
 
     const PlacedBreaks& best() const { return best_; }
     double cost() const { return cost_; }
@@ -45,7 +47,7 @@ public:
     // Let breaks be there if that costs less; tells. In place, as all that follows; what is timed
     // may be another.
     bool try_these(const PlacedBreaks& placed) {
-        const double cost = price_(placed, cost_);
+        const double cost = price_(placed);
         if (cost >= cost_) return false;
         best_ = placed;
         cost_ = cost;
@@ -57,7 +59,7 @@ public:
         for (Int pass = 0; pass < most_passes; ++pass) {
             const double before = cost_;
             for (Int index = 0; index < best_.count(); ++index) move(index);
-            if (flies_) take_more();
+            take_more();
             if (cost_ >= before) break;
         }
     }
@@ -109,7 +111,6 @@ private:
 
     const VehicleType& type_;
     View<const Stop, 1> stops_;
-    const bool flies_;
     const Price& price_;
     PlacedBreaks best_;
     double cost_;
@@ -150,6 +151,17 @@ private:
     std::array<Int, most> wait_{};
 };
 
+// Tell whether breaks beside flights may be told apart by cost.
+bool tells_breaks_apart(const ProblemData& data, const Route& route) {
+    return has_breaks_alone(data, route) && route.sorties > 0 &&
+           (!holds_count(data, route.type) || route.trips == 1);
+}
+
+// Return when the first trip of a timed route begins.
+Int begin_as_timed(View<const Stop, 1> stops) {
+    return std::max({stops[0].arrival, stops[0].release, stops[0].hold});
+}
+
 // Return when the first trip of a route would begin that has no breaks, as late as costs nothing;
 // `none` if it can't be driven. In place: it is timed so.
 Int begin_without_breaks(const ProblemData& data, const Fleet& fleet, Int slot) {
@@ -165,18 +177,34 @@ Int begin_without_breaks(const ProblemData& data, const Fleet& fleet, Int slot) 
         !settle(data, route, stops, trips, sorties)) {
         return none;
     }
-    return std::max({stops[0].arrival, stops[0].release, stops[0].hold});
+    return begin_as_timed(stops);
 }
 
-// Price a route with breaks where they are placed; `no_bar` if it breaks a rule. In place.
+// Return what it costs that customers of a timed route are served too late, or less.
+double lateness_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops) {
+    double cost = 0.0;
+    if (!data.evaluation[route.type].priced || lags_count(data)) return cost;
+    for (const Stop& stop : stops.first(route.length)) {
+        if (stop.kind == customer_stop) cost += lateness_cost(data, stop.node, stop.arrival);
+    }
+    return cost;
+}
+
+// Price a route with breaks where they are placed; `no_bar` if it breaks a rule, or is known not to
+// be below the bar. In place.
 double price_placed(const ProblemData& data, const Fleet& fleet, Int slot,
-                    const PlacedBreaks& placed, bool& settled) {
+                    const PlacedBreaks& placed, const CostBounds& bounds, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot].first(route.length);
     placed.write(stops);
     stops[0].release = placed.begin();
     route.placed = breaks_kept;
-    return price_loaded(data, fleet, slot, settled) ? fleet.cost[slot] : no_bar;
+    clear_holds(route, stops, fleet.trip[slot]);
+    if (!drive_forward(data, route, stops, fleet.sortie[slot]) ||
+        bounds.in_time + lateness_on(data, route, stops) >= bounds.bar) {
+        return no_bar;
+    }
+    return price_driven(data, fleet, slot, settled) ? fleet.cost[slot] : no_bar;
 }
 
 // Price a route that begins no sooner than then, with breaks where it ends soonest. In place.
@@ -186,104 +214,47 @@ bool price_from(const ProblemData& data, const Fleet& fleet, Int slot, Int begin
     return price_loaded(data, fleet, slot, settled);
 }
 
-// Tell whether breaks of a route may be told apart by cost.
-bool tells_breaks_apart(const ProblemData& data, const Route& route) {
-    return has_breaks_alone(data, route.type) &&
-           (!holds_count(data, route.type) || route.trips == 1);
-}
-
-// Return what it costs that customers are served too late, or waited for, on a priced route.
-double missed_windows(const ProblemData& data, const Fleet& fleet, Int slot) {
-    double cost = 0.0;
-    const Route& route = fleet.route[slot];
-    if (!data.evaluation[route.type].priced) return cost;
-    for (const Stop& stop : fleet.stop[slot].first(route.length)) {
-        if (stop.kind == customer_stop) cost += stop.window_cost;
-    }
-    for (const Sortie& sortie : fleet.sortie[slot].first(route.sorties)) {
-        for (Int visit = 0; visit < sortie.count; ++visit) {
-            cost += window_cost(data, sortie.nodes[visit], sortie.arrivals[visit]);
-        }
-    }
-    return cost;
-}
-
-// Tell whether customers are served as late as they have to be, by where breaks are, on a route
-// that begins as soon as it may.
-bool is_soonest_least_late(const ProblemData& data, const Route& route) {
-    return data.evaluation[route.type].priced && route.sorties == 0 && !lags_count(data) &&
-           tells_breaks_apart(data, route);
-}
-
-// Return what it costs that customers of a route are served too late that begins as soon as it
-// may; nothing if it can't be driven. In place: it is timed so.
-double lateness_as_placed(const ProblemData& data, const Fleet& fleet, Int slot) {
-    Route& route = fleet.route[slot];
-    const View<Stop, 1> stops = fleet.stop[slot];
-    double cost = 0.0;
-    clear_holds(route, stops, fleet.trip[slot]);
-    if (!drive_as_placed(data, route, stops, fleet.sortie[slot])) return cost;
-    for (const Stop& stop : stops.first(route.length)) {
-        if (stop.kind == customer_stop) cost += lateness_cost(data, stop.node, stop.arrival);
-    }
-    return cost;
-}
-
 }  // namespace
-
-double least_lateness(const ProblemData& data, const Fleet& fleet, Int slot) {
-    const Route& route = fleet.route[slot];
-    if (!is_soonest_least_late(data, route)) return 0.0;
-    clear_rests(data.type[route.type], fleet.stop[slot].first(route.length));
-    return lateness_as_placed(data, fleet, slot);
-}
 
 bool price_choices(const ProblemData& data, const Fleet& fleet, Int slot, const CostBounds& bounds,
                    bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     const VehicleType& type = data.type[route.type];
-    const Rate& rate = data.rate[route.type];
     clear_holds(route, stops, fleet.trip[slot]);
     clear_rests(type, stops.first(route.length));
     // Whoever takes breaks is later everywhere.
     if (!drive_as_placed(data, route, stops, fleet.sortie[slot])) return false;
+    const double least_known = bounds.in_time + lateness_on(data, route, stops);
+    if (least_known >= bounds.bar) return false;
+    double cost = bounds.bar;
+    PlacedBreaks best = PlacedBreaks().from(stops[0].release);
+    bool is_found = false, is_timed_last = false;
     if (!lacks_break(type, route, stops)) {
         route.placed = breaks_left_out;
-        if (price_driven(data, fleet, slot, settled) &&
-            fleet.cost[slot] <= bounds.in_time * (1.0 + rounding)) {
-            return true;
-        }
+        is_found = price_driven(data, fleet, slot, settled) && fleet.cost[slot] < cost;
+        if (is_found) cost = fleet.cost[slot];
+        if (is_found && cost <= least_known * (1.0 + rounding)) return true;
         clear_holds(route, stops, fleet.trip[slot]);
     }
-    std::vector<BreakChoice> choices = break_choices(data, route, stops);
-    const bool is_timed = data.evaluation[route.type].timed;
     const double besides =
-        is_timed ? bounds.in_time -
-                       work_cost(rate, paid_work(type, none, least_working(data, route, stops)))
-                 : bounds.in_time;
-    const auto least = [&](const BreakChoice& choice) {
-        if (!is_timed) return besides;
-        return besides + work_cost(rate, paid_work(type, choice.end, choice.working));
-    };
-    std::sort(choices.begin(), choices.end(),
-              [&](const BreakChoice& one, const BreakChoice& other) {
-                  return std::pair{least(one), one.end} < std::pair{least(other), other.end};
-              });
-    double cost = bounds.bar;
-    const PlacedBreaks* best = nullptr;
-    const PlacedBreaks* timed = nullptr;
+        bounds.in_time - work_cost(data.rate[route.type], paid_work(type, none, bounds.working));
+    std::vector<BreakChoice> choices = break_choices(data, route, stops, cost - bounds.in_time);
     choices.resize(std::min(choices.size(), most_timed));
-    for (const BreakChoice& choice : choices) {
-        if (least(choice) >= cost * (1.0 - rounding)) break;
-        timed = &choice.placed;
-        const double found = price_placed(data, fleet, slot, *timed, settled);
-        if (found >= cost) continue;
-        best = timed;
+    for (const auto& [placed, timing] : choices) {
+        if (besides + timing.cost() >= cost * (1.0 - rounding)) break;
+        const double found =
+            price_placed(data, fleet, slot, placed, {besides + timing.work, cost}, settled);
+        is_timed_last = found < cost;
+        if (!is_timed_last) continue;
+        is_found = true;
+        best = placed;
         cost = found;
     }
-    return best != nullptr &&
-           (best == timed || price_placed(data, fleet, slot, *best, settled) < no_bar);
+    if (!is_found || is_timed_last) return is_found;
+    fleet.cost[slot] = cost;
+    return bounds.bar < no_bar ||
+           price_placed(data, fleet, slot, best, unbounded, settled) < no_bar;
 }
 
 bool begin_late(const ProblemData& data, const Fleet& fleet, Int slot, bool& settled) {
@@ -297,43 +268,34 @@ bool begin_late(const ProblemData& data, const Fleet& fleet, Int slot, bool& set
 
 bool may_move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double least) {
     const Route& route = fleet.route[slot];
-    return tells_breaks_apart(data, route) && fleet.cost[slot] > least * (1.0 + rounding) &&
-           (data.type[route.type].drones > 0 || missed_windows(data, fleet, slot) > 0.0);
+    return tells_breaks_apart(data, route) && fleet.cost[slot] > least * (1.0 + rounding);
 }
 
-bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, const CostBounds& bounds,
-                 bool& settled) {
+bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled) {
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot].first(route.length);
     const VehicleType& type = data.type[route.type];
     const Int release = stops[0].release;
-    const Int begin = std::max({stops[0].arrival, release, stops[0].hold});
+    const Int begin = begin_as_timed(stops);
     // Who began sooner would lack breaks that are over now.
     const PlacedBreaks soonest(stops, std::max(release, last_over_by(type, begin)));
     const double before = fleet.cost[slot];
     const CostlyWaits waits(data, fleet, slot);
-    const bool is_bounded = is_soonest_least_late(data, route);
-    const auto price = [&](const PlacedBreaks& placed, double bar) {
-        if (is_bounded) {
-            placed.write(stops);
-            stops[0].release = placed.begin();
-            route.placed = breaks_kept;
-            if (bounds.in_time + lateness_as_placed(data, fleet, slot) >= bar) return no_bar;
-        }
-        return price_placed(data, fleet, slot, placed, settled);
+    const auto price = [&](const PlacedBreaks& placed) {
+        return price_placed(data, fleet, slot, placed, unbounded, settled);
     };
-    BreakMoves moves(type, stops, route.sorties > 0, soonest, before, price);
+    BreakMoves moves(type, stops, soonest, before, price);
     for (const Int wait : waits) moves.try_these(soonest.from(begin + wait));
     const Int late = begin_without_breaks(data, fleet, slot);
     if (late > begin && price_from(data, fleet, slot, late, settled)) {
         moves.try_these(PlacedBreaks(stops, late));
     }
     moves.run();
-    if (bounds.bar < no_bar) {
+    if (bar < no_bar) {
         fleet.cost[slot] = moves.cost();
         return true;
     }
-    if (moves.cost() < before) return price(moves.best(), no_bar) < no_bar;
+    if (moves.cost() < before) return price(moves.best()) < no_bar;
     return price_from(data, fleet, slot, release, settled);
 }
 

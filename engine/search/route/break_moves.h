@@ -1,20 +1,18 @@
-// Breaks moved from where a route ends soonest to where it costs less: flights that don't wait for
-// them, customers who are served in time, or work that begins later.
+// The cheapest of ways to take breaks; beside drones, they are moved from where a route ends
+// soonest: to where flights don't wait for them, customers are served in time, or work begins
+// later.
 #pragma once
 
 #include "search/route/layout.h"
 
 namespace tandem {
 
-// Return what it costs at least, wherever its breaks are, that customers of a loaded route are
-// served too late; nothing where that isn't known. In place: it is timed without breaks.
-double least_lateness(const ProblemData& data, const Fleet& fleet, Int slot);
-
-// What is known of a route's cost: what it would be were nobody served too late, and what it has to
-// be below.
+// What is known of a route's cost: what it would be at least were nobody served too late, with how
+// much work, and what it has to be below.
 struct CostBounds {
     double in_time;
     double bar;
+    Int working = 0;
 };
 
 // Price a loaded route by the cheapest way to take its breaks, of those that `break_choices` knows.
@@ -31,7 +29,6 @@ bool may_move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, doub
 
 // Let the breaks of a priced route be elsewhere, or the route begin later, if that costs less. In
 // place; false if it can't be driven any more. Where there is a bar, its cost alone is written.
-bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, const CostBounds& bounds,
-                 bool& settled);
+bool move_breaks(const ProblemData& data, const Fleet& fleet, Int slot, double bar, bool& settled);
 
 }  // namespace tandem

@@ -6,6 +6,10 @@
 #include <cstddef>
 
 #include "rules/breaks.h"
+#include "rules/driving.h"
+#include "rules/hub.h"
+#include "rules/shift.h"
+#include "search/route/lags.h"
 #include "search/route/layout.h"
 
 namespace tandem {
@@ -43,6 +47,32 @@ inline Int unpaid_on(const VehicleType& type, View<const Stop, 1> stops) {
 
 // Tell whether a timed route lacks a break.
 bool lacks_break(const VehicleType& type, const Route& route, View<const Stop, 1> stops);
+
+// Return the first instant later than `begin` at which a route had better begin, perhaps: once a
+// break is over, or the speed changes. `far`: there is none.
+inline Int next_begin(const ProblemData& data, Int k, Int begin) {
+    const VehicleType& type = data.type[k];
+    const Int later = later_begin(type, begin), changes = num_changes(type);
+    if (!limits_timed_travel(type) && !follows_driver(type)) return later;
+    const View<const Int, 1> times = data.profile_time[k];
+    const Int change = changes_until(times, changes, begin);
+    return change < changes ? std::min(later, times[change]) : later;
+}
+
+// Tell whether a driver pauses for stated breaks alone, and nobody else hangs on when.
+inline bool has_breaks_alone(const ProblemData& data, const Route& route) {
+    const VehicleType& type = data.type[route.type];
+    return has_breaks(type) && !has_driving_rules(type) && !orders_cross(data) &&
+           !shares_chargers(type);
+}
+
+// Tell whether breaks of a route are chosen so: by `TimeSegment`, or where speeds change for each
+// of some instants at which it may begin.
+//
+// Not where drones fly, drivers rest by rules, or other vehicles are waited for.
+inline bool joins_breaks(const ProblemData& data, const Route& route) {
+    return has_breaks_alone(data, route) && route.sorties == 0;
+}
 
 // Write between which stops of a route breaks are taken, so that it ends as soon as possible. In
 // place; false if none of that can be.

@@ -89,7 +89,7 @@ Int least_working(const ProblemData& data, const Route& route, View<const Stop, 
     return lasting + least_pause(type, driving, lasting);
 }
 
-double least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
+LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
     const Route& route = fleet.route[slot];
     const View<const Stop, 1> stops = fleet.stop[slot];
     const View<Sortie, 1> sorties = fleet.sortie[slot];
@@ -118,7 +118,7 @@ double least_cost(const ProblemData& data, const Fleet& fleet, Int slot) {
         cost += flight_cost(data, route.type, stops, sortie,
                             least_airborne(data, route.type, stops, sortie));
     }
-    return cost;
+    return {cost, working};
 }
 
 }  // namespace tandem

@@ -14,7 +14,13 @@ bool may_rest(const VehicleType& type);
 // and can't be missed by whoever begins later.
 Int least_working(const ProblemData& data, const Route& route, View<const Stop, 1> stops);
 
+// What a route costs at least, and how long its vehicle works then.
+struct LeastPrice {
+    double cost;
+    Int working;
+};
+
 // Return what such a route costs at least, once its trips are loaded.
-double least_cost(const ProblemData& data, const Fleet& fleet, Int slot);
+LeastPrice least_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 
 }  // namespace tandem

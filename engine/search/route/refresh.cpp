@@ -17,6 +17,7 @@
 #include "rules/window.h"
 #include "search/route/break_choices.h"
 #include "search/route/break_moves.h"
+#include "search/route/breaks.h"
 #include "search/route/charging.h"
 #include "search/route/ends.h"
 #include "search/route/freshness.h"
@@ -42,17 +43,6 @@ constexpr Int most_begins = 16;
 
 // Draws after which a search for one of few customers ends.
 constexpr Int most_draws = 64;
-
-// Return the first instant later than `begin` at which a route had better begin, perhaps: once a
-// break is over, or the speed changes. `far`: there is none.
-Int next_begin(const ProblemData& data, Int k, Int begin) {
-    const VehicleType& type = data.type[k];
-    const Int later = later_begin(type, begin), changes = num_changes(type);
-    if (!limits_timed_travel(type) && !follows_driver(type)) return later;
-    const View<const Int, 1> times = data.profile_time[k];
-    const Int change = changes_until(times, changes, begin);
-    return change < changes ? std::min(later, times[change]) : later;
-}
 
 // As `price_loaded`, where a driver who begins later may have had breaks before, or may not have to
 // rest, or isn't on the way for so long.
@@ -100,13 +90,13 @@ void look_around(const ProblemData& data, const Fleet& fleet, Int slot, bool set
     Route& route = fleet.route[slot];
     const View<Stop, 1> stops = fleet.stop[slot];
     if (routes_meet(data)) plan_starts(route, stops);
-    if (joins_breaks(data, route, stops) && (settled || route.placed == breaks_kept)) {
+    if (joins_breaks(data, route) && (settled || route.placed == breaks_kept)) {
         // Whoever is inserted behind a stop may be reached by other breaks.
         stops[0].release = fleet.trip(slot, 0).release;
         clear_rests(data.type[route.type], stops.first(route.length));
         clear_holds(route, stops, fleet.trip[slot]);
         drive_as_placed(data, route, stops, fleet.sortie[slot]);
-        note_soonest(data, route, stops);
+        if (lacks_break(data.type[route.type], route, stops)) note_soonest(data, route, stops);
     } else if (settled) {
         clear_holds(route, stops, fleet.trip[slot]);
         drive_forward(data, route, stops, fleet.sortie[slot]);
@@ -211,18 +201,16 @@ bool price_as_is(const ProblemData& data, const Fleet& fleet, Int slot, double b
     if (!load_route(data, fleet, slot)) return false;
     const VehicleType& type = data.type[fleet.route[slot].type];
     if (may_rest(type)) {
-        const double in_time = least_cost(data, fleet, slot);
+        const auto [in_time, working] = least_cost(data, fleet, slot);
         if (in_time >= bar) return false;
-        if (joins_breaks(data, fleet.route[slot], fleet.stop[slot])) {
-            return price_choices(data, fleet, slot, {in_time, bar}, settled);
+        if (joins_breaks(data, fleet.route[slot])) {
+            return price_choices(data, fleet, slot, {in_time, bar, working}, settled);
         }
-        const double least = in_time + least_lateness(data, fleet, slot);
-        if (least >= bar) return false;
         if (rests_in_time(type)) {
-            return (price_later(data, fleet, slot, least, settled) ||
+            return (price_later(data, fleet, slot, in_time, settled) ||
                     begin_late(data, fleet, slot, settled)) &&
-                   (!may_move_breaks(data, fleet, slot, least) ||
-                    move_breaks(data, fleet, slot, {in_time, bar}, settled));
+                   (!may_move_breaks(data, fleet, slot, in_time) ||
+                    move_breaks(data, fleet, slot, bar, settled));
         }
     }
     return limits_timed_travel(type) ? price_later(data, fleet, slot, no_bar, settled)

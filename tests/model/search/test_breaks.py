@@ -159,6 +159,13 @@ def test_breaks_that_nobody_needs_change_no_plan() -> None:
     assert plans[0] == plans[1]
 
 
+@pytest.mark.parametrize("seed", [40_206, 40_046, 40_097, 40_123])
+def test_breaks_lie_where_missed_windows_cost_least(seed: int) -> None:
+    """One of these left out a customer who can be served, too late."""
+    problem = small_day(np.random.default_rng(seed), is_soft=True)
+    assert found(problem, 300) == pytest.approx(in_every_way(problem))
+
+
 def assert_found(seed: int, cheapest: float) -> None:
     """Assert that the search finds the cheapest plan of a tiny day of `many_days`."""
     problem = mixed_day(np.random.default_rng(seed))

@@ -9,7 +9,8 @@ from model.engine.alarm import LAST_INSTANT, Alarm
 from model.engine.instance import pack
 from model.judge.check import check
 from model.problem import (
-    FULL_SPEED, Break, Customer, Depot, DroneType, Problem, SpeedProfile, Travel, VehicleType,
+    FULL_SPEED, Break, Customer, Depot, DrivingRules, DroneType, Problem, SpeedProfile, Travel,
+    VehicleType,
 )
 from model.search import improve as searching
 from model.search.beginning.translate import best_plan, make_searcher
@@ -35,12 +36,12 @@ def slow_at_first() -> Problem:
 def fresh_at_noon() -> Problem:
     """Return a problem whose driver, who has a break, is to load late: parcels are to stay fresh.
 
-    Being late would cost, so that breaks and departure aren't chosen at once.
+    He has to rest by rules as well, so that breaks and departure aren't chosen at once.
     """
     legs = np.array([[0, 10], [10, 0]]) * MINUTE
-    customer = Customer("c", (1,), earliest=300 * MINUTE, late_cost_per_hour=1.0,
-                        max_time_aboard=20 * MINUTE)
+    customer = Customer("c", (1,), earliest=300 * MINUTE, max_time_aboard=20 * MINUTE)
     van = VehicleType("van", 1, (1,), 0, cost_per_hour=1.0,
+                      driving=DrivingRules(600 * MINUTE, 45 * MINUTE),
                       breaks=(Break("b", 5 * MINUTE, 0, 60 * MINUTE, after_departure=True),))
     return Problem((Depot("hub"),), (customer,), (van,), (Travel(legs, legs),),
                    np.zeros((2, 2)), unassigned_cost=10.0)
