@@ -43,6 +43,12 @@ class Changing:
         return [{"path": json_path(keys), **value} for change in remedy.changes
                 for keys, value in CHANGES[change.limit](self, change)]
 
+    @property
+    def place(self) -> Keys:
+        """Return where it is said how he is served: of a shipment that is fetched, its delivery."""
+        is_shipment = isinstance(self.at(self.subject), ShipmentInput)
+        return (*self.subject, "delivery") if is_shipment else self.subject
+
     def at(self, keys: Keys) -> Any:
         """Return what the request states at a place."""
         value: Any = self.request
@@ -105,7 +111,7 @@ def _vehicles(of: Changing, change: Change) -> Found:
 
 
 def _window(of: Changing, change: Change) -> Found:
-    keys = of.subject
+    keys = of.place
     if change.of:
         customer = of.at(keys)
         keys = (*keys, "alternatives",
@@ -211,8 +217,8 @@ def _amounts(change: Change) -> Data:
 
 CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
     "vehicles": _vehicles,
-    "by_truck": lambda of, _: [((*of.subject, "served_by"), {"to": "either"})],
-    "by_drone": lambda of, _: [((*of.subject, "served_by"), {"to": "either"})],
+    "by_truck": lambda of, _: [((*of.place, "served_by"), {"to": "either"})],
+    "by_drone": lambda of, _: [((*of.place, "served_by"), {"to": "either"})],
     "skills": lambda of, change: [((*of.type, "skills"), {
         "to": [*of.at((*of.type, "skills")), *change.names]})],
     "capacity": lambda of, change: [((*of.type, "capacity"), _amounts(change))],
@@ -221,8 +227,9 @@ CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
     "pickups": _to("any", "pickups"),
     "window": _window,
     "end_window": _end_window,
-    "time_aboard": lambda of, change: of.more((*of.subject, "max_time_aboard"),
-                                              change.quantity / 1000),
+    "time_aboard": lambda of, change: of.more(
+        (*of.subject, "max_time_aboard" if of.place == of.subject else "max_time_between"),
+        change.quantity / 1000),
     "time_between": lambda of, change: _at_least((*of.subject, "max_time_between"), of, change),
     "detour": lambda of, change: [((*of.subject, "max_detour"), {"to": change.quantity / 1000})],
     "lag": _lags,

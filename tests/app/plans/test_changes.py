@@ -1,10 +1,14 @@
 """Remedies as changes of the request: where, and in its own notation."""
 
+import json
 from typing import Any
 
 import httpx
 import pytest
 
+from app.plans.changes import Changing
+from app.schemas.request import PlanRequest
+from model.judge.remedy import remedy_of
 from tests.app.plans.asking import applied, planned
 
 Request = dict[str, Any]
@@ -96,3 +100,15 @@ def test_a_buffer_is_told_as_a_change(client: httpx.Client) -> None:
     (change,) = reason["other_changes"] if "other_changes" in reason else reason["changes"]
     assert change["path"] == "$.airspace.buffer"
     assert 990 <= change["to"] < 1000
+
+
+@pytest.mark.parametrize(("limit", "change"), [
+    ("window", {"path": "$.shipments[0].delivery.time_window.latest", "by": 60}),
+    ("by_truck", {"path": "$.shipments[0].delivery.served_by", "to": "either"}),
+    ("time_aboard", {"path": "$.shipments[0].max_time_between", "by": 60})])
+def test_what_is_back_at_the_depot_is_changed_at_its_delivery(limit: str, change: Request) -> None:
+    shipment = {"id": "s", "amount": [1], "pickup": {"location": [2, 0]}, "max_time_between": 300,
+                "delivery": {"location": [6, 0], "time_window": {"latest": 1200}}}
+    request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
+    changing = Changing.of(request, "van", "s", is_shipment=True)
+    assert changing.changes(remedy_of(limit, quantity=60_000)) == [change]
