@@ -22,6 +22,10 @@ Found = list[tuple[Keys, Data]]
 CENT = 0.01
 
 
+class NowhereError(Exception):
+    """The request states nothing of that kind."""
+
+
 @dataclass(frozen=True)
 class Changing:
     """The request, the vehicle type whose remedy it is, and who is left out."""
@@ -39,9 +43,15 @@ class Changing:
                    (all_of, _index(stated, left_out)))
 
     def changes(self, remedy: Remedy) -> list[Data]:
-        """Return all changes of a remedy."""
-        return [{"path": json_path(keys), **value} for change in remedy.changes
-                for keys, value in CHANGES[change.limit](self, change)]
+        """Return all changes of a remedy; none if the request has no place for one of them.
+
+        On a day under way, what is left to do is not always stated by itself.
+        """
+        try:
+            return [{"path": json_path(keys), **value} for change in remedy.changes
+                    for keys, value in CHANGES[change.limit](self, change)]
+        except NowhereError:
+            return []
 
     @property
     def place(self) -> Keys:
@@ -53,6 +63,8 @@ class Changing:
         """Return what the request states at a place."""
         value: Any = self.request
         for key in keys:
+            if isinstance(key, str) and not hasattr(value, key):
+                raise NowhereError
             value = getattr(value, key) if isinstance(key, str) else value[key]
         return value
 
@@ -78,7 +90,9 @@ class Changing:
         kind = self.at(self.type)
         if kind.flies:
             return self.type
-        path = next(path for path, drones in kind.drones_by_path if (drones.id or "") == of)
+        path = next((path for path, drones in kind.drones_by_path if (drones.id or "") == of), None)
+        if path is None:
+            raise NowhereError
         return *self.type, *path
 
     def named(self, all_of: str, name: str, *keys: str) -> Keys:
@@ -88,7 +102,10 @@ class Changing:
 
 
 def _index(stated: list[Any], name: str) -> int:
-    return next(index for index, each in enumerate(stated) if each.id == name)
+    for index, each in enumerate(stated):
+        if each.id == name:
+            return index
+    raise NowhereError
 
 
 def as_written(value: Any) -> Any:

@@ -112,3 +112,14 @@ def test_what_is_back_at_the_depot_is_changed_at_its_delivery(limit: str, change
     request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
     changing = Changing.of(request, "van", "s", is_shipment=True)
     assert changing.changes(remedy_of(limit, quantity=60_000)) == [change]
+
+
+def test_nothing_is_changed_where_the_request_has_no_place_for_it() -> None:
+    shipment = {"id": "s", "delivery": {"location": [6, 0]}, "pickups": [
+        {"id": "farm", "amount": [1], "location": [2, 0]},
+        {"id": "mill", "amount": [1], "location": [3, 0]}]}
+    request = PlanRequest.model_validate_json(json.dumps(request_of({}, {}, shipments=[shipment])))
+    changing = Changing.of(request, "van", "s", is_shipment=True)
+    assert changing.changes(remedy_of("end_window", "pickup", 60_000)) == []
+    (change,) = changing.changes(remedy_of("end_window", "pickup mill", 60_000))
+    assert change["path"] == "$.shipments[0].pickups[1].time_window.latest"
