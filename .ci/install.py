@@ -50,15 +50,17 @@ def _uv() -> Path | None:
 
 def _settings() -> dict[str, str]:
     """Return pip's settings as uv reads them."""
-    stated: dict[str, str] = {}
     listed = subprocess.run([*PIP, "config", "list"], check=False, capture_output=True, text=True)
-    for line in listed.stdout.splitlines():
-        place, _, value = line.partition("=")
-        section, _, name = place.partition(".")
-        if section in SECTIONS and name in SETTINGS:
-            separator = "," if name == "find-links" else " "
-            stated[f"{SECTIONS.index(section)}{name}"] = separator.join(literal_eval(value).split())
-    return {SETTINGS[key[1:]]: stated[key] for key in sorted(stated)}
+    lines = [line.partition("=")[::2] for line in listed.stdout.splitlines()]
+    stated: dict[str, str] = {}
+    for section in SECTIONS:
+        for place, value in lines:
+            of, _, name = place.partition(".")
+            if of == section and name in SETTINGS:
+                separator = "," if name == "find-links" else " "
+                stated[SETTINGS[name]] = separator.join(literal_eval(value).split())
+    return stated
+
 
 
 if __name__ == "__main__":
