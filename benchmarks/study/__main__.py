@@ -20,6 +20,8 @@ from benchmarks.study.tasks import FULL, QUICK, Planned, Scale, Task, TripRow, a
 
 TRIPS = "trips.csv"
 
+PAGE, RUNS = Path("docs/develop/study.md"), Path("runs/study")
+
 
 def run(scale: Scale, folder: Path, workers: int) -> Study:
     """Plan what isn't planned yet, and return all of it."""
@@ -78,13 +80,14 @@ def main(
     quick: Annotated[bool, typer.Option("--quick", help="a small study, in 3 minutes")] = False,
     output: Annotated[Path | None, typer.Option(
         help="report; its pictures and CSVs are put into a folder of its name beside it "
-        "[default: docs/develop/study.md, build/study.md with --quick]")] = None,
+        f"[default: {PAGE} with CSVs in {RUNS}, build/study.md with --quick]")] = None,
     workers: Annotated[int, typer.Option(help="processes that plan", min=1)]
     = min(2, os.cpu_count() or 1),
 ) -> None:
     """Plan the study and write its report."""
-    page = output or Path("build/study.md" if quick else "docs/develop/study.md")
-    write_report(run(QUICK if quick else FULL, page.with_suffix(""), workers), page)
+    page = output or (Path("build/study.md") if quick else PAGE)
+    runs = RUNS if page == PAGE else page.with_suffix("")
+    write_report(run(QUICK if quick else FULL, runs, workers), page, runs)
     typer.echo(f"The report is {page}.")
 
 

@@ -4,7 +4,9 @@ import statistics
 from collections.abc import Callable, Iterable, Sequence
 from itertools import combinations, pairwise
 
-from benchmarks.study.tables import differences, markdown, over_seeds, percent, rises, surface_of
+from benchmarks.study.tables import (
+    differences, markdown, over_seeds, percent, rates_of_demands, rises, surface_of,
+)
 from benchmarks.study.tasks import (
     FLEETS, GREEDY, MIXED, NOBODY, POLICIES, SAMPLED, SINGLE, Planned, TripRow,
 )
@@ -65,23 +67,29 @@ def on_fleets(rows: Sequence[Planned], trips: Sequence[TripRow]) -> list[str]:
     best = [100 * statistics.fmean(differences(rows, size, SINGLE)) for size in sizes]
     used = [100 * _used(trips, size) for size in sizes]
     lines = [
-        f"- A trip of a mixed fleet is loaded {words_of(means, '.1f')} % in the mean (with "
-        f"{words_of(sizes, 'd')} customers): the 90 % aimed at is "
+        f"- A trip of a mixed fleet is loaded {words_of(means, '.1f')} % in the mean, with "
+        f"{words_of(sizes, 'd')} customers. The 90 % aimed at is "
         f"{'reached' if reached else 'not reached everywhere'}. Of all capacity sent out, "
-        f"{words_of(used, '.1f')} % are used. The total cost is {words_of(changes, '+z.1f')} % "
-        "beside trucks of 150 in the mean of all seeds, with the best seed of each case "
+        f"{words_of(used, '.1f')} % are used. Its total cost is {words_of(changes, '+z.1f')} % "
+        "beside trucks of 150. With the best seed of each case that is "
         f"{words_of(best, '+z.1f')} %.",
-        f"- Every trip above 80 %, as the paper finds? No: "
+        f"- Is every trip above 80 %, as the paper finds? No: "
         f"{words_of([100 * _well_loaded(rates[size]) for size in sizes], '.0f')} % of the trips "
-        f"are, the least loaded {words_of([100 * min(rates[size]) for size in sizes], '.0f')} %. "
+        f"are. The least are {words_of([100 * min(rates[size]) for size in sizes], '.0f')} %. "
         f"The paper's text names {words_of([CLAIMED_LEAST[size] for size in sizes], 'd')} % as "
-        "least, by one plan of each size; its demands and capacities make less (below). The last "
-        "trip carries what is left, and a fuller one that costs more is no better plan."]
+        f"least, by one plan of each size. Its demands and capacities make "
+        f"{words_of([_least_of_demands(size) for size in sizes], '.0f')} %. The last "
+        "trip carries what is left, and a fuller one that costs more is no better."]
     if all(_well_loaded(rates[size]) == 1 for size in sizes):
         lines[1] = "- Every trip of mixed fleets is loaded above 80 %, as the paper finds."
     if not reached:
         lines.append(_why_not(rows))
     return lines
+
+
+def _least_of_demands(size: int) -> float:
+    """Return the least load of the paper's mixed fleet by its own demands, in percent."""
+    return min(rates_of_demands(TABLE_OF_SIZE[size], "heterogeneous"))
 
 
 def _why_not(rows: Sequence[Planned]) -> str:
@@ -94,12 +102,11 @@ def _why_not(rows: Sequence[Planned]) -> str:
              and abs(one.mean_load_rate - other.mean_load_rate) > 0.001]
     dearer = sum((one.mean_load_rate > other.mean_load_rate) == (one.cost > other.cost)
                  for one, other in pairs)
-    return (f"- Why not: the best plan of the mixed fleet reaches 90 % in {words_of(full, 'd')} of "
-            f"{cases} cases, but the load rate is nothing that a plan is paid for. Of all pairs of "
-            f"plans of one case by any fleets, the fuller one is the dearer in "
-            f"{percent(dearer / max(len(pairs), 1), 0)} %. A truck of 200 costs 10 % more per km "
-            "than one of 150 for a third more room, so it is cheap to send it out with room left; "
-            "and few customers make few trips, of which the last carries what is left.")
+    return (f"- Why not? The best plan of the mixed fleet reaches 90 % in {words_of(full, 'd')} of "
+            f"{cases} cases. But nobody pays for a load rate. Of two plans of one case, the fuller "
+            f"one is the dearer in {percent(dearer / max(len(pairs), 1), 0)} %. A truck of 200 "
+            "costs 10 % more per km than one of 150, and has a third more room. So it is cheap to "
+            "send it out with room left.")
 
 
 def _best_loads(rows: Sequence[Planned], size: int) -> list[float]:
@@ -133,15 +140,15 @@ def on_search(rows: Sequence[Planned]) -> list[str]:
               for share in differences(rows, size, fleet)]
     dearer = [share for share in shares if share > 1e-9]
     if not dearer:
-        return ["What one capacity can do all three can too, and in no case was the mixed fleet "
+        return ["- What one capacity can do all three can too. In no case was the mixed fleet "
                 "dearer."]
-    return ["What one capacity can do all three can too, so a mixed fleet that comes out dearer is "
-            f"the search's failure. It did in {len(dearer)} of {len(shares)} comparisons, by "
+    return ["- What one capacity can do all three can too. Where the mixed fleet is dearer, the "
+            f"search has failed. It did in {len(dearer)} of {len(shares)} comparisons, by "
             f"{percent(statistics.fmean(dearer), 2)} % in their mean and "
             f"{percent(max(dearer), 2)} % at most."]
 
 
-def on_hours(rows: Sequence[Planned], trips: Sequence[TripRow]) -> list[str]:
+def on_hours(rows: Sequence[Planned]) -> list[str]:
     """Hold the paper's findings on hours and capacity against the surfaces."""
     lines = []
     for size in sizes_of(rows):
@@ -157,7 +164,7 @@ def on_hours(rows: Sequence[Planned], trips: Sequence[TripRow]) -> list[str]:
     return [
         *markdown(["customers", "least cost, paper", "here", f"within {100 * FLAT:g} % of it",
                    "most, paper", "here"], lines, words=0), "",
-        *_on_capacity(rows), *_on_longer_days(rows), *_on_mixed(trips)]
+        *_on_capacity(rows), *_on_longer_days(rows)]
 
 
 def _on_capacity(rows: Sequence[Planned]) -> list[str]:
@@ -169,22 +176,18 @@ def _on_capacity(rows: Sequence[Planned]) -> list[str]:
             steps += len(costs) - 1
             cheaper += sum(later < sooner for sooner, later in pairwise(costs))
     verdict = "always" if cheaper == steps else f"in {cheaper} of {steps} steps"
-    return [f"- Does capacity help? The next larger truck is cheaper in the mean {verdict}, at "
-            "costs that rise less than capacity does. So 200 is where the least cost is to be "
-            "looked for; a least cost at 110, as the paper has with 50 customers, isn't seen."
-            if all(min(surface_of(rows, size).items(), key=lambda item: item[1])[0][0] == 200
-                   for size in sizes_of(rows)) else
-            f"- Does capacity help? The next larger truck is cheaper in the mean {verdict}, at "
-            "costs that rise less than capacity does."]
+    return [f"- Does capacity help? The next larger truck is cheaper in the mean {verdict}. Costs "
+            "rise less than capacity does."]
 
 
 def _on_longer_days(rows: Sequence[Planned]) -> list[str]:
     dearer, steps, most = rises(rows)
-    return ["- A longer day forbids nothing, so the best plan can't become dearer with it: of the "
-            f"{steps} steps to more hours {dearer} did, by {percent(most, 2)} % at most, which is "
-            "what the search misses. A least cost amid the hours, as the paper's at 6.5 to 8 h, "
-            "can only come from that or from a cost per hour that it doesn't tell of.",
-            f"- Short days are dear: {_of_days(rows, min)}, {_of_days(rows, max)}."]
+    return ["- A longer day forbids nothing, so the best plan can't become dearer with it. Of the "
+            f"{steps} steps to more hours {dearer} did, by {percent(most, 2)} % at most: so much "
+            "the search misses. The paper has the least cost at 6.5 to 8 h. That can come from a "
+            "search that misses, or from a cost per hour that it doesn't tell of.",
+            f"- Short days are dear. Those of {_of_days(rows, min)}. Those of "
+            f"{_of_days(rows, max)}."]
 
 
 def _of_days(rows: Sequence[Planned], chosen: Callable[[Iterable[float]], float]) -> str:
@@ -195,22 +198,14 @@ def _of_days(rows: Sequence[Planned], chosen: Callable[[Iterable[float]], float]
             f"mean, loaded {100 * statistics.fmean(row.mean_load_rate for row in mine):.0f} %")
 
 
-def _on_mixed(trips: Sequence[TripRow]) -> list[str]:
-    sizes = sorted({trip.customers for trip in trips})
-    least = [100 * min(mixed_rates(trips, size)) for size in sizes]
-    return ["- Every heterogeneous trip above 80 % loaded? "
-            f"{'Yes' if min(least) > 100 * WELL_LOADED else 'No'}: the least are "
-            f"{words_of(least, '.0f')} % (section 3)."]
-
-
 def on_drones(rows: Sequence[Planned]) -> list[str]:
     """Say what drones, windows and speeds cost or save."""
     def saved(drones: int, fewer: int) -> float:
         return -100 * _change(rows, lambda row: row.drones == drones,
                               lambda row: row.drones == fewer)
 
-    lines = [f"- One drone on each truck saves {saved(1, 0):.1f} % of the total in the mean, the "
-             f"second {saved(2, 1):.1f} % more."]
+    lines = [f"- One drone on each truck saves {saved(1, 0):.1f} % of the total in the mean. The "
+             f"second saves {saved(2, 1):.1f} % more."]
     for windows in ("soft", "hard"):
         with_them = [row for row in rows if row.windows in (windows, "off")]
         more = 100 * _change(with_them, lambda row: row.windows != "off",
@@ -245,13 +240,12 @@ def on_policies(rows: Sequence[Planned]) -> list[str]:
     alone = [beside(decoding, lambda row: not row.turns, first, second)
              for decoding in (GREEDY, SAMPLED)]
     lines = [f"- Alone, plans of `{first}` cost {words_of(alone, '+z.1f')} % beside those of "
-             f"`{second}`, greedy and best of 128 samples, where both serve everybody."]
+             f"`{second}`. That is greedily and by 128 samples, where both serve everybody."]
     for turns in sorted({row.turns // row.customers for row in rows} - {0}):
         def with_turns(row: Planned, turns: int = turns) -> bool:
             return row.turns == turns * row.customers
 
         values = [beside(GREEDY, with_turns, name, NOBODY) for name in POLICIES]
-        lines.append(f"- After {turns} turns a customer, searches begun by `{first}` and "
-                     f"`{second}` end at {words_of(values, '+z.1f')} % beside those begun by "
-                     "insertion.")
+        lines.append(f"- After {turns} turns a customer, searches begun by them end at "
+                     f"{words_of(values, '+z.1f')} % beside insertion's.")
     return lines

@@ -97,13 +97,12 @@ def fleets_table(rows: Sequence[Planned], trips: Sequence[TripRow]) -> Lines:
             lines.append([
                 str(size), fleet, _mean(group, lambda row: row.vehicles),
                 _mean(group, lambda row: row.trips), percent(statistics.fmean(rates)),
-                percent(min(rates)), percent(sum(rate > 0.8 for rate in rates) / len(rates), 0),
-                _mean(group, lambda row: row.driven), percent(statistics.fmean(working)),
-                _mean(group, lambda row: row.transport), _mean(group, lambda row: row.fixed),
+                percent(min(rates)), _mean(group, lambda row: row.driven),
+                percent(statistics.fmean(working)),
                 f"{cost:.1f} ± {deviation:.2f}"])
     return markdown(["customers", "capacity", "trucks", "trips", "load, mean %", "load, least %",
-                     "trips above 80 %, %", "course, km", "working rate, %", "transport", "fixed",
-                     "total"], lines, words=0)
+                     "course, km", "working rate, %", "total"],
+                    lines, words=0)
 
 
 def _mean(rows: Sequence[Planned], value: Callable[[Planned], float]) -> str:
@@ -172,14 +171,19 @@ def printed_fleets_table() -> Lines:
             rows = [row for row in printed_rows(table) if row["fleet"] == fleet]
             printed = [float(row["loading_rate_printed"].rstrip("%")) for row in rows]
             demands = [float(row["total_demand"]) for row in rows]
-            rates = [100 * demand / float(row["capacity"])
-                     for demand, row in zip(demands, rows, strict=True)]
+            rates = rates_of_demands(table, fleet)
             lines.append([str(size), fleet, str(len({row["vehicle"] for row in rows})),
                           str(len(rows)), f"{sum(demands):g}", f"{statistics.fmean(printed):.1f}",
                           f"{min(printed):.1f}", f"{statistics.fmean(rates):.1f}",
                           f"{min(rates):.1f}"])
     return markdown(["customers", "fleet", "trucks", "trips", "demand", "load, printed mean %",
                      "least %", "load, recomputed mean %", "least %"], lines, words=2)
+
+
+def rates_of_demands(table: int, fleet: str) -> list[float]:
+    """Return the load rates of the trips in a printed table, by its demands, in percent."""
+    return [100 * float(row["total_demand"]) / float(row["capacity"])
+            for row in printed_rows(table) if row["fleet"] == fleet]
 
 
 def hours_table(rows: Sequence[Planned], size: int) -> Lines:
@@ -226,7 +230,7 @@ def drones_table(rows: Sequence[Planned]) -> Lines:
                     shares = [100 * row.cost / base[row.case] for row in rows if (
                         row.customers, row.drones, row.windows, row.speeds) == (
                         size, drones, windows, speeds)]
-                    cells.append(f"{statistics.fmean(shares):.1f} ± {spread(shares):.1f}")
+                    cells.append(f"{statistics.fmean(shares):.1f}")
             lines.append([str(size), str(drones), *cells])
     header = [f"{windows}, {speeds}" for windows in WINDOWS for speeds in SPEEDS]
     return markdown(["customers", "drones", *header], lines, words=0)
@@ -267,13 +271,11 @@ def policies_table(rows: Sequence[Planned]) -> Lines:
             shares = [100 * (row.cost / best[row.customers, row.case] - 1)
                       for row in mine if not row.unassigned]
             left_out = sum(row.unassigned for row in mine)
-            text = f"{statistics.fmean(shares):.1f} ± {spread(shares):.1f}" if shares else "none"
+            text = f"{statistics.fmean(shares):.1f}" if shares else "none"
             cells.append(f"{text} ({left_out} left out)" if left_out else text)
-        seconds = [statistics.fmean(row.wall_s for row in group if row.customers == size)
-                   for size in sizes]
-        lines.append([*way, *cells, " / ".join(f"{value:.2g}" for value in seconds)])
-    return markdown(["begun by", "search", *(f"{size} customers, %" for size in sizes),
-                     "seconds"], lines, words=2)
+        lines.append([*way, *cells])
+    return markdown(["begun by", "search", *(f"{size} customers, %" for size in sizes)], lines,
+                    words=2)
 
 
 def way_of(row: Planned) -> tuple[str, str]:

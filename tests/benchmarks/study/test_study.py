@@ -137,11 +137,11 @@ def test_search_begins_as_the_task_says() -> None:
 
 def test_small_study_is_planned_once_and_reported_the_same_again(tmp_path: Path) -> None:
     page = tmp_path / "study.md"
-    study = run(TINY, page.with_suffix(""), workers=1)
+    study = run(TINY, tmp_path / "runs", workers=1)
     assert [row.task for row in study.rows] == list(all_tasks(TINY))
-    write_report(study, page)
+    write_report(study, page, tmp_path / "runs")
     written = {path.name: path.read_bytes() for path in tmp_path.rglob("*.*")}
-    write_report(run(TINY, page.with_suffix(""), workers=1), page)
+    write_report(run(TINY, tmp_path / "runs", workers=1), page, tmp_path / "runs")
     assert {path.name: path.read_bytes() for path in tmp_path.rglob("*.*")} == written
     text = page.read_text()
     for name in ("nodes", "windows", "routes", "turns", "fleets", "trips", "hours", "drones",
@@ -149,6 +149,9 @@ def test_small_study_is_planned_once_and_reported_the_same_again(tmp_path: Path)
         assert f"](study/{name}.svg)" in text
         assert written[f"{name}.svg"].startswith(b"<?xml")
     assert "40 MISSING, 20 DUPLICATE, 2 SERVED_BY" in text
+    tables = written["tables.md"].decode()
+    for title in ("25 customers, as Table 3", "by capacity and hours", "driven, flown and worked"):
+        assert title in tables
 
 
 def test_cheaper_plan_is_kept(tmp_path: Path) -> None:
