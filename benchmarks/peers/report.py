@@ -1,7 +1,7 @@
 """Tables and plots of `benchmarks.peers.versus`: `python -m benchmarks.peers.report`.
 
-Writes `docs/develop/benchmarks.md`, in it only what lies between two markers, and beside it all
-runs as a CSV, with which `benchmarks.peers.versus` can go on; of the part `versus` two plots, too.
+Writes `docs/develop/benchmarks.md`, in it only what lies between two markers; of the part `versus`
+two plots beside it, too.
 """
 
 import math
@@ -16,22 +16,25 @@ import typer
 from benchmarks.peers.plots import draw_anytime, draw_by_size
 from benchmarks.peers.workers import SOLVERS
 from benchmarks.results import Result
-from benchmarks.rows import append_rows, read_rows
+from benchmarks.rows import read_rows
 
 OVERRUN = 1.2
 """Calls longer than this share of the budget are noted."""
 
+OWN = "tandem"
+"""The solver whose gaps are held against others', and told with their spread."""
+
 TITLE = "# Benchmarks\n\nTandem beside other solvers on public instances."
 
 NOTES = """\
-Mean gap to the best known cost in %, ± the standard deviation of the seeds' means, the best bold.
-In brackets: how many plans were infeasible, left customers out or never came, which are out of the
-mean; and how long the call took on average where it was well over the budget.
+Mean gap to the best known cost in %, the best bold.
+± is the standard deviation of the means of Tandem's seeds.
+In brackets: how many plans were infeasible, left customers out or never came; the mean is without.
+Also how long the call took, where it was well over the budget.
 Blank: the solver can't plan such instances or keep to such a budget.
 The last column divides Tandem's gap on one thread by that of the best other solver.
 
 Budgets are the wall-clock of the solver's call, code loaded before.
-All plans were timed and judged by Tandem's checker.
 Conventions and best known costs are those of the sets.
 VROOM is the better of exploration levels 0 and 5.
 OR-Tools (guided local search) is the better of two first plans, each given the whole budget.
@@ -78,9 +81,9 @@ def _cell(rows: Sequence[Result], is_best: bool) -> str:
     """Return what a table says of one solver on one set within one budget."""
     if not rows:
         return ""
-    gap, deviation = mean_gap(rows), spread(rows)
+    gap = mean_gap(rows)
     text = "none" if math.isnan(gap) else f"**{gap:.2f}**" if is_best else f"{gap:.2f}"
-    if not math.isnan(deviation):
+    if rows[0].solver == OWN and not math.isnan(deviation := spread(rows)):
         text += f" ± {deviation:.2f}"
     notes = []
     if failed := sum(not row.counts for row in rows):
@@ -112,8 +115,8 @@ def table(results: Sequence[Result]) -> list[str]:
 def _ratio(gaps: dict[str, float]) -> str:
     """Return Tandem's gap on one thread as a share of the best peer's."""
     others = [gap for name, gap in gaps.items()
-              if not name.startswith("tandem") and not math.isnan(gap)]
-    own = gaps.get("tandem", math.nan)
+              if not name.startswith(OWN) and not math.isnan(gap)]
+    own = gaps.get(OWN, math.nan)
     return "" if math.isnan(own) or not others or min(others) <= 0 else f"{own / min(others):.2f}"
 
 
@@ -138,7 +141,7 @@ def markers(part: str) -> tuple[str, str]:
 
 
 def write(results: Sequence[Result], page: Path, part: str = "versus") -> None:
-    """Write a part of the page between its markers, keeping what is around it, plots and runs.
+    """Write a part of the page between its markers, keeping what is around it, and plots.
 
     Raises
     ------
@@ -153,14 +156,10 @@ def write(results: Sequence[Result], page: Path, part: str = "versus") -> None:
         raise ValueError(f"{page}: has no part between {begin} and {end}")
     plots = ["![Mean gap over time for each set](anytime.svg)", "",
              "![Gap over the number of customers](by_size.svg)", ""] if part == "versus" else []
-    runs = page.with_name(f"{part}.csv")
     written = "\n".join([
-        begin, "", _circumstances(results), "", *table(results), "", PARTS[part], "", *plots,
-        f"All runs: [{runs.name}]({runs.name}).", "", end])
+        begin, "", _circumstances(results), "", *table(results), "", PARTS[part], "", *plots, end])
     page.parent.mkdir(parents=True, exist_ok=True)
     page.write_text(before + written + after, encoding="utf-8")
-    runs.unlink(missing_ok=True)
-    append_rows(runs, Result, results)
     if plots:
         draw_anytime(by_group(results), page.with_name("anytime.svg"))
         draw_by_size(results, page.with_name("by_size.svg"))
