@@ -2,19 +2,19 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal, cast
 
 from pydantic import BaseModel
 
-from app.plans.replies import Data
 from app.schemas.errors import json_path
 from app.schemas.relation import RelationInput
 from app.schemas.request import PlanRequest
-from app.schemas.shipment import ShipmentInput
+from app.schemas.shipment import EndKind, ShipmentInput, end_name
 from app.schemas.times import Written
 from app.schemas.written import length_like
 from model.judge.remedy import LAST_WINDOW, Change, Remedy
 
+Data = dict[str, Any]
 Keys = tuple[str | int, ...]
 Found = list[tuple[Keys, Data]]
 """Places of a request, and `by` or `to` what each changes."""
@@ -58,6 +58,20 @@ class Changing:
         """Return where it is said how he is served: of a shipment that is fetched, its delivery."""
         is_shipment = isinstance(self.at(self.subject), ShipmentInput)
         return (*self.subject, "delivery") if is_shipment else self.subject
+
+    def who(self, change: Change) -> str | None:
+        """Return the id of whom a change is about, None for the whole request."""
+        whose = WHOSE.get(change.limit, "type")
+        if whose == "request":
+            return None
+        if whose == "subject":
+            return change.of or str(self.at(self.subject).id)
+        if whose == "end":
+            end, _, part = change.of.partition(" ")
+            return end_name(self.at(self.subject).id, cast("EndKind", end), part or None)
+        drones = "".join(change.names) if change.limit == "batteries_aboard" else change.of
+        name = {"drones": drones, "named": change.of}.get(whose)
+        return name or str(self.at(self.type).id)
 
     def at(self, keys: Keys) -> Any:
         """Return what the request states at a place."""
@@ -232,6 +246,18 @@ def _amounts(change: Change) -> Data:
     return {"to": list(map(float, change.amounts))}
 
 
+WHOSE: dict[str, Literal["subject", "end", "drones", "named", "request"]] = {
+    **dict.fromkeys(("by_truck", "by_drone", "window", "time_aboard", "time_between", "detour",
+                     "lag", "relations", "own_unassigned_cost"), "subject"),
+    "end_window": "end",
+    **dict.fromkeys(("drone_capacity", "endurance", "range", "wind", "battery",
+                     "batteries_aboard"), "drones"),
+    **dict.fromkeys(("launch", "depot_hours", "hub_batteries", "hub_chargers", "break",
+                     "break_load", "break_start"), "named"),
+    **dict.fromkeys(("unassigned_cost", "buffer"), "request"),
+}
+"""Whom a limit is of, where that isn't the vehicle type: `named` are depots and breaks."""
+
 CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
     "vehicles": _vehicles,
     "by_truck": lambda of, _: [((*of.place, "served_by"), {"to": "either"})],
@@ -288,6 +314,7 @@ CHANGES: dict[str, Callable[[Changing, Change], Found]] = {
     "hub_chargers": _one_more("depots", "chargers"),
     "unassigned_cost": lambda _, change: [
         (("unassigned_cost",), {"to": round(change.quantity + CENT, 2)})],
+    "buffer": lambda _, change: [(("airspace", "buffer"), {"to": change.quantity})],
     "own_unassigned_cost": lambda of, change: [
         ((*of.subject, "unassigned_cost"), {"to": round(change.quantity + CENT, 2)})],
 }

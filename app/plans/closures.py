@@ -7,6 +7,8 @@ from math import ceil, floor
 from typing import NamedTuple
 
 from app.maps.airspace.zone import Limit
+from app.plans.changes import Changing
+from app.plans.remedies import remedies_reply, remedy_reply
 from app.plans.replies import Data
 from app.plans.storms import HELD_BACK
 from app.requests.conversion.closings import Times
@@ -15,6 +17,7 @@ from app.requests.conversion.places import PlacedRequest
 from app.requests.conversion.zones import Part
 from app.schemas.request import PlanRequest
 from model.judge.flight_diagnoses import CLOSED, NO_FLIGHT
+from model.judge.remedy import remedy_of
 from model.problem import UNLIMITED
 from model.travel.zones import WIDER_M
 
@@ -88,7 +91,7 @@ class Closures:
                 reason["code"] = CODE
                 reason["message"] = found.told(self.buffer)
                 reason["zone"] = zone_reply(found, self.buffer)
-                _add_remedy(reason, found.metres)
+                self._add_remedy(reason, found.metres)
             elif self.buffer:
                 self._name_area(customer, reason)
 
@@ -115,7 +118,7 @@ class Closures:
                     reason["code"] = CODE
                     reason["message"] = (f"{_beside(holds, metres)} the area airspace.no_fly"
                                          f"[{number}]. {_kept(self.buffer)}")
-                    _add_remedy(reason, metres)
+                    self._add_remedy(reason, metres)
                     return
 
     def around(self, customer: str) -> list[Data]:
@@ -156,21 +159,18 @@ class Closures:
         """Metres that flights keep from areas and zones."""
         return self._request.airspace.buffer
 
+    def _add_remedy(self, reason: Data, metres: float) -> None:
+        """Add by which buffer somebody so far from an area is far enough away. In place."""
+        enough = floor(metres - WIDER_M)
+        if enough >= 0:
+            changing = Changing(self._request, (), ())
+            reason |= remedies_reply([*reason["remedies"], remedy_reply(
+                remedy_of("buffer", quantity=enough), changing, is_judged=False)])
+
     def _depot_of(self, kind: str) -> int:
         stated = next(each for each in self._request.fleet if each.id == kind)
         ids = [depot.id for depot in self._request.depots]
         return 0 if stated.depot is None else ids.index(stated.depot)
-
-
-def _add_remedy(reason: Data, metres: float) -> None:
-    """Add by which buffer somebody who lies so far from an area is far enough away. In place."""
-    enough = floor(metres - WIDER_M)
-    if enough >= 0:
-        remedy = f"lies far enough away with airspace.buffer {enough}"
-        words, changes = (("remedy", "changes") if reason["remedy"] is None
-                          else ("other_remedy", "other_changes"))
-        reason[words] = remedy
-        reason[changes] = [{"path": "$.airspace.buffer", "to": enough}]
 
 
 def hours_of(found: Hindrance) -> str:

@@ -3,8 +3,9 @@
 from collections.abc import Collection, Iterable, Sequence
 
 from app.plans.replies import (
-    Changes, Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
+    Data, cost_reply, one_per_type, place_reply, reason_reply, vehicle_name,
 )
+from app.plans.remedies import Remedies
 from app.plans.task import telling
 from app.requests.conversion.units import money, whole
 from model.judge.alternatives import Alternative, halt_of
@@ -23,7 +24,7 @@ from model.solution import Cost, Solution, Stop, Visit
 
 
 def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: Iterable[Binding],
-                   reasons: Iterable[Reason], changes: Changes) -> Data:
+                   reasons: Iterable[Reason], remedies: Remedies) -> Data:
     """Return what is said of one customer or shipment."""
     problem = bench.problem
     return {
@@ -32,7 +33,7 @@ def customer_reply(bench: Bench, alternatives: Iterable[Alternative], binding: I
         "here": here_reply(bench),
         "alternatives": [_alternative(bench, each) for each in alternatives],
         "binding": [_binding(bench, each) for each in binding],
-        "reasons": [reason_reply(problem, bench.node, reason, changes)
+        "reasons": [reason_reply(problem, bench.node, reason, remedies)
                     for reason in one_per_type(problem, reasons)],
     }
 

@@ -89,10 +89,18 @@ def answer_explain(body: ReceivedBody, bounds: Bounds, planner: Planner,
     question = _question(Subject(request.customer, request.shipment), request.drones,
                          request.options, body.received_at, request.idle_drones)
     reply = _Explainer(task, solution, planner, should_stop).answer(question)
-    for reason in reply["reasons"]:
-        for change in (*reason["changes"], *reason.get("other_changes", ())):
-            change["path"] = change["path"].replace("$", f"$.{PROBLEM}", 1)
+    reply["reasons"] = [_of_problem(reason) for reason in reply["reasons"]]
     return to_json(reply)
+
+
+def _of_problem(told: Data) -> Data:
+    """Return a reason, or a remedy, whose changes are of the problem beside the plan."""
+    return told | {
+        name: [change | {"path": change["path"].replace("$", f"$.{PROBLEM}", 1)}
+               for change in told[name]]
+        for name in ("changes", "other_changes") if name in told
+    } | {name: list(map(_of_problem, told[name]))
+         for name in ("remedies", "parts") if name in told}
 
 
 def explain_job(request: PlanRequest, plan: bytes, subject: Subject, drones: bool,
@@ -255,7 +263,7 @@ class _Explainer:
         reasons = (() if bench.found is not None else self._task.reasons(
             self._solution, bench.node, time.perf_counter() + REASONS_SECONDS))
         return (customer_reply(bench, found.alternatives, binding, reasons,
-                               self._task.changes),
+                               self._task.remedy),
                 found.is_complete and in_time)
 
     def _of_drones(self, question: Question) -> tuple[Data, bool]:

@@ -7,6 +7,7 @@ from functools import partial
 from typing import Any
 
 from app.plans.energy import energy_models, energy_wh, left_by_sorties, left_by_trips
+from app.plans.remedies import Remedies, of_no_request, remedies_reply
 from app.requests.conversion.units import money, whole
 from app.schemas.customer import place_name
 from app.schemas.driving import REST_ID
@@ -16,7 +17,6 @@ from model.judge.chargers import most_charged
 from model.judge.hubs import batteries_taken
 from model.judge.explain import Reason, explain
 from model.judge.fairness import vehicles_lacking
-from model.judge.remedy import Remedy
 from model.judge.metrics import RouteMetrics, SortieMetrics, TripMetrics
 from model.planner import PlanOptions, PlanResult
 from model.problem import MM_PER_KM, REST, Problem, Shipment
@@ -40,18 +40,9 @@ Reasons = Callable[[Solution, int, float], tuple[Reason, ...]]
 """Says why a plan leaves a customer out, as far as is found until an instant."""
 
 
-Changes = Callable[[int, Reason, Remedy], list[Data]]
-"""Returns what a remedy changes of the request, for who is left out at a node."""
-
-
-def no_changes(_node: int, _reason: Reason, _remedy: Remedy) -> list[Data]:
-    """Return none, for a problem of no request."""
-    return []
-
-
 def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
                reasons: Reasons | None = None, explain_until: float = math.inf,
-               changes: Changes = no_changes) -> Data:
+               remedies: Remedies = of_no_request) -> Data:
     """Return the reply but for `solver.elapsed`'s `validate` and `total`, which are 0.
 
     `reasons` are those of vehicles that have done nothing yet unless stated; none is looked for
@@ -66,7 +57,7 @@ def plan_reply(problem: Problem, options: PlanOptions, result: PlanResult,
         "routes": [route_reply(problem, route, metrics)
                    for route, metrics in zip(solution.routes, evaluation.routes, strict=True)],
         **_unassigned(problem, solution, lambda node: why(solution, node, explain_until),
-                      changes),
+                      remedies),
         "summary": summary_reply(problem, solution, evaluation),
         "solver": {
             "policy": options.policy,
@@ -277,7 +268,7 @@ def _sortie(problem: Problem, kind: int, vehicle: str, sortie: Sortie,
 
 
 def _unassigned(problem: Problem, solution: Solution,
-                why: Callable[[int], tuple[Reason, ...]], changes: Changes) -> Data:
+                why: Callable[[int], tuple[Reason, ...]], remedies: Remedies) -> Data:
     """Return the fields of a reply on who is left out."""
     told: list[Data] = []
     left_out = frozenset(solution.unassigned)
@@ -293,24 +284,19 @@ def _unassigned(problem: Problem, solution: Solution,
         named = ({"id": problem.customer_at(node).id} if shipment is None
                  else _left_out(problem, shipment))
         told.append({**named,
-                     "reasons": [reason_reply(problem, node, reason, changes)
+                     "reasons": [reason_reply(problem, node, reason, remedies)
                                  for reason in reasons]})
     return {"unassigned": told} | ({"unexplained": unexplained} if unexplained else {})
 
 
-def reason_reply(problem: Problem, node: int, reason: Reason, changes: Changes) -> Data:
+def reason_reply(problem: Problem, node: int, reason: Reason, remedies: Remedies) -> Data:
     """Return why vehicles of a type don't serve a customer."""
-    reply: Data = {
+    return {
         "vehicle_type": problem.vehicle_types[reason.vehicle_type].type_id,
         "code": reason.code,
         "message": reason.message,
-        "remedy": reason.remedy,
-        "changes": [],
+        **remedies_reply([remedies(node, reason, remedy) for remedy in reason.remedies]),
     }
-    names = (("remedy", "changes"), ("other_remedy", "other_changes"))
-    for (words, data), remedy in zip(names, reason.remedies, strict=False):
-        reply |= {words: str(remedy), data: changes(node, reason, remedy)}
-    return reply
 
 
 def one_per_type(problem: Problem, reasons: Iterable[Reason]) -> list[Reason]:

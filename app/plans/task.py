@@ -11,6 +11,7 @@ from pydantic_core import to_json
 
 from app.maps.roads.roads import NO_ROADS, Roads
 from app.plans.changes import Changing
+from app.plans.remedies import remedy_reply
 from app.plans.carried import Info, carry, info_of, names_left_out
 from app.plans.closures import Closures
 from app.plans.far_plans import FarPlans
@@ -152,22 +153,22 @@ class Task:
         return tuple([self.permits.named(name, kinds[reason.vehicle_type].type_id, reason)
                       for reason in found])
 
-    def changes(self, node: int, reason: Reason, remedy: Remedy) -> list[Data]:
-        """Return what a remedy changes of the request, for who is left out at a node."""
+    def remedy(self, node: int, reason: Reason, remedy: Remedy) -> Data:
+        """Return a remedy for who is left out at a node."""
         if self.places is None:
-            return []
+            return remedy_reply(remedy, None)
         shipment = self.problem.shipment_at.get(node)
         name = (self.problem.customer_at(self.problem.first_place(node)).id if shipment is None
                 else shipment.id)
         kind = self.problem.vehicle_types[reason.vehicle_type].type_id
         changing = Changing.of(self.places.placed.request, kind, name, shipment is not None)
-        return changing.changes(remedy)
+        return remedy_reply(remedy, changing)
 
     def reply(self, options: PlanOptions, result: PlanResult) -> Data:
         """Return the reply to a plan, as `plan_reply` does, with reasons while there is time."""
         allowed = EXPLAINING + EXPLAINING_SHARE * options.time_limit
         until = time.perf_counter() + allowed
-        reply = plan_reply(self.problem, options, result, self.reasons, until, self.changes)
+        reply = plan_reply(self.problem, options, result, self.reasons, until, self.remedy)
         for left in reply["unassigned"]:
             self.name_hindrances(names_left_out(left), left["reasons"])
         reply["legs"] = [asdict(origin) for origin in self.legs]

@@ -8,7 +8,8 @@ from app.schemas.check import PlannedProblem
 from app.schemas.limits import MAX_TIME_LIMIT
 from app.schemas.hindrances import StormReply, ZoneReply
 from app.schemas.plan import ALTERNATIVE_TEXT, PART_TEXT
-from app.schemas.response import WARNINGS_TEXT, CostReply, ReasonReply, WarningReply
+from app.schemas.reasons import ReasonReply
+from app.schemas.response import WARNINGS_TEXT, CostReply, WarningReply
 from app.schemas.shipment import EndKind
 from app.schemas.times import InstantReply, WordsReply
 

@@ -4,20 +4,21 @@ Replies are written by `app.plans.replies` as plain data for speed; these classe
 a test holds the two together.
 """
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from app.schemas.hindrances import AirspaceReply, StormReply, ZoneReply
+from app.schemas.hindrances import AirspaceReply
 from app.schemas.hub import ChargingReply, HubReply
 from app.schemas.legs import LegsReply
 from app.schemas.named_models import DrivingLawReply, EnergyModelReply, PublishedRuleReply
 from app.schemas.plan import (
     ALTERNATIVE_TEXT, PART_TEXT, STOP_ID_TEXT, STOP_KIND_TEXT, VISIT_KIND_TEXT, StopKind,
 )
+from app.schemas.reasons import ReasonReply
 from app.schemas.replanned import ReplanReply
 from app.schemas.shipment import EndKind
-from app.schemas.times import InstantReply, WordsReply
+from app.schemas.times import InstantReply
 
 LINE = ("as an encoded polyline of six decimals, latitude (of planar places y) first. Null: not "
         "known, or not found in time. Left out unless `options.geometry` asks for it.")
@@ -175,36 +176,6 @@ class RouteReply(_Reply):
     )
     cost: float = Field(description="Cost of the vehicle and its drones.")
     trips: list[TripReply] = Field(description="Trips in order.")
-
-
-class ChangeReply(_Reply):
-    """A change of the request, in its own notation: `by` so much, or `to` a value."""
-
-    path: str = Field(description="Where it is in the request, such as `$.fleet[0].count`.")
-    by: float | None = Field(
-        None, description="What is added to the number that stands there; left out beside `to`.")
-    to: Any = Field(
-        None, description="What is to stand there instead; left out beside `by`.")
-
-
-class ReasonReply(_Reply):
-    """Why vehicles of one type don't serve a customer."""
-
-    vehicle_type: str = Field(description="Id of the vehicle type.")
-    code: str = Field(description="Stable name of the reason.")
-    message: WordsReply = Field(description="The reason in words.")
-    remedy: WordsReply | None = Field(
-        description="A change that would suffice. Null: none is known.")
-    changes: list[ChangeReply] = Field(
-        description="The same as changes of the request, which together suffice.")
-    other_remedy: str | None = Field(
-        None, description="Another change that would suffice; left out where none is known.")
-    other_changes: list[ChangeReply] | None = Field(
-        None, description="The same as changes; left out where none is known.")
-    zone: ZoneReply | None = Field(
-        None, description="Of `AIRSPACE`: the zone; left out for other reasons.")
-    wind: list[StormReply] | None = Field(
-        None, description="When it blows too much; left out for reasons that it doesn't matter to.")
 
 
 class UnassignedReply(_Reply):

@@ -46,7 +46,7 @@ class Remedy:
 
     def __str__(self) -> str:
         """All of it in words."""
-        begin = "served" if self.changes[0].limit in PRICES else "fits"
+        begin = BEGINNINGS.get(self.changes[0].limit, "fits")
         return f"{begin} {' and '.join(map(_clause, self.parts))}"
 
 
@@ -109,7 +109,7 @@ def _number(change: Change) -> str:
     return "1 stop" if change.quantity == 1 else f"{change.quantity:g} stops"
 
 
-PRICES = ("unassigned_cost", "own_unassigned_cost")
+BEGINNINGS = {"unassigned_cost": "served", "own_unassigned_cost": "served", "buffer": "lies"}
 
 CLAUSES: dict[str, Callable[[Change], str]] = {
     "vehicles": lambda change: f"if {' and '.join(change.names)} may serve it",
@@ -165,5 +165,6 @@ CLAUSES: dict[str, Callable[[Change], str]] = {
     "unassigned_cost": lambda change: f"if unassigned_cost were above {change.quantity:.2f}",
     "own_unassigned_cost": lambda change:
         f"if its unassigned_cost were above {change.quantity:.2f}",
+    "buffer": lambda change: f"far enough away with airspace.buffer {change.quantity}",
 }
 """What a limit would have to be, in words, by its name."""
