@@ -1,15 +1,15 @@
 """Does what every remedy says, and plans again: `python -m benchmarks.fuzz.remedies`.
 
 Wild problems and days with late windows for drones are planned. Each remedy of a customer left out
-is applied to the request by its `changes`; of that customer and that vehicle type alone a plan must
-then serve the customer. Fails if one doesn't.
+is applied to the request by its `changes`; where they are said to suffice, a plan of that customer
+and that vehicle type alone must then serve the customer. Fails if one doesn't.
 """
 
 import random
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -123,13 +123,6 @@ def _of_one_type(customer: Data, kind: Data) -> Data:
     return customer | {"vehicles": None}
 
 
-def _remedies(reason: Data) -> Iterator[Data]:
-    """Yield a reason with each of its remedies."""
-    for name, changes in (("remedy", "changes"), ("other_remedy", "other_changes")):
-        if reason.get(name) is not None:
-            yield reason | {"remedy": reason[name], "changes": reason[changes]}
-
-
 @dataclass
 class Remedies:
     """What came of all remedies."""
@@ -141,27 +134,27 @@ class Remedies:
         """Plan a problem and apply remedies; return those that don't hold, in words. In place."""
         plan = self.study.planned(request)
         false = []
-        offered = [(left["id"], left.get("kind", "customer"), remedy)
+        offered = [(left["id"], left.get("kind", "customer"), reason, remedy)
                    for left in (plan or {"unassigned": []})["unassigned"]
-                   for reason in left["reasons"] for remedy in _remedies(reason)]
-        for left_out, of, reason in offered[:MOST_OF_A_PLAN]:
-            fault = self._fault(request, left_out, of, reason)
+                   for reason in left["reasons"] for remedy in reason["remedies"]]
+        for left_out, of, reason, remedy in offered[:MOST_OF_A_PLAN]:
+            changed = alone(applied(request, remedy["changes"]), left_out, reason, of)
+            # Who is alone has no relations; what isn't said to suffice has to be understood alone.
+            fault = None if remedy["code"] == "RELATIONS" else self._fault(
+                changed, remedy["suffices"])
             self.applied[reason["code"]] += 1
             if fault is not None:
-                false.append(f"{of} {left_out}, {reason}: {fault}")
+                false.append(f"{of} {left_out}, {reason['vehicle_type']}, {remedy}: {fault}")
         return false
 
-    def _fault(self, request: Data, left_out: str, of: str, reason: Data) -> str | None:
-        """Return what is wrong with a remedy. In place."""
-        if reason["remedy"] == "fits without its relations":
-            return None  # who is alone has none
-        changed = alone(applied(request, reason["changes"]), left_out, reason, of)
+    def _fault(self, changed: Data, suffices: bool) -> str | None:
+        """Return what is wrong with the request that a remedy makes. In place."""
         reply = self.study.ask("/plan", changed)
         if reply is None:
             return "the request that it makes is refused"
         reasons = [why for left in reply["unassigned"] for why in left["reasons"]]
         # Who fits at a price that nobody pays does fit.
-        if any(why["code"] != "COST" for why in reasons):
+        if suffices and any(why["code"] != "COST" for why in reasons):
             return f"still left out: {reasons}"
         return None
 

@@ -1,25 +1,30 @@
-"""Every remedy that the service words is understood by the console, and serves the customer."""
+"""Every remedy that the service tells is applied and said by the console, and serves the customer.
+"""
 
+import json
 import re
+import subprocess
 from typing import Any
 
 import pytest
 from playwright.sync_api import Page
 
-from tests.console.steps import awaited
+from model.judge.remedy import CLAUSES
+from tests.console.steps import STATIC, awaited
 
 pytestmark = pytest.mark.slow
 
 
-APPLY = """async (request) => {
-  const { applyRemedy } = await loaded(`core/remedy-changes.js`);
+APPLY = """async ([request, number]) => {
+  const { applied } = await loaded(`core/remedies.js`);
+  const { remedyInWords } = await loaded(`core/remedy-words.js`);
   const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
     headers: { 'Content-Type': 'application/json' } })).json();
   const first = await plan(request);
   const [customer] = first.unassigned;
-  const reason = customer.reasons.find(({ remedy }) => remedy);
-  const second = await plan(applyRemedy(request, customer.id, reason, customer.kind));
-  return [reason.remedy, second.unassigned];
+  const remedy = customer.reasons.find(({ remedies }) => remedies.length).remedies[number];
+  const second = await plan(applied(request, remedy.changes));
+  return [remedy.text, remedyInWords(remedy, request), second.unassigned];
 }"""
 
 DRONES = {"count": 1, "capacity": [5]}
@@ -79,35 +84,41 @@ PROBLEMS = {
 }
 
 
-APPLY_OTHER = """async (request) => {
-  const { applyRemedy } = await loaded(`core/remedy-changes.js`);
-  const { otherReason } = await loaded(`core/remedies.js`);
-  const plan = async (body) => (await fetch('plan', { method: 'POST', body: JSON.stringify(body),
-    headers: { 'Content-Type': 'application/json' } })).json();
-  const first = await plan(request);
-  const [customer] = first.unassigned;
-  const reason = otherReason(customer.reasons[0]);
-  const second = await plan(applyRemedy(request, customer.id, reason));
-  return [reason.remedy, second.unassigned];
-}"""
+WORDS = """
+const { choose } = await import(`${process.argv[1]}/texts.js`);
+const { remedyInWords } = await import(`${process.argv[1]}/core/remedy-words.js`);
+globalThis.localStorage = { setItem() {} };
+await choose(process.argv[2]);
+const told = JSON.parse(process.argv[3]).map((remedy) => remedyInWords(remedy, {}));
+console.log(JSON.stringify(told));
+"""
+
+BY_LIST = {"CAPACITY": [5], "DRONE_CAPACITY": [5], "BREAK_LOAD": [5], "SKILLS": ["lift"]}
+
+
+@pytest.mark.parametrize("language", ["en", "de"])
+def test_every_remedy_has_words(language: str) -> None:
+    codes = [limit.upper() for limit in CLAUSES]
+    remedies = [{"code": code, "who": "van", "text": "", "suffices": True,
+                 "changes": [{"path": "$.fleet[0].x", "to": BY_LIST.get(code, 60)}]}
+                for code in codes]
+    done = subprocess.run(["node", "--input-type=module", "-e", WORDS, (STATIC / "js").as_uri(),
+                           language, json.dumps(remedies)], capture_output=True, text=True)
+    words = dict(zip(codes, json.loads(done.stdout), strict=True))
+    begin = {"en": "fits if ", "de": "passt, wenn "}[language]
+    assert [code for code, said in words.items() if not said.startswith(begin)] == []
+    assert len({*words.values()}) == len(words)
 
 
 def test_another_trip_is_applied_and_serves_the_customer(console: Page) -> None:
-    remedy, unassigned = awaited(console, APPLY_OTHER, PROBLEMS["one more vehicle"])
-    assert remedy == "fits if van could make another trip"
+    text, words, unassigned = awaited(console, APPLY, [PROBLEMS["one more vehicle"], 1])
+    assert (text, words) == ("fits if van could make another trip",) * 2
     assert unassigned == []
 
 
 @pytest.mark.parametrize("words", PROBLEMS)
 def test_remedy_is_applied_and_serves_the_customer(console: Page, words: str) -> None:
-    remedy, unassigned = awaited(console, APPLY, PROBLEMS[words])
-    assert re.search(words, remedy)
+    text, said, unassigned = awaited(console, APPLY, [PROBLEMS[words], 0])
+    assert re.search(words, text)
+    assert said.startswith("fits if ")
     assert unassigned == []
-
-
-def test_unknown_remedy_changes_nothing(console: Page) -> None:
-    assert console.evaluate("""async () => {
-      const { applyRemedy } = await loaded(`core/remedy-changes.js`);
-      const request = { fleet: [{ id: 'van' }], customers: [{ id: 'A' }] };
-      return applyRemedy(request, 'A', { vehicle_type: 'van', remedy: 'fits on Sundays' });
-    }""") is None

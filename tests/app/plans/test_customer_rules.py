@@ -40,13 +40,17 @@ def test_each_type_has_one_reason_though_its_vehicles_differ(client: httpx.Clien
     second["vehicles"] = {"forbidden": ["truck"]}
     plan = client.post("/plan", json=smallest).json()
     reasons = {left["id"]: left["reasons"] for left in plan["unassigned"]}
-    assert reasons == {
-        "A": [{"vehicle_type": "truck", "code": "SKILLS", "message": "truck-2 lacks crane.",
-               "remedy": "fits if truck-2 had crane",
-               "changes": [{"path": "$.fleet[0].skills", "to": ["crane"]}]}],
-        "B": [{"vehicle_type": "truck", "code": "VEHICLE", "message": "truck may not serve it.",
-               "remedy": "fits if truck may serve it",
-               "changes": [{"path": "$.customers[1].vehicles", "to": None}]}]}
+    told = {name: [(reason["vehicle_type"], reason["code"], reason["message"], [
+        (remedy["code"], remedy["who"], remedy["text"]) for remedy in reason["remedies"]])
+        for reason in each] for name, each in reasons.items()}
+    assert told == {
+        "A": [("truck", "SKILLS", "truck-2 lacks crane.",
+               [("SKILLS", "truck", "fits if truck-2 had crane")])],
+        "B": [("truck", "VEHICLE", "truck may not serve it.",
+               [("VEHICLES", "truck", "fits if truck may serve it")])]}
+    assert [reason["changes"] for each in reasons.values() for reason in each] == [
+        [{"path": "$.fleet[0].skills", "to": ["crane"]}],
+        [{"path": "$.customers[1].vehicles", "to": None}]]
 
 
 @pytest.mark.parametrize(("count", "forbidden", "changed"), [
@@ -83,8 +87,9 @@ def test_explained_customer_has_the_same_remedy(client: httpx.Client, smallest: 
     plan = client.post("/plan", json=smallest).json()
     reply = client.post("/explain", json={"problem": smallest, "plan": plan, "customer": "B"})
     (reason,), (planned,) = reply.json()["reasons"], plan["unassigned"][0]["reasons"]
-    assert reason == planned | {"changes": [
-        {"path": "$.problem.customers[1].vehicles", "to": None}]}
+    changes = [{"path": "$.problem.customers[1].vehicles", "to": None}]
+    (remedy,) = planned["remedies"]
+    assert reason == planned | {"changes": changes, "remedies": [remedy | {"changes": changes}]}
 
 
 def test_a_named_vehicle_is_replanned_by_its_name(client: httpx.Client, smallest: Request) -> None:

@@ -162,10 +162,11 @@ def test_who_may_not_join_whom_vehicles_serve_is_told_by_which_relation(
         ("depot", "hub", 0, 0), ("customer", "d", 60, 60), ("depot", "hub", 120, 120))["routes"]]}
     tour["routes"][1] |= {"vehicle": "van-2"}
     plan = replanned(searching, street, tour, 150, unavailable=["van-1"])
+    remedy, changes = "fits without its relations", [{"path": "$.relations", "to": []}]
     assert plan["unassigned"] == [{"id": "c", "reasons": [{
-        "vehicle_type": "van", "code": "RELATION", "message": why,
-        "remedy": "fits without its relations",
-        "changes": [{"path": "$.relations", "to": []}]}]}]
+        "vehicle_type": "van", "code": "RELATION", "message": why, "remedy": remedy,
+        "changes": changes, "remedies": [{"code": "RELATIONS", "who": "c", "changes": changes,
+                                          "suffices": True, "text": remedy}]}]}]
     street["relations"] = []
     assert replanned(searching, street, tour, 150, unavailable=["van-1"])["unassigned"] == []
 
@@ -180,7 +181,7 @@ def test_who_may_not_join_what_vehicles_have_carried_is_told_so(searching: httpx
                    ("depot", "hub", 360, 360))
     plan = replanned(searching, street, tour, 150)
     assert plan["unassigned"] == [{"id": "c", "reasons": [{
-        "vehicle_type": "van", "code": "GOODS", "remedy": None, "changes": [],
+        "vehicle_type": "van", "code": "GOODS", "remedy": None, "changes": [], "remedies": [],
         "message": "Its goods may not join what van has carried today."}]}]
 
 

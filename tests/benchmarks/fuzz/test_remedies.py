@@ -21,8 +21,8 @@ Data = dict[str, Any]
 PROBLEMS = 40
 
 REASON = {"vehicle_type": "van", "code": "CAPACITY", "message": "…",
-          "remedy": "fits if capacity were at least 9",
-          "changes": [{"path": "$.fleet[0].capacity", "to": [9]}]}
+          "remedies": [{"code": "CAPACITY", "who": "van", "suffices": True, "text": "…",
+                        "changes": [{"path": "$.fleet[0].capacity", "to": [9]}]}]}
 REQUEST: Data = {
     "customers": [{"id": "A", "demand": [9]}, {"id": "B", "demand": [1]}],
     "fleet": [{"id": "van", "capacity": [5]}, {"id": "bus", "capacity": [1]}],

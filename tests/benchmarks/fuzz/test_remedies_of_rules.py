@@ -25,9 +25,9 @@ PICKUP = {"location": [6, 0]}
 
 APPLY = """
 import { createInterface } from 'node:readline';
-const { applyRemedy } = await import(process.argv[1]);
+const { applied } = await import(process.argv[1]);
 for await (const line of createInterface({ input: process.stdin })) {
-  console.log(JSON.stringify(applyRemedy(...JSON.parse(line))));
+  console.log(JSON.stringify(applied(...JSON.parse(line))));
 }"""
 
 
@@ -38,9 +38,9 @@ class Console:
     to: IO[str]
     out: IO[str]
 
-    def applied(self, request: Request, left_out: str, reason: Request, kind: str) -> Request:
+    def applied(self, request: Request, changes: list[Request]) -> Request:
         """Return a request as a remedy changes it."""
-        self.to.write(json.dumps([request, left_out, reason, kind]) + "\n")
+        self.to.write(json.dumps([request, changes]) + "\n")
         self.to.flush()
         changed: Request = json.loads(self.out.readline())
         return changed
@@ -49,7 +49,7 @@ class Console:
 @contextmanager
 def console() -> Iterator[Console]:
     """Run that part until the block ends."""
-    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedy-changes.js"
+    module = ROOT / "app" / "console" / "static" / "js" / "core" / "remedies.js"
     command = ["node", "--input-type=module", "-e", APPLY, module.as_uri()]
     with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
                           text=True) as process:
@@ -134,12 +134,9 @@ def test_what_is_offered_has_it_served(
     request = request_of(van, **parts)
     left, = planned(client, request)["unassigned"]
     reason, = left["reasons"]
-    offered = {reason[name]: reason[changes]
-               for name, changes in (("remedy", "changes"), ("other_remedy", "other_changes"))
-               if reason.get(name)}
+    offered = {each["text"]: each["changes"] for each in reason["remedies"]}
     assert (reason["code"], remedy) == (code, remedy if remedy in offered else offered)
-    for words, changes in offered.items():
-        assert planned(client, applied(request, changes))["unassigned"] == [], changes
-        changed = understood.applied(request, left["id"], reason | {"remedy": words},
-                                     left.get("kind", "customer"))
-        assert planned(client, changed)["unassigned"] == [], words
+    for changes in offered.values():
+        changed = applied(request, changes)
+        assert understood.applied(request, changes) == changed
+        assert planned(client, changed)["unassigned"] == [], changes

@@ -10,7 +10,6 @@ import {
 } from '../../../app/console/static/js/core/drones.js';
 import { flownIn } from '../../../app/console/static/js/core/drones-worth.js';
 import { idleAtHubs } from '../../../app/console/static/js/core/idle-drones.js';
-import { applyRemedy } from '../../../app/console/static/js/core/remedy-changes.js';
 import { launchDurations } from '../../../app/console/static/js/core/launches.js';
 
 const small = { id: 'small', count: 2, capacity: [1], launch_duration: 10 };
@@ -28,17 +27,6 @@ test('the number of a drone tells its type, over a list of them', () => {
   assert.deepEqual([1, 2, 3, 4].map(type), ['small', 'small', 'large', 'large']);
   assert.equal(dronesOfSortie({ drones: small }, { drone: 'a/drone-1' }), small);
   assert.equal(dronesOfSortie({ drones: null }, { drone: 'a/drone-1' }), null);
-});
-
-test('drones may take off at a depot once its remedy is applied', () => {
-  const request = {
-    depots: [{ id: 'hub', launch: false }, { id: 'yard', launch: false }],
-    customers: [{ id: 'ann' }],
-    fleet: [{ id: 'truck' }],
-  };
-  const reason = { vehicle_type: 'truck', remedy: 'fits if drones may take off at hub' };
-  const { depots } = applyRemedy(request, 'ann', reason);
-  assert.deepEqual(depots.map(({ launch }) => launch), [true, false]);
 });
 
 test('drones of all types are counted', () => {
@@ -64,19 +52,6 @@ test('launches take the time of their type, a swap but for the first', () => {
     { drone: 'truck-1/drone-1', launch_stop: 0, launch_time: 40 },
   ];
   assert.deepEqual(launchDurations(truck, sorties), [90, 30, 10]);
-});
-
-test('a remedy changes the drones that it names', () => {
-  const request = {
-    fleet: [{ id: 'truck', drones: [small, { ...large, endurance: 600 }] }],
-    customers: [{ id: 'a', demand: [12] }],
-  };
-  const drones = (remedy) =>
-    applyRemedy(request, 'a', { vehicle_type: 'truck', remedy }).fleet[0].drones;
-  assert.deepEqual(drones('fits if the drone capacity of large were at least 12')[1].capacity, [12]);
-  assert.equal(drones('fits if endurance of large were 2 minutes longer')[1].endurance, 720);
-  assert.equal(drones('fits if truck carried 1 battery of large')[1].turnaround.batteries, 1);
-  assert.deepEqual(drones('fits if endurance of large were 2 minutes longer')[0], small);
 });
 
 test('trips of vehicles that fly count as flights', () => {

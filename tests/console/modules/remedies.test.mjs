@@ -1,39 +1,52 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 
-import { groupUnassigned } from '../../../app/console/static/js/core/remedies.js';
-import { applyRemedy } from '../../../app/console/static/js/core/remedy-changes.js';
+import { applied, groupUnassigned } from '../../../app/console/static/js/core/remedies.js';
 
 const request = {
-  customers: ['A', 'B', 'C', 'D', 'E'].map((id) => ({
-    id,
-    demand: [5],
-    skills: [],
-    time_window: { latest: 600 },
-  })),
+  customers: ['A', 'B', 'C', 'D', 'E'].map((id) => ({ id, time_window: { latest: 600 } })),
   fleet: [
-    { id: 'van', count: 1, capacity: [9], max_trip_distance: 1000 },
-    { id: 'bike', count: 2, capacity: [2] },
+    { id: 'van', count: 1, capacity: [9, 1], max_trip_distance: 1000 },
+    { id: 'bike', count: 2, capacity: [2, 2], vehicles: null },
   ],
 };
 
+const remedy = (code, ...changes) => ({ code, changes, suffices: true, text: code });
+const longer = (by) => remedy('TRIP_DISTANCE', { path: '$.fleet[0].max_trip_distance', by });
+const later = (at, by) =>
+  remedy('WINDOW', { path: `$.customers[${at}].time_window.latest`, by });
+const larger = (...to) => remedy('CAPACITY', { path: '$.fleet[1].capacity', to });
+const several = (...parts) => ({
+  ...remedy('SEVERAL', ...parts.flatMap(({ changes }) => changes)), parts });
+
 const because = (id, ...reasons) => ({
   id,
-  reasons: reasons.map(([vehicle_type, code, remedy]) => ({
-    vehicle_type,
-    code,
-    remedy,
-    message: code,
-  })),
+  reasons: reasons.map(([vehicle_type, code, ...remedies]) => ({
+    vehicle_type, code, remedies, message: code })),
+});
+
+const paths = ({ remedy: { parts } }) => parts.map(({ changes: [{ path, by, to }] }) =>
+  [path, by ?? to]);
+
+test('a remedy is applied as it stands, to the request that is there by now', () => {
+  const by = [{ path: '$.customers[1].time_window.latest', by: 0.2 }];
+  assert.equal(applied(request, by).customers[1].time_window.latest, 600.2);
+  const moved = { ...request, customers: [{ id: 'new' }, ...request.customers] };
+  assert.equal(applied(moved, by, request).customers[2].time_window.latest, 600.2);
+  assert.equal(applied({ ...request, customers: [] }, by, request), null);
+  assert.equal(applied(request, []), null);
+  assert.equal(applied(request, [{ path: '$.fleet[0].max_stops', by: 1 }]), null);
+  const to = [{ path: '$.fleet[1].turnaround.batteries', to: 1 }];
+  assert.deepEqual(applied(request, to).fleet[1].turnaround, { batteries: 1 });
+  assert.deepEqual(request.fleet[1].turnaround, undefined);
 });
 
 test('each customer is in one group, the largest with a remedy first', () => {
   const groups = groupUnassigned(request, [
-    because('A', ['van', 'DISTANCE', 'fits if trips could be 3.0 km longer'],
-      ['bike', 'CAPACITY', 'fits if capacity were at least 5']),
-    because('B', ['van', 'DISTANCE', 'fits if trips could be 7.5 km longer']),
-    because('C', ['bike', 'CAPACITY', 'fits if capacity were at least 5']),
-    because('D', ['van', 'SKILLS', null]),
+    because('A', ['van', 'DISTANCE', longer(3000)], ['bike', 'CAPACITY', larger(5, 2)]),
+    because('B', ['van', 'DISTANCE', longer(7500)]),
+    because('C', ['bike', 'CAPACITY', larger(5, 2)]),
+    because('D', ['van', 'SKILLS']),
     because('E'),
   ]);
   assert.deepEqual(
@@ -43,143 +56,71 @@ test('each customer is in one group, the largest with a remedy first', () => {
   assert.equal(groups[2].changed, null);
 });
 
-test('what changes vehicles by so much is applied once, the largest', () => {
+test('what changes vehicles is applied once, by the most that any asks for', () => {
   const [group] = groupUnassigned(request, [
-    because('A', ['van', 'DISTANCE', 'fits if trips could be 3.0 km longer']),
-    because('B', ['van', 'DISTANCE', 'fits if trips could be 7.5 km longer']),
+    because('A', ['van', 'DISTANCE', longer(3000)]), because('B', ['van', 'DISTANCE', longer(7500)]),
   ]);
   assert.equal(group.changed.fleet[0].max_trip_distance, 8500);
-  assert.equal(group.remedy, 'fits if trips could be 7.5 km longer');
-  const [more] = groupUnassigned(request, [
-    because('A', ['van', 'CAPACITY', 'fits with one more vehicle']),
-    because('B', ['van', 'CAPACITY', 'fits with one more vehicle']),
+  assert.equal(group.isForEach, false);
+  assert.deepEqual(paths(group), [['$.fleet[0].max_trip_distance', 7500]]);
+  const [wide] = groupUnassigned(request, [
+    because('A', ['bike', 'CAPACITY', larger(5, 2)]),
+    because('B', ['bike', 'CAPACITY', larger(2, 4)]),
   ]);
-  assert.equal(more.changed.fleet[0].count, 2);
-  const another = 'fits if van could make another trip';
-  const [again] = groupUnassigned(request, [
-    because('A', ['van', 'FLEET_EXHAUSTED', another]),
-    because('B', ['van', 'FLEET_EXHAUSTED', another]),
-  ]);
-  assert.equal(again.changed.fleet[0].max_trips, 2);
-});
-
-test('a second remedy of the same reason makes a group of its own kind', () => {
-  const both = (id) => ({ id, reasons: [{ vehicle_type: 'van', code: 'FLEET_EXHAUSTED',
-    message: 'all are in use', remedy: 'fits with one more vehicle',
-    other_remedy: 'fits if van could make another trip' }] });
-  const [group] = groupUnassigned(request, [both('A'), both('B')]);
-  assert.equal(group.others.length, 1);
-  assert.equal(group.others[0].remedy, 'fits if van could make another trip');
-  assert.equal(group.others[0].changed.fleet[0].max_trips, 2);
+  assert.deepEqual(wide.changed.fleet[1].capacity, [5, 4]);
+  assert.deepEqual(paths(wide), [['$.fleet[1].capacity', [5, 4]]]);
 });
 
 test('what changes customers is applied to each', () => {
   const [group] = groupUnassigned(request, [
-    because('A', ['van', 'TIME_WINDOW', 'fits if its window closed 10 minutes later']),
-    because('B', ['van', 'TIME_WINDOW', 'fits if its window closed 20 minutes later']),
+    because('A', ['van', 'TIME_WINDOW', later(0, 600)]),
+    because('B', ['van', 'TIME_WINDOW', later(1, 1200)]),
   ]);
   assert.equal(group.isForEach, true);
+  assert.deepEqual(paths(group), [['$.customers[1].time_window.latest', 1200]]);
   assert.deepEqual(
     group.changed.customers.slice(0, 3).map((customer) => customer.time_window.latest),
     [1200, 1800, 600],
   );
 });
 
-const MORE = {
-  customers: [
-    {
-      id: 'A',
-      demand: [1],
-      alternatives: [{ id: 'kiosk', time_windows: [{ latest: 60 }, { latest: 600 }] }],
-    },
-    { id: 'B', demand: [1] },
-  ],
-  shipments: [
-    {
-      id: 'A',
-      amount: [7],
-      pickup: { time_window: { latest: 600 } },
-      delivery: { time_window: { latest: 900 } },
-    },
-  ],
-  relations: [{ kind: 'together', customers: ['A', 'B'] }],
-  fleet: [
-    {
-      id: 'van',
-      capacity: [5],
-      breaks: [{ id: 'lunch', start: { latest: 3600 }, max_load: [1] }],
-      driving_rules: {},
-    },
-  ],
-};
-
-for (const [remedy, kind, changed] of [
-  ['fits if capacity were at least 7', 'shipment', ({ fleet }) => fleet[0].capacity[0] === 7],
-  [
-    'fits if the window of its pickup closed 1 minute later and the last window of its delivery ' +
-      'closed 2 minutes later',
-    'shipment',
-    ({ shipments: [{ pickup, delivery }] }) =>
-      pickup.time_window.latest === 660 && delivery.time_window.latest === 1020,
-  ],
-  [
-    'fits if max_time_between were at least 1.5 minutes and max_detour were at least 1.062',
-    'shipment',
-    ({ shipments: [it] }) => it.max_time_between === 90 && it.max_detour === 1.062,
-  ],
-  [
-    'fits if max_detour were at least 2',
-    'shipment',
-    ({ shipments: [it] }) => it.max_detour === 2 && it.max_time_between === undefined,
-  ],
-  [
-    'served if its unassigned_cost were above 3.00',
-    'shipment',
-    ({ shipments: [it] }) => it.unassigned_cost === 3.01,
-  ],
-  ['fits if van could make 2 stops', 'shipment', ({ fleet }) => fleet[0].max_stops === 2],
-  [
-    'fits if its last window at A/kiosk closed 1 minute later',
-    'customer',
-    ({ customers }) => customers[0].alternatives[0].time_windows[1].latest === 660,
-  ],
-  ['fits without its relations', 'customer', ({ relations }) => relations.length === 0],
-  ['fits without break lunch', 'customer', ({ fleet }) => fleet[0].breaks.length === 0],
-  [
-    'fits if break lunch allowed 5 aboard',
-    'customer',
-    ({ fleet }) => fleet[0].breaks[0].max_load[0] === 5,
-  ],
-  [
-    'fits if break lunch could begin 10 minutes later',
-    'customer',
-    ({ fleet }) => fleet[0].breaks[0].start.latest === 4200,
-  ],
-  [
-    "fits if van's drivers could work 400 minutes without a rest",
-    'customer',
-    ({ fleet }) => fleet[0].driving_rules.max_work_before_break === 24_000,
-  ],
-]) {
-  test(`the console does what is offered: ${remedy}`, () => {
-    const result = applyRemedy(MORE, 'A', { vehicle_type: 'van', code: 'X', remedy }, kind);
-    assert.ok(changed(result), JSON.stringify(result));
-  });
-}
-
-test('of a relation nothing is left that one shipment keeps anyhow', () => {
-  const related = (kind, ...customers) => ({ kind, customers });
-  const shipments = ['s', 't'].map((id) => ({ id, amount: [1], pickup: {}, delivery: {} }));
-  const changed = applyRemedy({
-    ...request,
-    shipments,
-    relations: [
-      related('together', 'A', 's/pickup', 's/delivery'),
-      related('together', 'A', 's/pickup', 't/pickup'),
-      related('before', 's/pickup', 'A', 's/delivery'),
-    ],
-  }, 'A', { vehicle_type: 'van', remedy: 'fits without its relations' });
-  assert.deepEqual(changed.relations, [
-    related('together', 's/pickup', 't/pickup'), related('before', 's/pickup', 's/delivery'),
+test('of several limits each is changed by the most', () => {
+  const [group] = groupUnassigned(request, [
+    because('A', ['van', 'DISTANCE', several(longer(3000), later(0, 60))]),
+    because('B', ['van', 'DISTANCE', several(longer(2000), later(1, 90))]),
   ]);
+  assert.deepEqual(paths(group), [
+    ['$.fleet[0].max_trip_distance', 3000], ['$.customers[1].time_window.latest', 90]]);
+  assert.equal(group.changed.fleet[0].max_trip_distance, 4000);
+  assert.equal(group.changed.customers[0].time_window.latest, 660);
+});
+
+test('a second remedy of the same reason makes a group of its own kind', () => {
+  const one = remedy('COUNT', { path: '$.fleet[0].count', by: 1 });
+  const trip = remedy('TRIPS', { path: '$.fleet[0].max_trips', to: 2 });
+  const [group] = groupUnassigned(request, ['A', 'B'].map(
+    (id) => because(id, ['van', 'FLEET_EXHAUSTED', one, trip])));
+  assert.equal(group.changed.fleet[0].count, 2);
+  assert.deepEqual(group.others.map(({ changed }) => changed.fleet[0].max_trips), [2]);
+  const [alone] = groupUnassigned(request, [
+    because('A', ['van', 'FLEET_EXHAUSTED', one, trip]),
+    because('B', ['van', 'FLEET_EXHAUSTED', one])]);
+  assert.deepEqual(alone.others, []);
+});
+
+test('what leaves different relations can not be done together', () => {
+  const free = (...to) => remedy('RELATIONS', { path: '$.relations', to });
+  const groups = groupUnassigned(request, [
+    because('A', ['van', 'RELATION', free({ customers: ['B', 'C'] })]),
+    because('B', ['van', 'RELATION', free({ customers: ['A', 'C'] })]),
+    because('C', ['van', 'RELATION', free({ customers: ['A', 'C'] })]),
+  ]);
+  assert.deepEqual(groups.map(({ members }) => members.length), [2, 1]);
+  assert.equal(groups[0].isForEach, true);
+});
+
+test('a plan that tells no remedies as data has none', () => {
+  const reason = { vehicle_type: 'van', code: 'SHIFT', message: '', remedy: 'fits' };
+  const [group] = groupUnassigned(request, [{ id: 'A', reasons: [reason] }]);
+  assert.equal(group.remedy, null);
 });

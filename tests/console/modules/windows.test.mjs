@@ -1,7 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { changeWindows, giveWindows } from '../../../app/console/static/js/core/changes.js';
-import { applyRemedy } from '../../../app/console/static/js/core/remedy-changes.js';
 import {
   windowAt,
   windowsInWords,
@@ -45,39 +44,4 @@ test('only the last window becomes soft', () => {
     [undefined, 30],
   );
   assert.deepEqual(changeWindows(request, null).customers, [{ id: 'A' }, { id: 'B' }]);
-});
-
-test('a remedy widens the window that it names', () => {
-  const fleet = [{ id: 'van' }];
-  const widened = (id, remedy) =>
-    applyRemedy({ ...request, fleet }, id, { vehicle_type: 'van', remedy }).customers;
-  const [first] = widened('A', 'fits if its window 1 closed 90 minutes later');
-  assert.equal(first.time_windows[0].latest, 7199.999);
-  const [last] = widened('A', 'fits if its last window closed 1.5 minutes later');
-  assert.equal(last.time_windows[1].latest, 9090);
-  assert.equal(widened('B', 'fits if its window closed 1 minute later')[1].time_window.latest, 660);
-});
-
-test('a remedy lets a type serve the customer', () => {
-  const allowed = (vehicles) =>
-    applyRemedy(
-      { customers: [{ id: 'A', vehicles }], fleet: [{ id: 'van' }, { id: 'van-2' }] },
-      'A',
-      { vehicle_type: 'van', code: 'VEHICLE', remedy: 'fits if van may serve it' },
-    ).customers[0];
-  assert.deepEqual(allowed({ allowed: ['van-2'] }).vehicles, { allowed: ['van-2', 'van'] });
-  assert.deepEqual(allowed({ forbidden: ['van', 'van-1', 'van-2'] }).vehicles, {
-    forbidden: ['van-2'],
-  });
-  assert.deepEqual(allowed({ forbidden: ['van', 'van-1'] }), { id: 'A' });
-});
-
-test('a remedy raises the price of the customer that it names', () => {
-  const remedy = 'served if its unassigned_cost were above 20.50';
-  const changed = applyRemedy({ ...request, fleet: [{ id: 'van' }] }, 'A', {
-    vehicle_type: 'van',
-    remedy,
-  });
-  assert.equal(changed.customers[0].unassigned_cost, 20.51);
-  assert.equal(changed.unassigned_cost, undefined);
 });

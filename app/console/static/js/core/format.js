@@ -101,7 +101,7 @@ export function timesInWords(message) {
 }
 
 /** Return a length in words, from an hour on rounded up, so that what is said to suffice does. */
-function enough(seconds) {
+export function enough(seconds) {
   if (seconds < 3600) {
     const minutes = Math.floor(seconds / 60);
     const rest = Number((seconds - minutes * 60).toFixed(3));

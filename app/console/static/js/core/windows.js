@@ -28,16 +28,3 @@ export function withWindows(customer, windows) {
     ? { ...rest, time_window: windows[0] }
     : { ...rest, time_windows: windows };
 }
-
-/** Return a customer whose window, by its number from 0, closes so much later, in seconds. */
-export function closingLater(customer, position, seconds) {
-  const windows = windowsOf(customer);
-  const next = windows[position + 1]?.earliest ?? Infinity;
-  const changed = windows.map((window, number) => {
-    if (number !== position) return window;
-    const latest = Math.round(((window.latest ?? 0) + seconds) * 1000) / 1000;
-    // Windows don't touch: a millisecond lies between.
-    return { ...window, latest: Math.min(latest, Math.round(next * 1000 - 1) / 1000) };
-  });
-  return withWindows(customer, changed);
-}

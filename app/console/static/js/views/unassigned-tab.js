@@ -3,8 +3,7 @@
 import { edit, indexOf, shownPlan } from '../actions.js';
 import { money, signed } from '../core/format.js';
 import { remedyInWords } from '../core/remedy-words.js';
-import { groupUnassigned, otherReason } from '../core/remedies.js';
-import { applyRemedy } from '../core/remedy-changes.js';
+import { applied, groupUnassigned } from '../core/remedies.js';
 import { saidOf } from '../core/said.js';
 import { leftOutOf } from '../core/visits.js';
 import { html, useEffect, useMemo } from '../libraries.js';
@@ -49,11 +48,12 @@ function Group({ group, entry }) {
   const { members } = group;
   const customers = members.map(
     ({ customer }) => html`<${Unassigned} key=${customer.id} customer=${customer}
-      index=${indexOf(entry)} request=${request} />`,
+      entry=${entry} request=${request} />`,
   );
   const ways = [group, ...group.others];
   const price = (way) => way.changed && html`<${Price} group=${way} entry=${entry} />`;
-  const priced = ways.map((way) => html`<${Way} key=${way.key} way=${way} />${price(way)}`);
+  const priced = ways.map((way) => html`<${Way} key=${way.key} way=${way}
+    told=${entry.request} />${price(way)}`);
   if (members.length === 1) {
     return html`<section>${customers}${ways.length > 1 ? priced : price(group)}</section>`;
   }
@@ -69,9 +69,9 @@ function Group({ group, entry }) {
 }
 
 /** What would help all of a group. */
-function Way({ way: { remedy, isForEach } }) {
+function Way({ way: { remedy, isForEach }, told }) {
   if (!remedy) return null;
-  return html`<p>${isForEach ? `${t('unassigned.each')} ` : ''}${sentenceOf(remedy)}.</p>`;
+  return html`<p>${isForEach ? `${t('unassigned.each')} ` : ''}${sentenceOf(remedy, told)}.</p>`;
 }
 
 /** What a remedy for a whole group serves and costs, and the button that applies it. */
@@ -97,7 +97,7 @@ function Price({ group, entry }) {
       html`<button type="button" class="primary" disabled=${request !== entry.request}
       aria-label=${[t('unassigned.applyAllOf', {
         count: group.members.length,
-        remedy: remedyInWords(group.remedy),
+        remedy: remedyInWords(group.remedy, entry.request),
       }), group.type].join(', ')} onClick=${apply}>${t('unassigned.applyAll')}</button>`
     }</div>`;
 }
@@ -113,41 +113,41 @@ function priceInWords(price, { members }) {
     : t('unassigned.serves', { count: price.served, cost });
 }
 
-function Unassigned({ customer, index, request }) {
+function Unassigned({ customer, entry, request }) {
   const selection = useStore((state) => state.selection);
   const hovered = useStore((state) => state.hover);
   const key = `c:${customer.id}`;
   const [{ id: name }] = leftOutOf({ unassigned: [customer] });
-  return html`<article class="card" ...${linked(index, key, selection, hovered)}>
+  return html`<article class="card" ...${linked(
+    indexOf(entry), key, selection, hovered)}>
     <header><${SelectButton} of=${key}><strong>${customer.id}</strong></${SelectButton}></header>
     <div class="inside">${customer.reasons.map(
       (reason) => html`<div key=${reason.vehicle_type}>
       <p><strong>${reason.vehicle_type}</strong>: ${saidOf(reason)}</p>
-      ${[reason, otherReason(reason)].filter((each) => each?.remedy).map((each) => html`<${Remedy}
-        key=${each.remedy} customer=${customer} reason=${each} request=${request} />`)}
+      ${reason.remedies?.map((remedy) => html`<${Remedy} key=${remedy.text} remedy=${remedy}
+        of=${[reason.vehicle_type, customer.id]} told=${entry.request} request=${request} />`)}
     </div>`,
     )}<${StopMoves} id=${name} /><${WhyHere} id=${name} /></div></article>`;
 }
 
 /** Return a remedy as a sentence without its full stop. */
-function sentenceOf(remedy) {
-  const words = remedyInWords(remedy);
+function sentenceOf(remedy, told) {
+  const words = remedyInWords(remedy, told);
   return words.charAt(0).toUpperCase() + words.slice(1);
 }
 
-function Remedy({ customer, reason, request }) {
-  const changed = applyRemedy(request, customer.id, reason, customer.kind);
+function Remedy({ remedy, of, told, request }) {
+  const changed = applied(request, remedy.changes, told);
   const apply = () => {
     edit(changed);
     plan();
   };
-  const sentence = sentenceOf(reason.remedy);
-  return html`<div class="buttons"><span>${sentence}.</span>
+  return html`<div class="buttons"><span>${sentenceOf(remedy, told)}.</span>
     ${
       changed &&
       html`<button type="button" onClick=${apply}
-      aria-label=${[t('unassigned.applyOf', { remedy: remedyInWords(reason.remedy) }),
-        reason.vehicle_type, customer.id].join(', ')}>
+      aria-label=${[t('unassigned.applyOf', { remedy: remedyInWords(remedy, told) }), ...of]
+        .join(', ')}>
       ${t('unassigned.apply')}</button>`
     }</div>`;
 }
