@@ -9,8 +9,6 @@ import random
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Iterable
-from copy import deepcopy
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any
@@ -21,6 +19,7 @@ import typer
 from benchmarks.fuzz.api import service
 from benchmarks.fuzz.problems import Fault, Study, client_of
 from benchmarks.fuzz.wild_problems import wild_request
+from examples.remedy import applied
 
 Data = dict[str, Any]
 
@@ -32,19 +31,6 @@ SECONDS = 0.1
 
 TURNS, PATIENCE = 100, 60.0
 """Turns of the plan that must serve one, and seconds that it may take at most."""
-
-
-def applied(request: Data, changes: Iterable[Data]) -> Data:
-    """Return a request as a remedy changes it."""
-    changed: Data = deepcopy(request)
-    for change in changes:
-        *holder, last = [int(index) if index else name
-                         for name, index in re.findall(r"\.(\w+)|\[(\d+)]", change["path"])]
-        part: Any = changed
-        for key in holder:
-            part = part[key]
-        part[last] = part[last] + change["by"] if "by" in change else change["to"]
-    return changed
 
 
 def late_drones(rng: random.Random) -> Data:

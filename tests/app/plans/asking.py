@@ -1,9 +1,6 @@
 """What tests ask of the service about plans, and what they make of its replies."""
 
 import json
-import re
-from collections.abc import Iterable
-from copy import deepcopy
 from typing import Any
 
 import httpx
@@ -19,19 +16,6 @@ def documented(name: str) -> Request:
     """Return a documented example."""
     request: Request = json.loads((EXAMPLES_DIR / f"{name}.json").read_text("utf-8"))
     return request
-
-
-def applied(request: Request, changes: Iterable[Request]) -> Request:
-    """Return a request as a remedy changes it."""
-    changed: Request = deepcopy(request)
-    for change in changes:
-        *holder, last = [int(index) if index else name
-                         for name, index in re.findall(r"\.(\w+)|\[(\d+)]", change["path"])]
-        part: Any = changed
-        for key in holder:
-            part = part[key]
-        part[last] = part[last] + change["by"] if "by" in change else change["to"]
-    return changed
 
 
 def planned(client: httpx.Client, request: Request) -> dict[str, Any]:

@@ -8,8 +8,9 @@ import pytest
 
 from app.plans.changes import Changing
 from app.schemas.request import PlanRequest
+from examples.remedy import applied
 from model.judge.remedy import remedy_of
-from tests.app.plans.asking import applied, planned
+from tests.app.plans.asking import planned
 
 Request = dict[str, Any]
 

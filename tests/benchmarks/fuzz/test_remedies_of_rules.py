@@ -12,7 +12,7 @@ import httpx
 import pytest
 
 from benchmarks.fuzz.api import ROOT
-from benchmarks.fuzz.remedies import applied
+from examples.remedy import applied
 from tests.app.plans.asking import planned
 
 pytestmark = pytest.mark.slow
