@@ -303,9 +303,10 @@ def _customer_stops(trip: Data) -> list[Data]:
 
 
 def _visits(trip: Data) -> list[Data]:
-    """Return what a trip does for each of its customers."""
+    """Return what a trip does for each of its customers; ends of shipments are none."""
     return [*_customer_stops(trip),
-            *(customer for sortie in trip["sorties"] for customer in sortie["customers"])]
+            *(visit for sortie in trip["sorties"] for visit in sortie["customers"]
+              if "kind" not in visit)]
 
 
 def damaged(rng: random.Random, plan: Data) -> Data:

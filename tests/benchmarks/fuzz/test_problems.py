@@ -146,3 +146,12 @@ def test_plans_that_go_on_keep_to_the_past(day: Data, now: float, is_broken: boo
     else:
         with pytest.raises(Fault, match=fault):
             hold_to_the_past(request, day, replanned)
+
+
+def test_shipments_that_a_broken_vehicle_had_not_fetched_are_nobodys_parcels(day: Data) -> None:
+    brought = {"kind": "delivery", "id": "s", "arrival": 75.0, "service_start": 75.0}
+    flight = {"launch_time": 70.0, "recovery_stop": 3, "customers": [brought]}
+    day["routes"][0]["trips"][0]["sorties"].append(flight)
+    trip = {"stops": [stop("hub", 30, 30), stop("hub", 90, 90)], "sorties": [flight]}
+    request = {"replan": {"freeze_before": 20.0, "unavailable": ["t-1"], "parcels_back": 500}}
+    hold_to_the_past(request, day, {"routes": [{"vehicle": "t-3", "trips": [trip]}]})
