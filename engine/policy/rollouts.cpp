@@ -58,9 +58,9 @@ public:
 private:
     // An array whose rows are written before they are read.
     template <class T>
-    class Rows {
+    class FreshRows {
     public:
-        explicit Rows(Int size)
+        explicit FreshRows(Int size)
             : data_(std::make_unique_for_overwrite<T[]>(static_cast<std::size_t>(size))),
               size_(size) {}
 
@@ -73,9 +73,9 @@ private:
 
     Int count_ = 0;
     Int here_ = 0;
-    Rows<Int> action_, token_;
-    Rows<Outlook> outlook_;
-    Rows<ActionFeatures> feature_;
+    FreshRows<Int> action_, token_;
+    FreshRows<Outlook> outlook_;
+    FreshRows<ActionFeatures> feature_;
     VehicleFeatures vehicle_;
 };
 

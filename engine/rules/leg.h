@@ -16,6 +16,13 @@ struct Leg {
     Int duration, distance;
 };
 
+// The legs to a customer and from there, and how much further that is than the direct way.
+struct Detour {
+    Leg out;
+    Leg on;
+    Int distance;
+};
+
 // Those of one travel. Both tables are (origin, to, duration and distance).
 struct TravelLegs {
     const std::int32_t* stated = nullptr;  // none where some travels are computed

@@ -102,7 +102,7 @@ struct PartScratch {
     PartScratch(Int most_customers, Int most_halts);
 
     // How a truck drives from one place to another by way of some customers.
-    struct Way {
+    struct Via {
         Int duration, distance;
         Spot last;  // whom it serves last, or `no_spot`
     };
@@ -126,7 +126,7 @@ struct PartScratch {
     Int customers, halts;  // at most
     PartToPlan part{};
     Row<Int> flight;                // (from, customer, to) how long that takes
-    Row<Way> way;                   // (from, set, to)
+    Row<Via> way;                   // (from, set, to)
     Row<Across> across;             // (from, set, to)
     Row<Reached> reached;           // (set, place)
     Row<PlannedOperation> planned;  // in order

@@ -16,7 +16,7 @@ namespace tandem {
 namespace {
 
 // Routes of which a search takes some.
-struct Taken {
+struct TakenRoutes {
     const Fleet& from;
     View<const Int, 1> slots;
     View<const Int, 1> missing;
@@ -24,7 +24,7 @@ struct Taken {
 };
 
 // Copies the routes to the first slots of a part, empties all others, and returns what they cost.
-double take_routes(const ProblemData& data, const Taken& taken, Searcher& part) {
+double take_routes(const ProblemData& data, const TakenRoutes& taken, Searcher& part) {
     const Fleet& now = part.now;
     double cost = 0.0;
     Int filled = 0;
@@ -46,7 +46,7 @@ double take_routes(const ProblemData& data, const Taken& taken, Searcher& part) 
     return cost;
 }
 
-void take(const ProblemData& data, const Taken& taken, Searcher& part) {
+void take(const ProblemData& data, const TakenRoutes& taken, Searcher& part) {
     const Fleet& now = part.now;
     SearchCounts& count = *part.count;
     ++count.stamp;

@@ -58,15 +58,15 @@ Burden burden_of(const Setting& setting, const Vehicle& vehicle, View<const Dron
 
 // The sums over all dimensions of what was picked up before and at the next stop, and what of it
 // comes aboard at both.
-struct Taken {
+struct PickedUp {
     Int before;
     Int there;
     Int comes_here;
     Int comes_there;
 };
 
-Taken total_there(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
-                  Int node, bool is_customer) {
+PickedUp total_there(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
+                     Int node, bool is_customer) {
     const Int here = total_brought(setting, vehicle, drones, Recovery::loop);
     const Int there = total_brought(setting, vehicle, drones, Recovery::meet) +
                       (is_customer ? total_picked(setting.amount, node) : 0);
@@ -142,7 +142,7 @@ void load_stop(const Setting& setting, Vehicle& vehicle, View<const Drone, 1> dr
         if (is_customer) take_demand(setting, vehicle, node);
         return;
     }
-    const Taken sums = total_there(setting, vehicle, drones, node, is_customer);
+    const PickedUp sums = total_there(setting, vehicle, drones, node, is_customer);
     for (Int number = 0; number < num_tiers(setting.amount); ++number) {
         const auto [demand, here, there] =
             burden_of(setting, vehicle, drones, node, is_customer, number);

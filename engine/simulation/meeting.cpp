@@ -84,10 +84,17 @@ Int ready_to_launch(const Setting& setting, const Vehicle& vehicle, Int node, In
                                                         : free;
 }
 
-// The drone that can be launched first from `free` on; `launched` is how many launches of the trip
-// come before.
+// When the crew is free, how many launches of the trip come before, and who may be launched.
+struct Crew {
+    Int free;
+    Int launched;
+    Airspace airspace;
+};
+
+// The drone that can be launched first.
 NextLaunch next_launch(const Setting& setting, const Vehicle& vehicle, View<const Drone, 1> drones,
-                       Int to, Int free, Int launched, Airspace airspace) {
+                       Int to, const Crew& crew) {
+    const auto [free, launched, airspace] = crew;
     const Int here = vehicle.node;
     NextLaunch next{-1, 0};
     if (airspace == Airspace::none) return next;
@@ -170,7 +177,7 @@ Int operate(const Setting& setting, const Vehicle& vehicle, View<Drone, 1> drone
     while (waiting + looping > 0) {
         const Airspace airspace = airspace_beside(setting.type, drones, looping + leaving);
         const auto [launched, takeoff] =
-            next_launch(setting, vehicle, drones, to, free, before, airspace);
+            next_launch(setting, vehicle, drones, to, {free, before, airspace});
         Int begin = takeoff;
         if (launched >= 0) {
             begin = launch_begin(setting.types[drones[launched].row], takeoff, before);
@@ -215,9 +222,16 @@ struct Ride {
     Rests rests;
 };
 
-// It may be that drones are `out` meanwhile.
+// The leg to a place that is left for at an instant, while drones are `out` or not.
+struct NextLeg {
+    Int to;
+    Int leave;
+    bool out;
+};
+
 Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
-          View<const Drone, 1> drones, Int to, Int leave, bool out) {
+          View<const Drone, 1> drones, const NextLeg& leg) {
+    const auto [to, leave, out] = leg;
     const Int here = vehicle.node;
     const bool asks = has_driving_rules(setting.type);
     if (!has_breaks(setting.type) && !asks) return {travel_arrival(setting, here, to, leave), {}};
@@ -245,10 +259,10 @@ Ride ride(const Setting& setting, const VehicleLog& log, const Vehicle& vehicle,
         const std::optional<Driver> driver = driver_of(setting, log, driven);
         if (!driver) return {-1, {}};
         const Speeds speeds = speeds_of(setting);
-        const RestedLeg leg(speeds, begin, *driver, stood_at(setting, here), leave,
-                            travel_of(setting, here, to));
+        const RestedLeg rested(speeds, begin, *driver, stood_at(setting, here), leave,
+                               travel_of(setting, here, to));
         const std::optional<Rests> rests =
-            Unforeseeing(setting.type, leg, opens, leaves).run(vehicle.rested, heavy, begin);
+            Unforeseeing(setting.type, rested, opens, leaves).run(vehicle.rested, heavy, begin);
         if (!rests || (attends && rests->any_unstated())) return {-1, {}};
         Driver counted = *driver;
         return {come(setting, {*rests, begin, here, to, leave}, counted), *rests};
@@ -337,7 +351,7 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
     mark_places(setting, drones, here, to);
     if (vehicle.flying == 0) {
         const Int leave = std::max(vehicle.service_end, vehicle.free);
-        const auto [arrival, rests] = ride(setting, log, vehicle, drones, to, leave, false);
+        const auto [arrival, rests] = ride(setting, log, vehicle, drones, {to, leave, false});
         return {vehicle.free, arrival, arrival, rests};
     }
     // Who can't be met loops, of which the others may be launched later, and so on.
@@ -348,7 +362,7 @@ Leaving leave_for(const Setting& setting, const VehicleLog& log, const Vehicle& 
         const bool out = std::any_of(drones.begin(), drones.end(), [](const Drone& drone) {
             return is_recovered(drone, Recovery::meet);
         });
-        const auto [arrival, rests] = ride(setting, log, vehicle, drones, to, leave, out);
+        const auto [arrival, rests] = ride(setting, log, vehicle, drones, {to, leave, out});
         if (arrival < 0) return impossible;
         const bool is_depot = to < setting.num_depots;
         const Int there = is_depot ? let_in(setting.type, setting.node, to, arrival) : arrival;

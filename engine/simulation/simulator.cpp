@@ -106,12 +106,12 @@ Verdict judge_launch(const OpenVehicle& open, Int departure, Int node, Outlook& 
 }
 
 // Which services may be added to a trip, or the next one, by their number.
-struct Room {
+struct ServicesLeft {
     bool stop;
     bool sortie;
 };
 
-Room room_of(const OpenVehicle& open) {
+ServicesLeft room_of(const OpenVehicle& open) {
     const auto& [setting, vehicle, log, drones] = open;
     Int served = 0;
     if (vehicle.idle == 0) {
@@ -147,7 +147,7 @@ Int legal_services(const Rollout& rollout, View<Int, 1> actions, View<Outlook, 1
     const Int home = setting.type.ends_at;
     const Int reach = longest_trip(setting.type) - vehicle.distance;
     const Int began = is_idle ? 0 : log.trip[trips - 1].start;
-    Room room = room_of(open);
+    ServicesLeft room = room_of(open);
     if (is_idle && !may_travel_home(setting, vehicle.travel, here)) room.sortie = false;
     std::optional<Int> earliest;
     if (trips > 0) earliest = first_departure(setting, log, log.trip[0].start);

@@ -208,7 +208,7 @@ bool any_order(const Setting& setting, View<const Int, 2> legs, Int here, Dues d
 }
 
 // How far a trip has come, and how long the vehicle has been on legs.
-struct Way {
+struct TripProgress {
     Int distance;
     Int travel;
 };
@@ -219,7 +219,7 @@ Int served_on_trip(const VehicleLog& log) {
 }
 
 // Tell whether a trip may be so long, and stop so often, that serves some more before it is home.
-bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, Way way,
+bool is_within_reach(const OpenVehicle& open, View<const Int, 2> legs, TripProgress way,
                      const Order& order) {
     const VehicleType& type = open.setting.type;
     Int here = open.vehicle.node;
@@ -243,7 +243,8 @@ bool may_join(const Setting& setting, const Vehicle& vehicle, Int node) {
 }
 
 // Serve some and go home, from where the trip has come so far; false if that isn't legal.
-bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, Way way, const Order& order) {
+bool serve_and_end(OpenVehicle& open, View<const Int, 2> legs, TripProgress way,
+                   const Order& order) {
     auto& [setting, vehicle, log, drones] = open;
     if (!is_within_reach(open, legs, way, order)) return false;
     for (const Int node : order) {
@@ -300,7 +301,7 @@ bool legal_by_trial(const Rollout& rollout, Int reload, Service service, Outlook
     const auto& [setting, vehicle, log, drones] = open;
     const View<const Int, 2> legs = instance.distance[b][setting.type.travel];
     const Int start = reload == no_reload ? vehicle.node : reload;
-    Way way = {reload == no_reload ? vehicle.distance : 0, vehicle.travel};
+    TripProgress way = {reload == no_reload ? vehicle.distance : 0, vehicle.travel};
     if (reload != no_reload) way.travel += travel_of(setting, vehicle.node, reload);
     if (!by_drone) {
         way.distance += legs(start, node);

@@ -19,7 +19,7 @@ namespace {
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 // How far a flight is, and how long it takes.
-struct Flown {
+struct FlightLength {
     double distance = nowhere;
     double duration = nowhere;
 };
@@ -35,7 +35,7 @@ struct FlightLegs {
     View<double, 2> distance;  // (node, node) infinite where there is no such flight
     View<double, 2> duration;
 
-    void write(Int node, Int target, const Flown& flown) const {
+    void write(Int node, Int target, const FlightLength& flown) const {
         distance(node, target) = flown.distance;
         duration(node, target) = flown.duration;
     }
@@ -47,7 +47,7 @@ struct FlightLegs {
 //
 // Denardo and Fox (1979), shortest-route methods: 1. Reaching, pruning, and buckets, Operations
 // Research 27:161-186.
-class Ahead {
+class Frontier {
 public:
     struct Arrival {
         double time;
@@ -60,7 +60,7 @@ public:
     };
 
     // `longest` is the longest time from one arrival to another that it leads to.
-    explicit Ahead(double longest)
+    explicit Frontier(double longest)
         : buckets_(num_buckets), per_second_(longest > 0 ? (num_buckets - 2) / longest : 0.0) {}
 
     void push(double time, Int corner) {
@@ -170,14 +170,14 @@ public:
 
     // Fly from a node, at least until no flight to any of some others can be quicker.
     void fly_from(Int node, std::span<const Int> targets) {
-        std::fill(flown_.begin(), flown_.end(), Flown{});
-        std::fill(least_.begin(), least_.end(), Flown{});
+        std::fill(flown_.begin(), flown_.end(), FlightLength{});
+        std::fill(least_.begin(), least_.end(), FlightLength{});
         const Sights& outward = network_.outward;
         for (Int entry = outward.begin[node]; entry < outward.begin[node + 1]; ++entry) {
-            const Flown flown{outward.distance[entry], outward.duration[entry]};
+            const FlightLength flown{outward.distance[entry], outward.duration[entry]};
             reach(outward.place[entry], flown, network_.turns.reached[entry]);
         }
-        Ahead::Arrival arrival{};
+        Frontier::Arrival arrival{};
         for (Int number = 0; ahead_.pop(arrival); ++number) {
             if (number % looks_back == 0 && arrival.time > longest_to(targets)) break;
             if (arrival.time > to(arrival.corner).duration) continue;
@@ -187,13 +187,15 @@ public:
         ahead_.clear();
     }
 
-    const Flown& flown_to(Int target) const { return least_[static_cast<std::size_t>(target)]; }
+    const FlightLength& flown_to(Int target) const {
+        return least_[static_cast<std::size_t>(target)];
+    }
 
 private:
     static constexpr Int looks_back = 64;     // arrivals until it is looked whether all are reached
     static constexpr double rounding = 1e-9;  // seconds within which ways take as long
 
-    Flown& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
+    FlightLength& to(Int corner) { return flown_[static_cast<std::size_t>(corner)]; }
 
     double longest_to(std::span<const Int> targets) const {
         double found = 0.0;
@@ -205,10 +207,10 @@ private:
     }
 
     void land_from(Int corner) {
-        const Flown here = to(corner);
+        const FlightLength here = to(corner);
         for (const auto& [node, entry] : beholders_.of(corner)) {
             const double total = here.duration + network_.inward.duration[entry];
-            Flown& there = least_[static_cast<std::size_t>(node)];
+            FlightLength& there = least_[static_cast<std::size_t>(node)];
             if (total < there.duration) {
                 there = {here.distance + network_.inward.distance[entry], total};
             }
@@ -218,7 +220,7 @@ private:
     void go_on_from(Int corner) {
         const Sights& between = network_.between;
         const Turns& turns = network_.turns;
-        const Flown here = to(corner);
+        const FlightLength here = to(corner);
         const auto sides = sides_[static_cast<std::size_t>(corner)];
         const Int first =
             (sides & Turns::left) != 0 ? between.begin[corner] : turns.only_left_end[corner];
@@ -233,9 +235,9 @@ private:
     }
 
     // Come to a corner with its area on some sides.
-    void reach(Int corner, const Flown& flown, std::int32_t sides) {
+    void reach(Int corner, const FlightLength& flown, std::int32_t sides) {
         if (!(flown.duration < nowhere)) return;
-        Flown& there = to(corner);
+        FlightLength& there = to(corner);
         std::int32_t& kept = sides_[static_cast<std::size_t>(corner)];
         if (flown.duration < there.duration) {
             kept = there.duration - flown.duration <= rounding ? kept | sides : sides;
@@ -249,15 +251,15 @@ private:
     }
 
     const Network& network_;
-    std::vector<Flown> flown_;         // (corner,)
+    std::vector<FlightLength> flown_;  // (corner,)
     std::vector<std::int32_t> sides_;  // (corner,) on which its area may lie
-    std::vector<Flown> least_;         // (node,)
+    std::vector<FlightLength> least_;  // (node,)
     Beholders beholders_;
-    Ahead ahead_;
+    Frontier ahead_;
 };
 
 // Which flights are looked for: those wanted from some places of an order.
-struct Asked {
+struct WantedFlights {
     View<const bool, 2> wanted;
     View<const std::int64_t, 1> order;  // (node,)
     bool mutual;                        // a flight back is as long as the flight there
@@ -265,7 +267,7 @@ struct Asked {
 };
 
 // Write the quickest flights that bend at least once, those back with them if they are mutual.
-void fly_around(const Network& network, const Asked& asked, const FlightLegs& legs) {
+void fly_around(const Network& network, const WantedFlights& asked, const FlightLegs& legs) {
     Reach reach(network);
     std::vector<Int> targets;
     for (Int place = asked.first; place < asked.last; ++place) {

@@ -221,10 +221,17 @@ private:
     std::array<Int, directions> last_{};
 };
 
-// Mark the ends that each of some starts doesn't see. Pairs that are marked already are not looked
-// at, and only the ends behind each start where the ends are the starts (`mutual`).
-void mark_hidden(View<const double, 2> starts, View<const double, 2> ends, const Grid& grid,
-                 View<bool, 2> hidden, Int first, Int last, bool mutual) {
+// Who looks to whom: each start to all ends or, where the ends are the starts (`mutual`), to those
+// behind it.
+struct Looks {
+    View<const double, 2> starts, ends;
+    bool mutual;
+};
+
+// Mark the ends that some starts, from `first` to before `last`, don't see. Pairs that are marked
+// already are not looked at.
+void mark_hidden(const Looks& looks, const Grid& grid, View<bool, 2> hidden, Int first, Int last) {
+    const auto& [starts, ends, mutual] = looks;
     Screens screens(grid);
     for (Int row = first; row < last; ++row) {
         for (Int column = mutual ? row + 1 : 0; column < ends.size(); ++column) {
@@ -320,7 +327,7 @@ extern "C" int tandem_mark_hidden(const tandem_f64_2d* starts, const tandem_f64_
                                   int64_t first, int64_t last, bool mutual) {
     return tandem::guarded([&] {
         const tandem::Grid grid(*edges);
-        tandem::mark_hidden(*starts, *ends, grid, *hidden, first, last, mutual);
+        tandem::mark_hidden({*starts, *ends, mutual}, grid, *hidden, first, last);
     });
 }
 

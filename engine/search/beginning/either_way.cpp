@@ -42,7 +42,7 @@ void set_out(View<Chain, 1> chain, Int node) {
 
 void join_either_way(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
                      const Beside& beside) {
-    const Joining joining(data);
+    const ChainCargo joining(data);
     const auto& [chain, cargo] = joining;
     const VehicleType& type = data.type[k];
     for (Int node = data.num_depots; node < data.num_nodes; ++node) {

@@ -163,10 +163,10 @@ void link_up(const Chains& chains, const Joint& joint) {
 
 }  // namespace
 
-Joining::Joining(const ProblemData& data)
+ChainCargo::ChainCargo(const ProblemData& data)
     : chain({data.num_nodes}), cargo({data.num_nodes, std::max(Int{1}, tiers_of(data))}) {}
 
-void Joining::write(const Beside& beside) const {
+void ChainCargo::write(const Beside& beside) const {
     for (Int node = 0; node < chain.size(); ++node) {
         beside(0, node) = chain[node].before;
         beside(1, node) = chain[node].behind;
@@ -272,7 +272,7 @@ void add_cargo(View<Cargo, 1> front, View<const Cargo, 1> rear) {
 
 void join(const ProblemData& data, Int k, Int ranks, View<const Int, 1> keys,
           const Beside& beside) {
-    const Joining joining(data);
+    const ChainCargo joining(data);
     const auto& [chain, cargo] = joining;
     const VehicleType& type = data.type[k];
     const Chains chains{type, legs_of(data.leg, type.travel), data.place.by_truck(type), chain};

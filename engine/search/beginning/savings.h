@@ -27,8 +27,8 @@ struct Chain {
 using Beside = View<Int, 2>;
 
 // Chains, and what they carry by their first customers, in tiers.
-struct Joining {
-    explicit Joining(const ProblemData& data);
+struct ChainCargo {
+    explicit ChainCargo(const ProblemData& data);
 
     // Writes who is beside whom.
     void write(const Beside& beside) const;

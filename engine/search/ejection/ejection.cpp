@@ -76,7 +76,7 @@ public:
 
 private:
     // Where a shipment goes, and who is ejected for it.
-    struct Spot {
+    struct EjectionSpot {
         Int row = nowhere;
         PairPlace place{};
         Int one = nowhere, other = nowhere;
@@ -151,7 +151,7 @@ private:
     bool insert_anywhere(Int pickup) {
         const PairToInsert pair = rows_.pair_of(pickup);
         Int found = 0;
-        Spot chosen;
+        EjectionSpot chosen;
         for (std::size_t index = 0; index < row_.size(); ++index) {
             rows_.for_each_place(row_[index], pair, [&](PairPlace place) {
                 if (below(searcher_.rng, ++found) == 0) chosen = {Int(index), place};
@@ -188,7 +188,7 @@ private:
 
     bool eject_for(Int pickup) {
         const PairToInsert pair = rows_.pair_of(pickup);
-        Spot best;
+        EjectionSpot best;
         best.trouble = trouble_[std::size_t(pickup)];
         order_.resize(row_.size());
         std::iota(order_.begin(), order_.end(), Int{0});
@@ -205,7 +205,7 @@ private:
     }
 
     // Ejects each shipment that may be. False once the search must end.
-    bool try_each(const PairToInsert& pair, Spot& best) {
+    bool try_each(const PairToInsert& pair, EjectionSpot& best) {
         for (const Int index : order_) {
             list_pickups(row_[std::size_t(index)], pickups_);
             for (const Int one : pickups_) {
@@ -218,7 +218,7 @@ private:
     }
 
     // Ejects each two shipments of a route that may be. False once the search must end.
-    bool try_pairs(const PairToInsert& pair, Spot& best) {
+    bool try_pairs(const PairToInsert& pair, EjectionSpot& best) {
         for (const Int index : order_) {
             list_pickups(row_[std::size_t(index)], pickups_);
             for (std::size_t first = 1; first < pickups_.size(); ++first) {
@@ -236,7 +236,7 @@ private:
         return true;
     }
 
-    void try_without(Int index, const PairToInsert& pair, Int one, Int other, Spot& best) {
+    void try_without(Int index, const PairToInsert& pair, Int one, Int other, EjectionSpot& best) {
         rows_.leave_out(row_[std::size_t(index)], one, other, without_);
         if (without_.node.empty()) return;
         const std::optional<PairPlace> place = any_place(without_, pair);

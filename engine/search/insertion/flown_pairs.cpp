@@ -20,11 +20,11 @@ constexpr Int most_places = 96;  // of an end on a trip
 constexpr Int most_priced = 64;  // of pairs of them
 
 // Where both ends are served.
-struct PairPlace {
+struct FlownPairPlace {
     double cost;
     EndPlace pickup, delivery;
 
-    bool operator<(const PairPlace& other) const { return cost < other.cost; }
+    bool operator<(const FlownPairPlace& other) const { return cost < other.cost; }
 };
 
 using EndPlaces = Cheapest<EndPlace, most_places>;
@@ -45,7 +45,7 @@ public:
             for (const EndPlace& delivery : deliveries.items()) join(pickup, delivery);
         }
         pairs_.sort();
-        for (const PairPlace& place : pairs_.items()) {
+        for (const FlownPairPlace& place : pairs_.items()) {
             if (is_dear(place.cost) || data.deadline.passed()) return;
             price(place);
         }
@@ -96,7 +96,7 @@ private:
         });
     }
 
-    void price(const PairPlace& place) {
+    void price(const FlownPairPlace& place) {
         const auto& [cost, pickup, delivery] = place;
         const bool fetches = pickup.is_flown(), brings = delivery.is_flown();
         const Int fetching = fetches ? drone_for(pickup) : 0;
@@ -122,7 +122,7 @@ private:
     }
 
     const Int delivery_;
-    Cheapest<PairPlace, most_priced> pairs_;
+    Cheapest<FlownPairPlace, most_priced> pairs_;
 };
 
 }  // namespace

@@ -199,7 +199,7 @@ private:
     }
 
     // A flight to a pickup, by the stops as they were.
-    struct Flight {
+    struct FlownPickup {
         Int node, drone, first, last;
 
         // Whether it takes a drone while that were to fly from and to these stops.
@@ -211,7 +211,7 @@ private:
     // Whether a drone is taken for another pickup while it were to fly from and to these stops.
     bool is_taken(Int drone, const EndPlace& place) const {
         return std::any_of(flights_.begin(), flights_.begin() + taken_,
-                           [&](const Flight& flight) { return flight.takes(drone, place); });
+                           [&](const FlownPickup& flight) { return flight.takes(drone, place); });
     }
 
     // A drone of a place's row that is free then; `nowhere` if there is none.
@@ -238,7 +238,7 @@ private:
     const Int delivery_;
     std::array<EndPlaces, std::size_t(most_ends)> places_;
     Cheapest<Combination, most_priced> combined_;
-    std::array<Flight, most_pickups> flights_{};
+    std::array<FlownPickup, most_pickups> flights_{};
     Int taken_ = 0;  // of these
 };
 

@@ -21,7 +21,7 @@ namespace {
 
 // From where to where a drone flies, and at which of these the truck stops at a launch site by
 // more, behind that stop; `nowhere` at others.
-struct Way {
+struct FlownBetween {
     Int launch;
     Int recovery;
     Int launch_halt;
@@ -145,7 +145,8 @@ private:
     }
 
     // Lists an insertion, if that may be cheapest, by how much longer the vehicle works at least.
-    void offer(const Way& way, const Flight& flight, double driven, Int flown, Int longer) const {
+    void offer(const FlownBetween& way, const Flight& flight, double driven, Int flown,
+               Int longer) const {
         const double cost = driven + flown_cost(rate_, flown) +
                             usual_work_cost(data_.rate[k_], std::max(Int{0}, longer));
         if (cost >= best_ || unreachable(std::max(flight.out, flight.home)) ||

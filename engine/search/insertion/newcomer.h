@@ -7,13 +7,6 @@
 
 namespace tandem {
 
-// The legs to a customer and from there, and how much further that is than the direct way.
-struct Detour {
-    Leg out;
-    Leg on;
-    Int distance;
-};
-
 // What is looked up once for all places that a customer is tried at.
 struct Newcomer {
     Int node;

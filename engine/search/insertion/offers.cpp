@@ -177,8 +177,7 @@ void offer_stops(const Insertion& insertion, Int slot, Int first, Int last) {
         const Detour detour = newcomer.detour(here.node, behind.node, here.leg);
         double cost = least.between(here, behind, detour, best);
         if (cost < best && loads_cost(data, k)) {
-            cost +=
-                load_more_behind(data, now, slot, p, node, detour.out.distance, detour.on.distance);
+            cost += load_more_behind(data, now, slot, p, node, detour);
         }
         if (cost < best && detour.distance <= most && room_behind(room, p)) {
             add_offer(searcher, cost, slot, p, p + 1).add(How::serve, node, p + 1);

@@ -59,11 +59,11 @@ public:
     // Tries the places that look cheapest, timing the route anew for each, and others if the
     // vehicle can come to none of them.
     void time_cheapest() {
-        std::optional<Spot> last;
+        std::optional<PairSpot> last;
         bool possible = false;
         for (Int tried = 0; tried < most_tried && !possible; ++tried) {
             const Spots spots = cheapest_behind(last);
-            for (const Spot& spot : spots.items()) {
+            for (const PairSpot& spot : spots.items()) {
                 if (data.deadline.passed()) return;
                 last = spot;
                 if (is_dear(spot.least)) continue;
@@ -79,19 +79,19 @@ public:
 
 private:
     // Where both ends may come; what that costs at least, and about.
-    struct Spot {
+    struct PairSpot {
         double about, least;
         Int p, q;
 
-        bool operator<(const Spot& other) const {
+        bool operator<(const PairSpot& other) const {
             return std::tie(about, p, q) < std::tie(other.about, other.p, other.q);
         }
     };
 
-    using Spots = Cheapest<Spot, most_timed>;
+    using Spots = Cheapest<PairSpot, most_timed>;
 
     // The cheapest of those that come behind `last`.
-    Spots cheapest_behind(const std::optional<Spot>& last) const {
+    Spots cheapest_behind(const std::optional<PairSpot>& last) const {
         Spots spots;
         for (Int p = trip.first; p < trip.last; ++p) {
             const Leg out = leg_from(pickup_.inward, stops[p].node);
@@ -105,7 +105,7 @@ private:
                 if (above > 0) continue;
                 const Leg more = q == p ? more_together(out, q) : more_behind(delivery_, q, apart);
                 const double least = cost_of(more.distance);
-                const Spot spot{least + double(more.duration) * time_rate_, least, p, q};
+                const PairSpot spot{least + double(more.duration) * time_rate_, least, p, q};
                 if (!last || *last < spot) spots.add(spot);
             }
         }

@@ -61,7 +61,7 @@ private:
 
     // How a vehicle has come behind a stop, and to which pickup there; which it has been at, and at
     // how many; how much more is aboard.
-    struct Way {
+    struct PickupLabel {
         Proposal<RarerRules> on;
         Int here = none_here;
         Int taken = 0, rank = 0, aboard = 0;
@@ -83,7 +83,7 @@ private:
     }
 
     // The leg to an end from where a vehicle is.
-    Leg leg_to_end(const Way& way, const Newcomer& end) const {
+    Leg leg_to_end(const PickupLabel& way, const Newcomer& end) const {
         if (way.here != none_here) return leg_to(pickup(way.here).onward, end.node);
         return leg_from(end.inward, stops[way.on.behind()].node);
     }
@@ -94,20 +94,20 @@ private:
     }
 
     // Whether a pickup is tried right behind a stop.
-    bool is_near(const Way& way, Int number) const {
+    bool is_near(const PickupLabel& way, Int number) const {
         if (way.here != none_here) return true;
         return detour(pickup(number), way.on.behind()).distance <= limit_[std::size_t(number)];
     }
 
     // Takes each pickup that is left.
-    void take_others(const Way& way) {
+    void take_others(const PickupLabel& way) {
         for (Int number = 0; number < count_; ++number) {
             if ((way.taken >> number & 1) == 0 && is_near(way, number)) take(way, number);
         }
     }
 
     // Takes a pickup, and what is left then at all places from here on.
-    void take(Way way, Int number) {
+    void take(PickupLabel way, Int number) {
         if (++steps_ > most_steps || data.deadline.passed()) return;
         const Newcomer& newcomer = pickup(number);
         const bool is_served = way.on.serve(newcomer, leg_to_end(way, newcomer));
@@ -125,7 +125,7 @@ private:
     }
 
     // Drives to the next stop. False if that is the last, or too late, or costs too much.
-    bool drive_on(Way& way) const {
+    bool drive_on(PickupLabel& way) const {
         const Int behind = way.on.behind(), first = behind + 1;
         const Int last = is_walked_ ? stops[first].last : first;
         if (last == trip.last) return false;
@@ -143,7 +143,7 @@ private:
         return !is_too_far(way.on.further());
     }
 
-    void deliver(const Way& way) {
+    void deliver(const PickupLabel& way) {
         Proposal<RarerRules> whole = way.on;
         const Int behind = whole.behind();
         const Leg on = leg_to(delivery_.onward, stops[behind + 1].node);
@@ -168,10 +168,10 @@ private:
     std::array<Int, most_pickups> limit_{};
     Int steps_ = 0;
     // Which pickups a vehicle has been at, and as which stops of the changed route.
-    struct Served {
+    struct VisitedPickups {
         Int node, stop;
     };
-    std::array<Served, most_pickups> served_{};
+    std::array<VisitedPickups, most_pickups> served_{};
     Inserted inserted_;
 };
 

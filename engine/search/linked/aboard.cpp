@@ -8,16 +8,16 @@ namespace {
 Int first_row(const ProblemData& data, Int slot) { return data.num_nodes + 2 * slot; }
 
 // The rows of a route in one tier, from where it begins to where it ends.
-class Rows {
+class TierRows {
 public:
-    Rows(const ProblemData& data, const Linked& linked, Int slot, Int tier, Int row)
+    TierRows(const ProblemData& data, const Linked& linked, Int slot, Int tier, Int row)
         : data_(data), linked_(linked), slot_(slot), tier_(tier), row_(row) {}
 
     StopLoad& operator*() const { return linked_.aboard(tier_, row_); }
     StopLoad* operator->() const { return &**this; }
-    bool operator==(const Rows& other) const { return row_ == other.row_; }
+    bool operator==(const TierRows& other) const { return row_ == other.row_; }
 
-    Rows& operator++() {
+    TierRows& operator++() {
         const Int begin = first_row(data_, slot_);
         if (row_ > begin) {
             row_ = begin + 2;
@@ -28,7 +28,7 @@ public:
         return *this;
     }
 
-    Rows& operator--() {
+    TierRows& operator--() {
         const Int begin = first_row(data_, slot_);
         if (row_ > begin + 1) {
             row_ = begin + 1;
@@ -74,20 +74,21 @@ bool weigh_run(const ProblemData& data, const Linked& linked, Int slot) {
     const Int begin = first_row(data, slot);
     bool allowed = true;
     for (Int tier = 0; tier < linked.aboard.size(); ++tier) {
-        allowed = weigh_trip(type, Rows(data, linked, slot, tier, begin),
-                             Rows(data, linked, slot, tier, begin + 2), tier) &&
+        allowed = weigh_trip(type, TierRows(data, linked, slot, tier, begin),
+                             TierRows(data, linked, slot, tier, begin + 2), tier) &&
                   allowed;
     }
     linked.stale[slot] = false;
     return allowed;
 }
 
-bool has_room_between(const ProblemData& data, const Linked& linked, Int slot,
-                      const VehicleType& type, Int before, Int behind, Int node) {
-    weigh_if_stale(data, linked, slot);
-    const Int begin = first_row(data, slot);
-    return has_room(type, linked.aboard, behind < data.num_depots ? begin + 1 : behind,
-                    before < data.num_depots ? begin : before, data.amount, node);
+bool has_room_between(const ProblemData& data, const Linked& linked, const Joining& joins,
+                      Int before, Int behind) {
+    weigh_if_stale(data, linked, joins.slot);
+    const Int begin = first_row(data, joins.slot);
+    return has_room(data.type[joins.type], linked.aboard,
+                    behind < data.num_depots ? begin + 1 : behind,
+                    before < data.num_depots ? begin : before, data.amount, joins.node);
 }
 
 bool may_hold_more(const ProblemData& data, const Linked& linked, Int slot, const VehicleType& type,

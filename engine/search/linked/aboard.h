@@ -4,6 +4,7 @@
 
 #include "rules/load.h"
 #include "rules/shift.h"
+#include "search/insertion/best.h"
 #include "search/linked/layout.h"
 
 namespace tandem {
@@ -17,9 +18,9 @@ void note_amounts(const ProblemData& data, Linked& linked);
 // Writes the rows of a route. False if that breaks a rule.
 bool weigh_run(const ProblemData& data, const Linked& linked, Int slot);
 
-// Whether a customer may come between two on a route driven by a vehicle of a type.
-bool has_room_between(const ProblemData& data, const Linked& linked, Int slot,
-                      const VehicleType& type, Int before, Int behind, Int node);
+// Whether there is room for a customer who joins a route between two.
+bool has_room_between(const ProblemData& data, const Linked& linked, const Joining& joins,
+                      Int before, Int behind);
 
 // Whether a vehicle of a type may hold what a route carries and a customer's amounts, wherever he
 // is served; parcels alone aren't looked at.

@@ -53,7 +53,7 @@ void note_stale(Linked& linked, Int slot) {
 
 // Notes when a customer is left, and has to be reached, before that changes.
 void note_times(Linked& linked, Int node) {
-    Noted& noted = linked.noted;
+    NoteCounts& noted = linked.noted;
     if (noted.moments == linked.moment.size()) {
         noted.over = 1;
         return;
@@ -81,7 +81,7 @@ void untie(const ProblemData& data, Searcher& searcher, Linked& linked) {
 
 // Puts the customers back that were taken out last. Times stay as they are.
 void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    Noted& noted = linked.noted;
+    NoteCounts& noted = linked.noted;
     const Piece& piece = linked.piece[--noted.pieces];
     Run& run = linked.run[piece.slot];
     if (run.count == 0) open_run(data, searcher, linked, piece.slot, piece.type);
@@ -105,8 +105,8 @@ void put_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
 }
 
 // Lets customers, and times that were noted, be as they were when so much was noted.
-void undo(const ProblemData& data, Searcher& searcher, Linked& linked, const Noted& before) {
-    Noted& noted = linked.noted;
+void undo(const ProblemData& data, Searcher& searcher, Linked& linked, const NoteCounts& before) {
+    NoteCounts& noted = linked.noted;
     while (noted.entries > before.entries) untie(data, searcher, linked);
     while (noted.pieces > before.pieces) put_back(data, searcher, linked);
     while (noted.moments > before.moments) {
@@ -180,7 +180,7 @@ Int connect(const ProblemData& data, Linked& linked, Int slot, Int before, Int b
 }
 
 Int cut_out(const ProblemData& data, Linked& linked, Int slot, Int first, Int count) {
-    Noted& noted = linked.noted;
+    NoteCounts& noted = linked.noted;
     Run& run = linked.run[slot];
     Piece& piece = linked.piece.at(noted.pieces++);
     piece = {slot, run.type, count, 0, 0};
@@ -257,13 +257,13 @@ void retime(const ProblemData& data, Linked& linked, Int slot) {
 }
 
 void restore(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot,
-             const Noted& before) {
+             const NoteCounts& before) {
     undo(data, searcher, linked, before);
     if (linked.noted.over) retime(data, linked, slot);
 }
 
 void take_back(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    Noted& noted = linked.noted;
+    NoteCounts& noted = linked.noted;
     take_types_back(searcher, linked);
     undo(data, searcher, linked, {});
     if (noted.over) {

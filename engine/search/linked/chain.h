@@ -61,7 +61,7 @@ void retime(const ProblemData& data, Linked& linked, Int slot);
 
 // Lets a route, of which customers alone were taken out since, be as it was when so much was noted.
 void restore(const ProblemData& data, Searcher& searcher, Linked& linked, Int slot,
-             const Noted& before);
+             const NoteCounts& before);
 
 // Lets all be as it was before this turn.
 void take_back(const ProblemData& data, Searcher& searcher, Linked& linked);

@@ -46,9 +46,9 @@ struct Gap {
 };
 
 // Looks for the cheapest place for one customer.
-class Places {
+class CheapestLink {
 public:
-    Places(const Insertion& insertion, const Linked& linked)
+    CheapestLink(const Insertion& insertion, const Linked& linked)
         : data_(insertion.data),
           searcher_(insertion.searcher),
           linked_(linked),
@@ -240,7 +240,7 @@ private:
 
     // Writes a detour that, as all longer ones, costs no less than the best, whoever drives it.
     void set_longest_detour() {
-        const Least& cheapest = linked_.cheapest;
+        const CheapestVehicle& cheapest = linked_.cheapest;
         const double most = best_.cost - cheapest.stop;
         const bool is_any = cheapest.distance == 0.0 || most >= double(far) * cheapest.distance;
         longest_detour_ = is_any ? far : Int(std::ceil(most / cheapest.distance));
@@ -298,8 +298,7 @@ private:
         const auto may_come = [&] {
             return (!linked_.timed || keeps_windows(joins, gap)) &&
                    (!looks_aboard(linked_) ||
-                    has_room_between(data_, linked_, joins.slot, data_.type[joins.type], gap.before,
-                                     gap.behind, newcomer_.node));
+                    has_room_between(data_, linked_, joins, gap.before, gap.behind));
         };
         if (best_.try_behind(joins, gap.before, gap.detour, may_come)) set_longest_detour();
     }
@@ -323,7 +322,7 @@ private:
     const bool is_told_first_;  // most places are ruled out by stated legs, the same for all types
     const bool lists_first_;    // whose routes aren't full, as legs have to be got from far away
     const bool has_windows_;    // and by windows, the same likewise
-    const Room room_;
+    const RoomByType room_;
     Best& best_;
     Int longest_detour_ = far;
     // As vehicles of the type meet him that `newcomer_by` was asked for last, where they differ.
@@ -369,7 +368,7 @@ Recreated recreate_linked(const ProblemData& data, Searcher& searcher, Linked& l
         const bool opens = opens_first && index == first;
         Best best{data.strategy.blink, searcher.rng};
         try_new_route(data, searcher, node, best);
-        Places places({data, searcher, node, enlarge, best}, linked);
+        CheapestLink places({data, searcher, node, enlarge, best}, linked);
         if (!opens && !scan_all) {
             places.try_beside();
             places.try_passing();

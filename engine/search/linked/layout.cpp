@@ -14,8 +14,8 @@ namespace {
 // Customers that are noted in a turn: it removes the most, to the last string.
 Int most_noted(const ProblemData& data) { return std::min(data.num_nodes, 2 * most_removed); }
 
-Least cheapest_of(const ProblemData& data) {
-    Least least{data.rate[0].distance, data.rate[0].stop};
+CheapestVehicle cheapest_of(const ProblemData& data) {
+    CheapestVehicle least{data.rate[0].distance, data.rate[0].stop};
     for (const Rate& rate : data.rate.first(data.num_types)) {
         least = {std::min(least.distance, rate.distance), std::min(least.stop, rate.stop)};
     }

@@ -55,7 +55,7 @@ struct Moment {
 };
 
 // How many of each were noted this turn.
-struct Noted {
+struct NoteCounts {
     Int pieces;
     Int removed;
     Int entries;
@@ -65,7 +65,7 @@ struct Noted {
 };
 
 // What the vehicle costs that is cheapest.
-struct Least {
+struct CheapestVehicle {
     double distance;  // a mm more
     double stop;      // a customer more
 };
@@ -95,14 +95,14 @@ struct Linked {
     OwnRows<Moment, 1> moment;     // (moment,)
     OwnRows<Int, 1> retyped;       // (slot,) routes that another type drives since this turn
     OwnRows<Int, 1> former;        // (slot,) the type that did before, else `nowhere`
-    Noted noted{};
+    NoteCounts noted{};
     OwnRows<Int, 1> hit;  // (slot,) turn of the last string
     std::shared_ptr<const Nearness> measured;
     View<const std::int32_t, 2> near;  // (node, rank) of those
     OwnRows<Int, 1> best_first;   // (slot,) first customer of the best plan's route, else `nowhere`
     OwnRows<Int, 1> best_type;    // (slot,)
     OwnRows<Int, 1> best_behind;  // (node,)
-    Least cheapest;               // of all types
+    CheapestVehicle cheapest;     // of all types
     bool timed;                   // something limits when customers are served
     // (node,) the longer of a customer's legs, `out_of_reach` of one on no route. That is all that
     // tells of most neighbours that a place beside them is too far, and many fit a cache.

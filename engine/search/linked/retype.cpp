@@ -72,7 +72,7 @@ double cheapen_run(const ProblemData& data, Searcher& searcher, Linked& linked, 
 }
 
 double cheapen_runs(const ProblemData& data, Searcher& searcher, Linked& linked) {
-    const Noted& noted = linked.noted;
+    const NoteCounts& noted = linked.noted;
     double saved = 0.0;
     for (const Piece& piece : linked.piece.first(noted.pieces)) {
         saved += cheapen_run(data, searcher, linked, piece.slot);

@@ -10,10 +10,10 @@ namespace tandem {
 
 // What routes may carry at most, by type, so that they may serve a customer more; less than nothing
 // if none of the type may.
-class Room {
+class RoomByType {
 public:
     // `enlarge` tells that a route may be given a larger type.
-    Room(const ProblemData& data, Int node, bool enlarge) : data_(data), node_(node) {
+    RoomByType(const ProblemData& data, Int node, bool enlarge) : data_(data), node_(node) {
         if (enlarge || data.num_types > most_known) {
             same_for_all_ = most_known;
         } else if (data.num_types == 1) {

@@ -98,7 +98,7 @@ public:
 private:
     // Lists the routes of this turn as changed since the best, and notes nothing more.
     void list_changes() {
-        const Noted& noted = linked_.noted;
+        const NoteCounts& noted = linked_.noted;
         for (const Piece& piece : linked_.piece.first(noted.pieces)) {
             note_changed(searcher_, piece.slot);
         }

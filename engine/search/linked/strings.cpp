@@ -59,7 +59,7 @@ double cut_string(const ProblemData& data, Searcher& searcher, Linked& linked, I
     const Int first = first_of_string(data, searcher, linked, customer, string.span());
     const Int gap = draw_gap(searcher.rng, string);
     const Int before = link[first].before;
-    const Noted noted = linked.noted;
+    const NoteCounts noted = linked.noted;
     Int saved = cut_out(data, linked, slot, first, gap);
     const Int first_left = before < data.num_depots ? run.first : link[before].behind;
     Int last_left = before;

@@ -180,15 +180,15 @@ Tail find_tail_linked(const ProblemData& data, const Searcher& searcher, const L
 }
 
 // Customers in a row on a route.
-struct Stretch {
+struct LinkedRow {
     Amount load;
     Int customers;
     Int distance;  // up to the last of them: of a head from the depot, of a tail from its first
 };
 
 // The part of a route up to a customer, none if that is a depot.
-Stretch head_until(const ProblemData& data, const Linked& linked, Int node) {
-    Stretch head{nothing, 0, 0};
+LinkedRow head_until(const ProblemData& data, const Linked& linked, Int node) {
+    LinkedRow head{nothing, 0, 0};
     for (; node >= data.num_depots; node = linked.link[node].before) {
         head.load = plus(head.load, demand_of(data.place[0][node]));
         ++head.customers;
@@ -198,8 +198,8 @@ Stretch head_until(const ProblemData& data, const Linked& linked, Int node) {
 }
 
 // The part of a route behind its head, which a customer leads, none if a depot does.
-Stretch tail_behind(const ProblemData& data, const Linked& linked, const Run& run,
-                    const Stretch& head, Int first) {
+LinkedRow tail_behind(const ProblemData& data, const Linked& linked, const Run& run,
+                      const LinkedRow& head, Int first) {
     if (first < data.num_depots) return {nothing, 0, 0};
     const Int around = linked.link[first].inward + linked.link[run.last].onward;
     return {minus(amount_of(run.load), head.load), run.count - head.customers,
@@ -215,13 +215,13 @@ void assign(const ProblemData& data, Linked& linked, Int node, Int slot) {
 
 // Another route's tail, from its first customer to its last.
 struct NewTail {
-    Stretch part;
+    LinkedRow part;
     Int first;
     Int last;
 };
 
 // Lets a route go on behind its head, which `before` ends, with another's tail.
-void end_with(const ProblemData& data, Linked& linked, Int slot, const Stretch& head, Int before,
+void end_with(const ProblemData& data, Linked& linked, Int slot, const LinkedRow& head, Int before,
               const NewTail& tail) {
     Run& run = linked.run[slot];
     const Int end = data.type[run.type].ends_at;
@@ -250,10 +250,10 @@ bool swap_tails_linked(const ProblemData& data, Searcher& searcher, Linked& link
     const Int k = one.type;
     const Int by = is_new ? k : two.type;
     const Int before = is_new ? data.type[k].begins_at : linked.link[other].before;
-    const Stretch head = head_until(data, linked, node);
-    const Stretch head_by = head_until(data, linked, before);
-    const Stretch tail = tail_behind(data, linked, one, head, after);
-    const Stretch tail_by = tail_behind(data, linked, two, head_by, other);
+    const LinkedRow head = head_until(data, linked, node);
+    const LinkedRow head_by = head_until(data, linked, before);
+    const LinkedRow tail = tail_behind(data, linked, one, head, after);
+    const LinkedRow tail_by = tail_behind(data, linked, two, head_by, other);
     if (!holds(data.type[k], plus(head.load, tail_by.load)) ||
         !holds(data.type[by], plus(head_by.load, tail.load)) ||
         !allows_stops(data.type[k], head.customers + tail_by.customers) ||

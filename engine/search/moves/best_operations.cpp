@@ -66,19 +66,19 @@ void BestOperations::find_ways() {
 }
 
 // Return a way that goes on from a place, whose service counts when the truck leaves it.
-PartScratch::Way BestOperations::beyond(const PartScratch::Way& by, Spot place, Spot to) const {
+PartScratch::Via BestOperations::beyond(const PartScratch::Via& by, Spot place, Spot to) const {
     const VehicleType& type = data_.type[part_.type];
     const Leg on = leg(legs_of(data_.leg, type.travel), node(place), node(to));
     const Int service = data_.place.by_truck(type)[node(place)].service_duration();
     return {by.duration + service + on.duration, by.distance + on.distance, place};
 }
 
-PartScratch::Way BestOperations::best_way(Spot from, unsigned set, Spot to) const {
-    PartScratch::Way best{};
+PartScratch::Via BestOperations::best_way(Spot from, unsigned set, Spot to) const {
+    PartScratch::Via best{};
     double least = infinite_cost;
     for (Spot before = 1; before <= customers_; ++before) {
         if (!(set & bit(before))) continue;
-        const PartScratch::Way by = beyond(way(from, set & ~bit(before), before), before, to);
+        const PartScratch::Via by = beyond(way(from, set & ~bit(before), before), before, to);
         const double cost = way_cost(by);
         if (cost < least) {
             least = cost;
@@ -89,7 +89,7 @@ PartScratch::Way BestOperations::best_way(Spot from, unsigned set, Spot to) cons
 }
 
 // Return what a way costs, but for stops.
-double BestOperations::way_cost(const PartScratch::Way& by) const {
+double BestOperations::way_cost(const PartScratch::Via& by) const {
     return usual_work_cost(rate_, by.duration) + drive_cost(rate_, by.distance);
 }
 
@@ -138,7 +138,7 @@ PartScratch::Across BestOperations::best_across(Spot from, unsigned set, Spot to
         // Who is flown to is not back before the truck stops there again.
         if (!(others & bit(flown)) || !flies(flown) || (need(to) & bit(flown))) continue;
         if ((inner & ~driven_) || (from == to && inner == 0)) continue;
-        const PartScratch::Way& by = way(from, inner, to);
+        const PartScratch::Via& by = way(from, inner, to);
         const Int working = std::max(flight(from, flown, to), by.duration + stay);
         // It costs this much at least.
         if (usual_work_cost(rate_, working) + drive_cost(rate_, by.distance) >= best.cost) continue;

@@ -55,7 +55,7 @@ private:
     Int at(Spot from, unsigned set, Spot to) const {
         return (static_cast<Int>(from) * sets_ + static_cast<Int>(set)) * spots_ + to;
     }
-    PartScratch::Way& way(Spot from, unsigned set, Spot to) const {
+    PartScratch::Via& way(Spot from, unsigned set, Spot to) const {
         return scratch_.way[at(from, set, to)];
     }
     Int& flight(Spot from, Spot customer, Spot to) const {
@@ -73,9 +73,9 @@ private:
     double drive_on(Spot from, Spot to) const;
 
     void find_ways();
-    PartScratch::Way beyond(const PartScratch::Way& by, Spot place, Spot to) const;
-    PartScratch::Way best_way(Spot from, unsigned set, Spot to) const;
-    double way_cost(const PartScratch::Way& by) const;
+    PartScratch::Via beyond(const PartScratch::Via& by, Spot place, Spot to) const;
+    PartScratch::Via best_way(Spot from, unsigned set, Spot to) const;
+    double way_cost(const PartScratch::Via& by) const;
     void find_flights();
     void find_across();
     PartScratch::Across best_across(Spot from, unsigned set, Spot to) const;

@@ -34,7 +34,7 @@ bool BestPart::attempt() {
     const Int node = draw_customer(data_, now, searcher_.count->focus, searcher_.rng);
     const Int slot = now.where[node].slot;
     if (slot < 0 || data_.type[now.route[slot].type].drones != 1) return false;
-    const Part part = draw(slot, stop_beside(now, node));
+    const TogetherPart part = draw(slot, stop_beside(now, node));
     if (part.customers < 1) return false;
     PartScratch& scratch = searcher_.scratch->part;
     scratch.part = read(slot, part);
@@ -46,16 +46,16 @@ bool BestPart::attempt() {
 }
 
 // Draw the stops between which a part is planned: some around stop `p`, as far as that goes.
-BestPart::Part BestPart::draw(Int slot, Int p) const {
+BestPart::TogetherPart BestPart::draw(Int slot, Int p) const {
     const Fleet& now = searcher_.now;
     const Trip& trip = now.trip(slot, now.stop(slot, p).trip);
     const Int most = searcher_.scratch->part.customers;
     while (!is_joint(slot, p)) --p;
-    Part part{p, p, 0};
+    TogetherPart part{p, p, 0};
     bool may_begin_before = true, may_end_later = true;
     while (may_begin_before || may_end_later) {
         const bool ahead = may_begin_before && (!may_end_later || uniform(searcher_.rng) < 0.5);
-        Part wider = part;
+        TogetherPart wider = part;
         if (ahead) {
             if (wider.first > trip.first) do
                     --wider.first;
@@ -102,7 +102,7 @@ Int BestPart::served_between(Int slot, Int first, Int last) const {
 }
 
 // Return whom a part serves, and where the truck may stop for its drone.
-PartToPlan BestPart::read(Int slot, const Part& part) const {
+PartToPlan BestPart::read(Int slot, const TogetherPart& part) const {
     const Fleet& now = searcher_.now;
     PartToPlan read{};
     read.type = now.route[slot].type;
@@ -123,7 +123,7 @@ PartToPlan BestPart::read(Int slot, const Part& part) const {
 }
 
 // List launch sites near the customers of a part. In place.
-void BestPart::add_halts(Int slot, const Part& part, PartToPlan& read) const {
+void BestPart::add_halts(Int slot, const TogetherPart& part, PartToPlan& read) const {
     const Int most = std::min(most_sites, searcher_.scratch->part.halts);
     for (Int rank = 0; rank < data_.near_halts.shape(1); ++rank) {
         for (Int number = 0; number < read.customers; ++number) {
@@ -141,7 +141,8 @@ void BestPart::add_halts(Int slot, const Part& part, PartToPlan& read) const {
 }
 
 // Return which customer of a part has to be served before a stop at a launch site, as a bit.
-unsigned BestPart::needed(Int slot, const Part& part, const PartToPlan& read, Int halt) const {
+unsigned BestPart::needed(Int slot, const TogetherPart& part, const PartToPlan& read,
+                          Int halt) const {
     if (!may_halt(data_.halts, read.type, halt)) return never;
     const Int after = data_.halt_after[halt];
     if (after < 0) return 0;
@@ -158,7 +159,7 @@ unsigned BestPart::needed(Int slot, const Part& part, const PartToPlan& read, In
 }
 
 // Write the operations in place of a part. In place; false if that breaks a rule.
-bool BestPart::write(Int slot, const Part& part, const BestOperations& best) {
+bool BestPart::write(Int slot, const TogetherPart& part, const BestOperations& best) {
     const Fleet& now = searcher_.now;
     touch(searcher_, slot);
     keep_aside(now, slot, now.route.size() - 2);

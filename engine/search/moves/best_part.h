@@ -20,18 +20,18 @@ public:
 
 private:
     // Stops of a route where truck and drone are together, and how many are served between.
-    struct Part {
+    struct TogetherPart {
         Int first, last;
         Int customers;
     };
 
-    Part draw(Int slot, Int p) const;
+    TogetherPart draw(Int slot, Int p) const;
     bool is_joint(Int slot, Int p) const;
     Int served_between(Int slot, Int first, Int last) const;
-    PartToPlan read(Int slot, const Part& part) const;
-    void add_halts(Int slot, const Part& part, PartToPlan& read) const;
-    unsigned needed(Int slot, const Part& part, const PartToPlan& read, Int halt) const;
-    bool write(Int slot, const Part& part, const BestOperations& best);
+    PartToPlan read(Int slot, const TogetherPart& part) const;
+    void add_halts(Int slot, const TogetherPart& part, PartToPlan& read) const;
+    unsigned needed(Int slot, const TogetherPart& part, const PartToPlan& read, Int halt) const;
+    bool write(Int slot, const TogetherPart& part, const BestOperations& best);
     bool write_operation(Int slot, const BestOperations& best, const PlannedOperation& operation);
 
     const ProblemData& data_;

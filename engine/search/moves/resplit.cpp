@@ -202,10 +202,10 @@ bool Resplit::draw() {
 }
 
 // Return the stops around `p` between which all that is launched is recovered.
-Resplit::Part Resplit::window(Int p) const {
+Resplit::StopSpan Resplit::window(Int p) const {
     const Fleet& fleet = searcher_.now;
     const Trip& trip = fleet.trip(slot_, fleet.stop(slot_, p).trip);
-    Part part{std::max(trip.first, p - reach), std::min(trip.last, p + reach)};
+    StopSpan part{std::max(trip.first, p - reach), std::min(trip.last, p + reach)};
     while (flown_over(fleet, slot_, part.first)) --part.first;
     while (flown_over(fleet, slot_, part.last)) ++part.last;
     return part;
@@ -235,7 +235,7 @@ Int Resplit::partner(Int node) const {
 }
 
 // Append the places of a route's stops to the line. In place; false if that can't be.
-bool Resplit::line_up(Int slot, Part part) {
+bool Resplit::line_up(Int slot, StopSpan part) {
     const Fleet& fleet = searcher_.now;
     const View<Line, 1> line = searcher_.scratch->line;
     const Int begin = lines_.length - 1;

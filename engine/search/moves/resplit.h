@@ -25,7 +25,7 @@ public:
 
 private:
     // Stops of a route, both included.
-    struct Part {
+    struct StopSpan {
         Int first;
         Int last;
     };
@@ -41,9 +41,9 @@ private:
     };
 
     bool draw();
-    Part window(Int p) const;
+    StopSpan window(Int p) const;
     Int partner(Int node) const;
-    bool line_up(Int slot, Part part);
+    bool line_up(Int slot, StopSpan part);
 
     bool counts() const;
     bool is_worth(double after, double limit) const;
@@ -62,7 +62,7 @@ private:
     Int slot_ = nowhere;
     Int other_ = nowhere;  // the route that is planned together with it; `nowhere`: none
     Int type_ = 0;
-    Part part_{};
+    StopSpan part_{};
     Lines lines_;
     double least_ = 0.0;   // what the order as it is costs at least
     double beside_ = 0.0;  // what of that isn't operations

@@ -88,8 +88,8 @@ Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int,
     return absent[below(searcher.rng, absent.size())];
 }
 
-Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
-              View<Int, 1> touched) {
+RuinSize choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
+                View<Int, 1> touched) {
     const Fleet& fleet = searcher.now;
     const Int turn = searcher.count->turn;
     const Int before = removed.count;

@@ -50,15 +50,15 @@ Int draw_strings(double longest, View<std::uint64_t, 1> rng);
 Int draw_seed(const ProblemData& data, const Searcher& searcher, View<const Int, 1> absent);
 
 // How many routes customers are removed from, and near whom those are.
-struct Chosen {
+struct RuinSize {
     Int num_touched;
     Int seed;
 };
 
 // Mark strings near a random customer, at most one a trip, and list their routes in `touched`. In
 // place.
-Chosen choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
-              View<Int, 1> touched);
+RuinSize choose(const ProblemData& data, Searcher& searcher, double longest, Removed& removed,
+                View<Int, 1> touched);
 
 // Mark, every other time, those who go with a customer marked behind the first so many, so that
 // they can go elsewhere together. In place.

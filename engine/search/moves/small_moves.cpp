@@ -169,8 +169,8 @@ bool SmallMoves::relocate(Int node) {
     const Int other = neighbour(node);
     if (other == nowhere) return false;
     const bool flies = coin();
-    const Span from = around(node);
-    const Span to = flies ? widened(widened(around(other))) : around(other);
+    const TripSpan from = around(node);
+    const TripSpan to = flies ? widened(widened(around(other))) : around(other);
     if (!may_serve(to.trip, node, flies)) return false;
     if (from.trip == to.trip && from.first < to.last && to.first < from.last) {
         Draft both =
@@ -246,7 +246,7 @@ bool SmallMoves::trade(Int node) {
         OperationStop& stop = draft.row[at.place - draft.span.first];
         (at.flown ? stop.flown : stop.node) = static_cast<std::int32_t>(who);
     };
-    const Span from = around(node), to = around(other);
+    const TripSpan from = around(node), to = around(other);
     if (one.trip == two.trip && from.first < to.last && to.first < from.last) {
         Draft both =
             draft(0, {to.trip, std::min(from.first, to.first), std::max(from.last, to.last)});
@@ -330,7 +330,7 @@ bool SmallMoves::decide(std::initializer_list<const Draft*> drafts) {
     double more = 0.0;
     bool moved = false;
     for (const Draft* draft : drafts) {
-        const Span& span = draft->span;
+        const TripSpan& span = draft->span;
         more += cost(trip(span.trip).type, draft->row) - draft->before;
         moved = moved || draft->row.length() != span.last - span.first + 1;
     }
@@ -343,7 +343,7 @@ bool SmallMoves::decide(std::initializer_list<const Draft*> drafts) {
         changed.is_changed = true;
     }
     for (const Draft* draft : drafts) {
-        const Span& span = draft->span;
+        const TripSpan& span = draft->span;
         note(span.trip, span.first, moved ? trip(span.trip).row.length() - 1 : span.last);
     }
     cost_ += more;
@@ -369,13 +369,13 @@ Int SmallMoves::neighbour(Int node) const {
 }
 
 // Return the operations that begin at some stop up to `first` and end at one from `last` on.
-SmallMoves::Span SmallMoves::beyond(Int number, Int first, Int last) const {
+SmallMoves::TripSpan SmallMoves::beyond(Int number, Int first, Int last) const {
     const OperationRow& row = trip(number).row;
     return {number, row.begin_of(first - 1), row.end_behind(last)};
 }
 
 // Return the operations that change without a customer.
-SmallMoves::Span SmallMoves::around(Int node) const {
+SmallMoves::TripSpan SmallMoves::around(Int node) const {
     const Served at = served(node);
     const OperationRow& row = trip(at.trip).row;
     if (!at.flown) return beyond(at.trip, at.place, at.place);
@@ -383,7 +383,7 @@ SmallMoves::Span SmallMoves::around(Int node) const {
 }
 
 // Return some operations, and those before and behind, if any.
-SmallMoves::Span SmallMoves::widened(Span span) const {
+SmallMoves::TripSpan SmallMoves::widened(TripSpan span) const {
     const OperationRow& row = trip(span.trip).row;
     if (span.first > 0) span.first = row.begin_of(span.first - 1);
     if (span.last < row.length() - 1) span.last = row.end_behind(span.last);
@@ -391,7 +391,7 @@ SmallMoves::Span SmallMoves::widened(Span span) const {
 }
 
 // Copy operations to change them.
-SmallMoves::Draft SmallMoves::draft(Int number, Span span) const {
+SmallMoves::Draft SmallMoves::draft(Int number, TripSpan span) const {
     const Int room = data_.num_nodes + more_places;
     const View<OperationStop, 1> rows = searcher_.scratch->drafts;
     Draft draft{span, {rows.part(number * room, room), 0}, 0.0};

@@ -43,13 +43,13 @@ private:
     };
 
     // Stops of a trip, both included.
-    struct Span {
+    struct TripSpan {
         Int trip, first, last;
     };
 
     // Some operations as they might be, and what they cost as they are.
     struct Draft {
-        Span span;
+        TripSpan span;
         OperationRow row;
         double before;
     };
@@ -86,10 +86,10 @@ private:
     Served& served(Int node) const { return searcher_.scratch->served[node]; }
 
     Int neighbour(Int node) const;
-    Span beyond(Int number, Int first, Int last) const;
-    Span around(Int node) const;
-    Span widened(Span span) const;
-    Draft draft(Int number, Span span) const;
+    TripSpan beyond(Int number, Int first, Int last) const;
+    TripSpan around(Int node) const;
+    TripSpan widened(TripSpan span) const;
+    Draft draft(Int number, TripSpan span) const;
     static Int find(const OperationRow& row, Int node);
     bool remove(OperationRow& row, Int node) const;
     bool may_serve(Int number, Int node, bool flown) const;

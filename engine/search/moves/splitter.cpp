@@ -26,14 +26,14 @@ Some some(const double* row, Int place) {
 }
 
 // An operation that ends at a place, and what all up to there costs.
-struct Operation {
+struct EndedOperation {
     double cost;
     Int before;
     Int flight;
 
     // Of those that cost the same, that which begins first is taken, then that which flies least
     // far along the line.
-    bool is_better(const Operation& other) const {
+    bool is_better(const EndedOperation& other) const {
         if (cost != other.cost) return cost < other.cost;
         return before != other.before ? before < other.before : flight < other.flight;
     }
@@ -61,7 +61,7 @@ public:
     }
 
     void end_at(Int j) {
-        Operation best{infinite_cost, 0, no_flight};
+        EndedOperation best{infinite_cost, 0, no_flight};
         if (j == length_ - 1 || drives_[line_[j].node]) {
             drive_to(j, best);
             if (data_.strategy.crossings && !waits_for_drones(type_) &&
@@ -103,7 +103,7 @@ private:
     // Try all operations on which the truck drives to place `j` itself. In place.
     //
     // Those that begin nearest are tried first, which mostly rules out the others.
-    void drive_to(Int j, Operation& best) {
+    void drive_to(Int j, EndedOperation& best) {
         const TravelLegs legs = legs_of(data_.leg, type_.travel);
         for (Int i = j - 1; i >= std::max(Int{0}, j - longest_operation); --i) {
             const double before = loop(i, j, best.cost);
@@ -129,7 +129,7 @@ private:
     }
 
     // Try all operations on which the drone flies across to place `j`. In place.
-    void cross_to(Int j, Operation& best) {
+    void cross_to(Int j, EndedOperation& best) {
         // From where on all between are served by the truck, and all but one.
         Int all = j, all_but_one = j;
         for (Int i = j - 2; i >= std::max(Int{0}, j - longest_operation); --i) {
@@ -146,7 +146,7 @@ private:
 
     // Try all operations from place `first` or behind on which the drone serves place `flown`,
     // and then flies to `j`. In place.
-    void fly_over(Int flown, Int first, Int j, Operation& best) {
+    void fly_over(Int flown, Int first, Int j, EndedOperation& best) {
         const Line &spared = line_[flown], &to = line_[j];
         const Leg home = leg_to(legs_from(data_.leg, type_.home_travel, spared.node), to.node);
         const Int back = places_by_air_[spared.node].service_duration() + home.duration;
@@ -174,12 +174,12 @@ private:
     }
 
     // Take the best of operations that begin at place `first` and behind. In place.
-    void take_best(const Some& allowed, Int first, Int flown, Int j, Operation& best) const {
+    void take_best(const Some& allowed, Int first, Int flown, Int j, EndedOperation& best) const {
         std::array<double, at_once> cost;
         store(allowed, cost.data());
         while (true) {
             const auto least = std::min_element(cost.begin(), cost.end());
-            const Operation found{*least, first + (least - cost.begin()), flown};
+            const EndedOperation found{*least, first + (least - cost.begin()), flown};
             if (found.cost == infinite_cost || !found.is_better(best)) return;
             if (can_fly(found.before, flown, j)) {
                 best = found;

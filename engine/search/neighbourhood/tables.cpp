@@ -39,7 +39,7 @@ void write_legs(View<const Whole, 2> duration, View<const Whole, 2> distance,
 }
 
 // When each node opens, how long service takes, and when it closes, in ms.
-struct Times {
+struct NodeTimes {
     View<const double, 1> earliest, service, latest;
 
     double detour_behind(Int drive, Int one, Int other) const {
@@ -51,7 +51,7 @@ struct Times {
 // Write how badly neighbours `other` (row, rank) follow or precede customers: `first` and those
 // behind, `there` and `back` the drives to and from others.
 void write_misfit(View<const Int, 2> there, View<const Int, 2> back, View<const Int, 2> other,
-                  Int first, const Times& times, View<double, 2> weight) {
+                  Int first, const NodeTimes& times, View<double, 2> weight) {
     for (Int row = 0; row < other.size(); ++row) {
         const Int one = first + row;
         for (Int rank = 0; rank < other.shape(1); ++rank) {

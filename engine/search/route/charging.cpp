@@ -39,8 +39,7 @@ Charge charge_of(const VehicleType& type, const Trip& trip, const Charge& before
 // What a timed trip takes of the battery; more than that holds if it is too much.
 Int taken_on(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
              const Trip& trip) {
-    return battery_of(data.type[route.type]) -
-           follow_trip(data, route.type, stops, trip.first, trip.last, {}, true).left();
+    return battery_of(data.type[route.type]) - follow_trip(data, route, stops, trip).left();
 }
 
 // Write when vehicles of other routes than that in a slot are charged. In place: `data.plugging`.
@@ -70,9 +69,9 @@ View<const Plugging, 1> noted(const ProblemData& data) {
 }
 
 // Places to charge at a depot, beside those that other vehicles take.
-class Places {
+class FreeChargers {
 public:
-    Places(const ProblemData& data, Int depot)
+    FreeChargers(const ProblemData& data, Int depot)
         : hub_(data.hub[depot]), depot_(depot), pluggings_(noted(data)) {
         first_ = std::lower_bound(pluggings_.begin(), pluggings_.end(), Plugging{depot, none, none},
                                   comes_before);
@@ -142,7 +141,7 @@ bool charge_in_turn(const ProblemData& data, const Fleet& fleet, Int slot) {
             if (!std::exchange(others_are_noted, true)) note_pluggings(data, fleet, slot);
             const Int duration = time_to_have(type, charge.kept, wanted);
             trip.charged_from =
-                Places(data, stops[trip.first].node).soonest(charge.since, duration);
+                FreeChargers(data, stops[trip.first].node).soonest(charge.since, duration);
             trip.charged_until = trip.charged_from == far ? far : trip.charged_from + duration;
             return trip.charged_until - stops[trip.first].leave;
         };
@@ -188,7 +187,7 @@ bool has_places(const ProblemData& data, const Fleet& fleet, Int slot) {
     note_pluggings(data, fleet, slot);
     return std::all_of(made.begin(), made.end(), [&](const Trip& trip) {
         return trip.charged_until <= trip.charged_from ||
-               Places(data, stops[trip.first].node)
+               FreeChargers(data, stops[trip.first].node)
                        .soonest(trip.charged_from, trip.charged_until - trip.charged_from) ==
                    trip.charged_from;
     });

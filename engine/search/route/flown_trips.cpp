@@ -15,14 +15,20 @@ Int start_of(View<const Stop, 1> stops, const Trip& trip) { return stops[trip.fi
 // Return what a timed trip leaves of a full battery.
 Int left_behind(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                 const Trip& trip) {
-    return follow_trip(data, route.type, stops, trip.first, trip.last, {}, true).left();
+    return follow_trip(data, route, stops, trip).left();
 }
 
-}  // namespace
+// The stops from `first` to `last` whose legs are known, with some between. `waits`: by the windows
+// that are met when they are reached; else as if nobody waited.
+struct Followed {
+    View<const Stop, 1> stops;
+    Int first, last;
+    View<const Added, 1> added;
+    bool waits;
+};
 
-FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first,
-                      Int last, View<const Added, 1> added, bool waits) {
-    const VehicleType& type = data.type[k];
+FlownTrip follow(const ProblemData& data, const VehicleType& type, const Followed& followed) {
+    const auto& [stops, first, last, added, waits] = followed;
     const NodeTable places = data.place.by_air(type);
     Int weight = 0;
     for (const Added& one : added) weight += weight_brought(places[one.node]);
@@ -49,6 +55,13 @@ FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops,
     return trip;
 }
 
+}  // namespace
+
+FlownTrip follow_trip(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                      const Trip& trip) {
+    return follow(data, data.type[route.type], {stops, trip.first, trip.last, {}, true});
+}
+
 bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip,
              Int customer) {
     const VehicleType& type = data.type[k];
@@ -71,7 +84,7 @@ bool lasts_in_air(const ProblemData& data, Int k, View<const Stop, 1> stops, Int
         busy += stops[p].d + gap;
     }
     if (busy > longest_in_air(type)) return false;
-    return !is_limited(type) || follow_trip(data, k, stops, first, last, added, false).left() >= 0;
+    return !is_limited(type) || follow(data, type, {stops, first, last, added, false}).left() >= 0;
 }
 
 Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
@@ -79,8 +92,7 @@ Int excess_in_air(const ProblemData& data, const Route& route, View<const Stop, 
     const VehicleType& type = data.type[route.type];
     const Int excess = stops[trip.last].leave - start_of(stops, trip) - longest_in_air(type);
     if (!is_limited(type)) return excess;
-    return std::max(excess,
-                    follow_trip(data, route.type, stops, trip.first, trip.last, {}, true).excess());
+    return std::max(excess, follow_trip(data, route, stops, trip).excess());
 }
 
 Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
@@ -93,7 +105,7 @@ Int waits_for_calm(const ProblemData& data, const Route& route, View<const Stop,
 
 Int waits_for_charge(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
                      const Trip& trip, const Charge& before) {
-    const FlownTrip flown = follow_trip(data, route.type, stops, trip.first, trip.last, {}, true);
+    const FlownTrip flown = follow_trip(data, route, stops, trip);
     return flown.left() < 0 ? far : flown.excess_of_charge(before, start_of(stops, trip));
 }
 

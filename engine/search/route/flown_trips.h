@@ -15,11 +15,9 @@ struct Added {
     Int on;
 };
 
-// Return what is left of a trip from stop `first` to `last`, whose legs are known.
-//
-// `waits`: by the windows that are met when its stops are reached; else as if nobody waited.
-FlownTrip follow_trip(const ProblemData& data, Int k, View<const Stop, 1> stops, Int first,
-                      Int last, View<const Added, 1> added, bool waits);
+// Return what is left of a timed trip.
+FlownTrip follow_trip(const ProblemData& data, const Route& route, View<const Stop, 1> stops,
+                      const Trip& trip);
 
 // Tell whether a customer is near enough to where a trip begins and ends.
 bool reaches(const ProblemData& data, Int k, View<const Stop, 1> stops, const Trip& trip,

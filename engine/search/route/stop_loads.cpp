@@ -10,7 +10,7 @@ namespace tandem {
 namespace {
 
 // What a sortie carries, and whether its drone may.
-struct Flown {
+struct FlownCargo {
     Cargo cargo;
     bool may;
 };
@@ -43,7 +43,8 @@ void unload_shipments(const ProblemData& data, const Sortie& sortie, StopLoad& l
 // Return the cargo of a sortie that serves a customer more before its number `place`.
 //
 // And whether a drone of a row `k` may carry it. `nowhere`: nobody more.
-Flown flown(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node, Int tier) {
+FlownCargo flown(const ProblemData& data, Int k, const Sortie& sortie, Int place, Int node,
+                 Int tier) {
     const VehicleType& type = data.type[k];
     Cargo cargo = no_cargo;
     bool in_order = true;
@@ -168,15 +169,14 @@ double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left
 }
 
 double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
-                        Int out, Int on) {
+                        const Detour& detour) {
     const Int k = fleet.route[slot].type;
     const Int parcel = delivered_of(data.amount, node, 0)[0];
     const Int taken = picked_of(data.amount, node, 0)[0];
     const Int load = fleet.stop_load(slot, 0, p).aboard[0] + data.type[k].carried;
-    const Int detour = out + on - fleet.stop(slot, p).leg;
-    const double legs = static_cast<double>(load) * static_cast<double>(detour) +
-                        static_cast<double>(parcel) * static_cast<double>(out) +
-                        static_cast<double>(taken) * static_cast<double>(on);
+    const double legs = static_cast<double>(load) * static_cast<double>(detour.distance) +
+                        static_cast<double>(parcel) * static_cast<double>(detour.out.distance) +
+                        static_cast<double>(taken) * static_cast<double>(detour.on.distance);
     return load_more(data, fleet, slot, p, p + 1, node) + load_cost(data.rate[k], legs);
 }
 

@@ -1,6 +1,7 @@
 // What is aboard at the stops of a route, where that has to be looked at from stop to stop.
 #pragma once
 
+#include "rules/leg.h"
 #include "rules/load.h"
 #include "search/route/layout.h"
 #include "search/route/rarer.h"
@@ -23,9 +24,9 @@ double load_cost(const ProblemData& data, const Fleet& fleet, Int slot);
 double load_more(const ProblemData& data, const Fleet& fleet, Int slot, Int left, Int came,
                  Int node);
 
-// Return what driving loads costs more with a customer behind stop `p`, `out` and `on` away.
+// Return what driving loads costs more with a customer behind stop `p`, by such a detour.
 double load_more_behind(const ProblemData& data, const Fleet& fleet, Int slot, Int p, Int node,
-                        Int out, Int on);
+                        const Detour& detour);
 
 // Where a customer may be served on a route by a vehicle of a type.
 struct Room {

@@ -40,7 +40,7 @@ public:
     // Write when those were served who are before, on a way. In place.
     void recall(const Waited& waited) const {
         for (Int number = waited.noted; number != none;) {
-            const Noted& noted = noted_[static_cast<std::size_t>(number)];
+            const NotedStart& noted = noted_[static_cast<std::size_t>(number)];
             *noted.at = noted.time;
             number = noted.before;
         }
@@ -61,7 +61,7 @@ public:
 
 private:
     // When service began at a stop, or a drone arrived at a customer.
-    struct Noted {
+    struct NotedStart {
         Int* at;
         Int time;
         Int before;  // number of who was noted before
@@ -75,7 +75,7 @@ private:
     const Truck& truck_;
     View<Stop, 1> stops_;
     View<Sortie, 1> sorties_;
-    std::vector<Noted> noted_;  // nothing without orders
+    std::vector<NotedStart> noted_;  // nothing without orders
 };
 
 }  // namespace tandem
